@@ -1,0 +1,99 @@
+# shellcheck shell=bash disable=SC2034,SC2154
+# What neumann needs, and the functions that install it and build. Sourced by ../run and ../test, which set $root and $build.
+#
+# One line each: Debian package | what it is | a command or headers by which it is recognised where there is no apt (any of them is enough)
+
+packages_to_run='
+g++                 | a C++20 compiler                        | c++ g++ clang++
+cmake               | CMake 3.25 or later                     | cmake
+ninja-build         | Ninja                                   | ninja
+libembree-dev       | Embree 3.13 or 4                        | embree4/rtcore.h embree3/rtcore.h
+libopenimageio-dev  | OpenImageIO 2.4 or later                | OpenImageIO/imageio.h
+libglm-dev          | GLM                                     | glm/glm.hpp
+libtbb-dev          | oneTBB 2021 or later                    | tbb/parallel_for.h
+libpugixml-dev      | pugixml                                 | pugixml.hpp
+libcli11-dev        | CLI11                                   | CLI/CLI.hpp
+nlohmann-json3-dev  | JSON for Modern C++ 3.11 or later       | nlohmann/json.hpp
+libfmt-dev          | {fmt}                                   | fmt/format.h
+libboost-dev        | Boost 1.74 or later, headers only       | boost/version.hpp
+librandom123-dev    | Random123                               | Random123/philox.h
+fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
+'
+
+packages_to_test='
+libgtest-dev        | GoogleTest                              | gtest/gtest.h
+libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h
+python3             | Python 3                                | python3
+python3-numpy       | NumPy                                   |
+python3-openimageio | the Python module of OpenImageIO        |
+'
+
+say() { printf '%s\n' "$*" >&2; }
+
+# The packages of the given table that dpkg does not know as installed.
+missing_packages() {
+    local names name installed
+    names=$(sed -n 's/^\([^ |]\{1,\}\).*/\1/p' <<<"$1")
+    # shellcheck disable=SC2086
+    installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $names 2>/dev/null || true)
+    for name in $names; do
+        grep -qxF "installed $name" <<<"$installed" || printf '%s ' "$name"
+    done
+}
+
+# Where there is no apt: the descriptions of what neither the PATH nor the compiler's include path has.
+missing_by_name() {
+    local description probes probe found
+    grep '|' <<<"$1" | while IFS='|' read -r _ description probes; do
+        found=
+        for probe in $probes; do
+            case $probe in
+            *.h | *.hpp) "${CXX:-c++}" -E -x c++ -include "$probe" /dev/null >/dev/null 2>&1 && found=1 ;;
+            *) command -v "$probe" >/dev/null && found=1 ;;
+            esac
+        done
+        [[ -n $found || -z ${probes// /} ]] || sed 's/^ */    /; s/ *$//' <<<"$description"
+    done
+}
+
+# install_missing TABLE LOG: afterwards the packages are there, or it has been said which are not. Never fails: CMake has the last word.
+install_missing() {
+    local missing as_root=() log=$2
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        # Asked only before the first build: it takes a second.
+        [[ -e $build/build.ninja ]] && return 0
+        missing=$(missing_by_name "$1")
+        [[ -z $missing ]] || say "This system has no apt, and these were not found:" "$(printf '\n%s' "$missing")"
+        return 0
+    fi
+    missing=$(missing_packages "$1")
+    [[ -n $missing ]] || return 0
+    say "Missing packages: $missing"
+    if ((EUID != 0)); then
+        if ! command -v sudo >/dev/null; then
+            say "Not root, and no sudo: an administrator has to install them. Going on with what is there."
+            return 0
+        fi
+        as_root=(sudo)
+    fi
+    say "Installing them; this takes a minute or two. Details: $log"
+    mkdir -p "$(dirname "$log")"
+    as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
+    # shellcheck disable=SC2024
+    "${as_root[@]}" update >"$log" 2>&1 || say "apt-get update failed; going on with the lists of before."
+    # shellcheck disable=SC2024,SC2086
+    if ! "${as_root[@]}" install -y --no-install-recommends $missing >>"$log" 2>&1; then
+        tail -n 5 "$log" >&2
+        say "Not everything could be installed. Going on with what is there."
+    fi
+}
+
+# build_in PRESET TARGET [CMake option...]: configures where needed and builds. What is up to date is not mentioned.
+build_in() {
+    local preset=$1 target=$2
+    shift 2
+    if [[ $# -gt 0 || ! -e $build/build.ninja ]]; then
+        (cd "$root" && cmake --preset "$preset" "$@" >/dev/null) || return 1  # errors and warnings stay, on stderr
+    fi
+    cmake --build "$build" --target "$target" | sed -u '/no work to do/d; /Re-checking globbed/d' >&2
+}

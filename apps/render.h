@@ -1,0 +1,36 @@
+// `neumann render`: a scene in, its bounce pictures out.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/walk/walk.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+struct RenderRequest {
+    std::string scene;
+    std::map<std::string, std::string> definitions;  // -D name=value
+    std::string output;
+    std::optional<int> bounces;
+    std::optional<double> tail;
+    std::optional<std::uint64_t> samples;
+    std::optional<double> seconds;
+    std::optional<double> relative_error;
+    std::string method = "walk";
+    DirectLight direct = DirectLight::mis;
+    std::string reference;  // a folder of an earlier render, or empty
+    std::uint64_t seed = 0;
+    int threads = 0;  // 0: all
+    bool quiet = false;
+    bool json = false;
+    std::string command_line;  // as typed, for run.json
+};
+
+// Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
+int render_command(const RenderRequest& request);
+
+}  // namespace neumann

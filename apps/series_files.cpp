@@ -1,0 +1,88 @@
+#include "apps/series_files.h"
+
+#include "apps/contact_sheet.h"
+#include "apps/flip_book.h"
+#include "core/image/image_io.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace neumann {
+
+std::string bounce_file(std::size_t i) { return fmt::format("bounce_{:03}.exr", i); }
+std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
+
+std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, const SeriesReport& report) {
+    const auto result = series.moments.result();
+    const std::size_t N = report.bounces.size() - 1;
+    const auto attributes = [&](const char* quantity, std::size_t bounce, bool infinite_variance) {
+        return Attributes{{"neumann:quantity", std::string(quantity)},
+                          {"neumann:bounce", static_cast<std::int64_t>(bounce)},
+                          {"neumann:samples", static_cast<std::int64_t>(series.samples)},
+                          {"neumann:degrees_of_freedom", result.degrees_of_freedom()},
+                          {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
+    };
+    std::vector<Image> terms, sums;
+    bool any_infinite = false;
+    for (std::size_t i = 0; i <= N; ++i) {
+        Estimate term = result.term(i), sum = result.sum(i);
+        any_infinite = any_infinite || report.bounces[i].infinite_variance;
+        folder.write(bounce_file(i), encode_exr(term, attributes("K^i Le", i, report.bounces[i].infinite_variance)));
+        folder.write(sum_file(i), encode_exr(sum, attributes("sum of K^k Le for k <= i", i, any_infinite)));
+        terms.push_back(std::move(term.mean));
+        sums.push_back(std::move(sum.mean));
+    }
+    if (report.rest_verdict == RestVerdict::measured) {
+        Estimate rest = result.term(N + 1);
+        folder.write("rest.exr", encode_exr(rest, attributes("sum of K^k Le for k > i", N, report.rest_infinite_variance)));
+        terms.push_back(std::move(rest.mean));
+    }
+
+    std::vector<LabelledPicture> term_pictures, sum_pictures;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+        term_pictures.push_back({i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N), &terms[i]});
+    for (std::size_t i = 0; i < sums.size(); ++i) sum_pictures.push_back({i == 0 ? "sum 0" : fmt::format("sum 0..{}", i), &sums[i]});
+    const double exposure = exposure_for(sums.back(), terms.front());
+    const auto font = find_label_font();
+    folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
+    folder.write("bounces.gif", flip_book(term_pictures, sum_pictures, exposure, font));
+    return font ? "" : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png and bounces.gif are unlabelled";
+}
+
+std::string series_table(const SeriesReport& report) {
+    std::string csv = "bounce,mean,mean_stderr,ratio,bound,rays,seconds,interval95\n";
+    for (std::size_t i = 0; i < report.bounces.size(); ++i) {
+        const BounceReport& b = report.bounces[i];
+        const double infinity = std::numeric_limits<double>::infinity();
+        csv += fmt::format("{},{:.9g},{:.4g},{},{:.9g},{},{:.4g},{:.4g}\n", i, b.mean.mean,
+                           b.infinite_variance ? infinity : b.mean.standard_error, b.ratio ? fmt::format("{:.6g}", *b.ratio) : "", b.bound,
+                           b.rays, b.seconds, b.infinite_variance ? infinity : b.mean.interval());
+    }
+    return csv;
+}
+
+std::string convergence_table(const std::vector<Checkpoint>& convergence) {
+    const std::size_t terms = convergence.front().term_error.size();
+    const bool judged = convergence.front().true_sum_error.has_value();
+    std::string csv = "samples,seconds,rays";
+    for (std::size_t i = 0; i < terms; ++i) csv += fmt::format(",relative_stderr_{:03}", i);
+    csv += ",relative_stderr_sum";
+    if (judged) {
+        for (std::size_t i = 0; i < terms; ++i) csv += fmt::format(",relative_error_{:03}", i);
+        csv += ",relative_error_sum";
+    }
+    csv += "\n";
+    for (const Checkpoint& c : convergence) {
+        csv += fmt::format("{},{:.4f},{}", c.samples, c.seconds, c.rays);
+        for (const double e : c.term_error) csv += fmt::format(",{:.5g}", e);
+        csv += fmt::format(",{:.5g}", c.sum_error);
+        if (judged) {
+            for (const double e : c.true_term_error) csv += fmt::format(",{:.5g}", e);
+            csv += fmt::format(",{:.5g}", *c.true_sum_error);
+        }
+        csv += "\n";
+    }
+    return csv;
+}
+
+}  // namespace neumann

@@ -1,0 +1,23 @@
+// A rendered series as the files that a user finds in the output folder.
+#pragma once
+
+#include "apps/output_folder.h"
+#include "operators/pictures/series_report.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace neumann {
+
+// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif. Returns a warning where labels were left out, or nothing.
+std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, const SeriesReport& report);
+
+// series.csv, and convergence.csv.
+std::string series_table(const SeriesReport& report);
+std::string convergence_table(const std::vector<Checkpoint>& convergence);
+
+// "bounce_003.exr", "sum_003.exr".
+std::string bounce_file(std::size_t i);
+std::string sum_file(std::size_t i);
+
+}  // namespace neumann

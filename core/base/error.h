@@ -1,0 +1,31 @@
+// Errors that a user can act on. The program prints what() and nothing else.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace neumann {
+
+// A place in a text file; line and column count from 1, 0 means unknown.
+struct Location {
+    std::string file;
+    int line = 0;
+    int column = 0;
+};
+
+// "file:line:column", leaving out what is unknown.
+std::string to_string(const Location& place);
+
+// The command or the scene is wrong (exit code 2): "file:line:column: what is wrong, what was expected".
+class InputError : public std::runtime_error {
+public:
+    explicit InputError(const std::string& what) : std::runtime_error(what) {}
+    InputError(const Location& place, const std::string& what) : std::runtime_error(to_string(place) + ": " + what) {}
+};
+
+// Something failed while running, such as a disk that is full (exit code 1).
+class RunError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace neumann

@@ -1,0 +1,71 @@
+// The surfaces that give off light: Le(p, ω), and the choice of points on them for next-event estimation.
+#pragma once
+
+#include "core/geometry/geometry.h"
+
+#include <functional>
+
+namespace neumann {
+
+// Le of one shape: constant (Mitsuba's `area`), or any function of point and direction. Light leaves the front side only.
+struct AreaLight {
+    AreaLight(const Rgb& radiance) : largest(radiance) {}
+    // `largest`: at least the function's largest value in each channel; it enters the bounds and the choice of lights.
+    AreaLight(std::function<Rgb(const SurfacePoint&, const Vec3& w)> f, const Rgb& largest_value)
+        : largest(largest_value), function(std::move(f)) {}
+
+    Rgb largest;
+    std::function<Rgb(const SurfacePoint&, const Vec3& w)> function;
+};
+
+struct LightSample {
+    SurfacePoint point;
+    double pdf_area = 0.0;  // per area; 0: there is no light
+};
+
+class Emitters {
+public:
+    static constexpr int none = -1;
+
+    // `light_of_shape`: for each shape an index into `lights`, or `none`. Points are chosen with a density proportional to the
+    // largest radiance (averaged over the channels) of the light they lie on.
+    Emitters(const Geometry& geometry, std::vector<AreaLight> lights, std::vector<int> light_of_shape);
+
+    // Le(p, ω), leaving p along ω (world space).
+    Rgb emitted(const SurfacePoint& p, const Vec3& w) const {
+        const int index = light_of_shape_[p.shape];
+        if (index == none || glm::dot(p.normal, w) <= 0.0) return Rgb(0.0);
+        const AreaLight& light = lights_[static_cast<std::size_t>(index)];
+        return light.function ? light.function(p, w) : light.largest;
+    }
+    bool is_emitter(const SurfacePoint& p) const { return light_of_shape_[p.shape] != none; }
+
+    // No emitter has a positive area and radiance.
+    bool empty() const { return cumulative_.empty(); }
+    // Whether choice among emitting primitives is needed at all.
+    std::size_t primitive_count() const { return cumulative_.size(); }
+
+    // A point on an emitter: `choice` picks the primitive, (u, v) the point on it. The same density as pdf_area tells.
+    LightSample sample(const Geometry& geometry, double choice, const Vec2& uv) const;
+    // Density per area with which sample() finds p.
+    double pdf_area(const SurfacePoint& p) const { return density_of_shape_[p.shape]; }
+
+    // ‖Le‖∞ for each channel.
+    const Rgb& largest_radiance() const { return largest_radiance_; }
+    // Shapes that are meant to emit and have no area.
+    std::size_t without_area() const { return without_area_; }
+
+private:
+    struct Primitive {
+        std::uint32_t shape, primitive;
+    };
+    std::vector<AreaLight> lights_;
+    std::vector<int> light_of_shape_;
+    std::vector<Primitive> primitives_;
+    std::vector<double> cumulative_;        // of the probabilities of primitives_
+    std::vector<double> density_of_shape_;  // per area
+    Rgb largest_radiance_{0.0};
+    std::size_t without_area_ = 0;
+};
+
+}  // namespace neumann

@@ -1,0 +1,228 @@
+#include "core/geometry/geometry.h"
+
+#include "core/base/error.h"
+#include "core/geometry/ray_caster.h"
+#include "core/sampling/warp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace neumann {
+
+namespace {
+
+// Half the spacing of floats at 1: what rounding a coordinate of unit size to float can move it by.
+constexpr double float_epsilon = 0x1p-24;
+
+// The distance that clears rounding: of the origin (a few roundings of a coordinate), and of Embree's distance along the normal of a
+// triangle, which is computed from its vertices relative to the origin.
+double hit_error(double largest_coordinate, double size) { return float_epsilon * (4.0 * largest_coordinate + 8.0 * size); }
+
+double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+// A triangle with what a hit on it needs, scene units.
+struct TriangleRecord {
+    Vec3 vertex, edge1, edge2, normal;
+    double error;
+    double margin;  // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
+                    // meets the triangle there
+};
+
+struct Bounds {
+    Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    void add(const Vec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+};
+
+double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::length(glm::cross(b - a, c - a)); }
+
+void validate(const TriangleMesh& mesh) {
+    for (const Vec3& v : mesh.vertices)
+        if (!is_finite(v)) throw InputError("mesh vertex is not finite");
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t index : t)
+            if (index >= mesh.vertices.size())
+                throw InputError("mesh vertex index " + std::to_string(index) + " is out of range, the mesh has " +
+                                 std::to_string(mesh.vertices.size()) + " vertices");
+}
+
+}  // namespace
+
+struct Geometry::Embree {
+    std::unique_ptr<RayCaster> caster;
+    std::vector<std::vector<TriangleRecord>> triangles;  // by shape; empty where the shape is no mesh
+    std::vector<double> error;                           // by shape: spheres and discs
+};
+
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry::~Geometry() = default;
+
+Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)), embree_(std::make_unique<Embree>()) {
+    Bounds bounds;
+    for (Shape& shape : shapes_) {
+        if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+            validate(*mesh);
+            degenerate_count_ += std::erase_if(mesh->triangles, [&](const auto& t) {
+                return !(twice_area(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]) > 0.0);
+            });
+            for (const auto& t : mesh->triangles)
+                for (const std::uint32_t index : t) bounds.add(mesh->vertices[index]);
+        } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+            if (!is_finite(sphere->center) || !std::isfinite(sphere->radius)) throw InputError("sphere is not finite");
+            if (!(sphere->radius > 0.0)) {
+                ++degenerate_count_;
+                continue;
+            }
+            bounds.add(sphere->center - sphere->radius);
+            bounds.add(sphere->center + sphere->radius);
+        } else if (const auto* disk = std::get_if<Disk>(&shape)) {
+            if (!is_finite(disk->center) || !is_finite(disk->u) || !is_finite(disk->v)) throw InputError("disk is not finite");
+            if (!(glm::length(glm::cross(disk->u, disk->v)) > 0.0)) {
+                ++degenerate_count_;
+                continue;
+            }
+            const Vec3 extent(std::hypot(disk->u.x, disk->v.x), std::hypot(disk->u.y, disk->v.y), std::hypot(disk->u.z, disk->v.z));
+            bounds.add(disk->center - extent);
+            bounds.add(disk->center + extent);
+        }
+    }
+    double scale = 1.0;
+    if (bounds.low.x <= bounds.high.x) {
+        center_ = 0.5 * (bounds.low + bounds.high);
+        radius_ = 0.5 * glm::length(bounds.high - bounds.low);
+        int exponent = 0;
+        std::frexp(0.5 * largest_component(bounds.high - bounds.low), &exponent);
+        scale = std::ldexp(1.0, -exponent);
+    }
+
+    embree_->caster = std::make_unique<RayCaster>(shapes_, center_, scale);
+    embree_->triangles.resize(shapes_.size());
+    embree_->error.resize(shapes_.size());
+    const auto to_embree = [&](const Vec3& p) { return embree_->caster->to_embree(p); };
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shapes_[i])) {
+            embree_->triangles[i].reserve(mesh->triangles.size());
+            for (const auto& t : mesh->triangles) {
+                const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
+                const Vec3 across = glm::cross(b - a, c - a);
+                const double twice = glm::length(across);
+                const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
+                const double largest = std::max({largest_component(to_embree(a)), largest_component(to_embree(b)), largest_component(to_embree(c))});
+                const double error = hit_error(largest, longest * scale) / scale;
+                embree_->triangles[i].push_back({a, b - a, c - a, across / twice, error, std::min(4.0 * error * longest / twice, 0.25)});
+            }
+        } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[i])) {
+            embree_->error[i] = hit_error(largest_component(to_embree(sphere->center)) + sphere->radius * scale, 0.0) / scale;
+        } else if (const auto* disk = std::get_if<Disk>(&shapes_[i])) {
+            const double size = (glm::length(disk->u) + glm::length(disk->v)) * scale;
+            embree_->error[i] = hit_error(largest_component(to_embree(disk->center)) + size, 0.0) / scale;
+        }
+    }
+}
+
+namespace {
+
+// Puts a hit back onto the double geometry.
+SurfacePoint on_triangle(const TriangleRecord& t, double u, double v) {
+    double w = 1.0 - u - v;
+    if (std::min({u, v, w}) < t.margin) {
+        u = std::max(u, t.margin);
+        v = std::max(v, t.margin);
+        w = std::max(w, t.margin);
+        const double sum = u + v + w;
+        u /= sum;
+        v /= sum;
+    }
+    return {t.vertex + t.edge1 * u + t.edge2 * v, t.normal, t.error, 0, 0};
+}
+
+SurfacePoint on_sphere(const Sphere& s, const Vec3& p, double error) {
+    const Vec3 n = glm::normalize(p - s.center);
+    return {s.center + n * s.radius, s.flip_normals ? -n : n, error, 0, 0};
+}
+
+// `distance` is Embree's float answer; the exact root beside it is found again in double.
+SurfacePoint hit_sphere(const Sphere& s, const Vec3& origin, const Vec3& direction, double distance, double error) {
+    const Vec3 f = origin - s.center;
+    const double middle = -glm::dot(f, direction);
+    const Vec3 nearest = f + direction * middle;
+    const double half = std::sqrt(std::max(s.radius * s.radius - glm::dot(nearest, nearest), 0.0));
+    return on_sphere(s, origin + direction * (distance < middle ? middle - half : middle + half), error);
+}
+
+SurfacePoint hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double error) {
+    const double t = glm::dot(d.normal, d.center - origin) / glm::dot(d.normal, direction);
+    return {origin + direction * t, d.normal, error, 0, 0};
+}
+
+Vec3 leave(const SurfacePoint& p, double side) { return p.position + p.normal * std::copysign(p.error, side); }
+
+}  // namespace
+
+std::optional<SurfacePoint> Geometry::first_hit(const Vec3& origin, const Vec3& direction, double distance) const {
+    const auto hit = embree_->caster->intersect(origin, direction, distance);
+    if (!hit) return std::nullopt;
+    SurfacePoint p;
+    const Shape& shape = shapes_[hit->shape];
+    if (std::holds_alternative<TriangleMesh>(shape))
+        p = on_triangle(embree_->triangles[hit->shape][hit->primitive], hit->u, hit->v);
+    else if (const auto* sphere = std::get_if<Sphere>(&shape))
+        p = hit_sphere(*sphere, origin, direction, hit->distance, embree_->error[hit->shape]);
+    else
+        p = hit_disk(std::get<Disk>(shape), origin, direction, embree_->error[hit->shape]);
+    p.shape = hit->shape;
+    p.primitive = hit->primitive;
+    return p;
+}
+
+std::optional<SurfacePoint> Geometry::first_hit(const SurfacePoint& from, const Vec3& direction) const {
+    return first_hit(leave(from, glm::dot(from.normal, direction)), direction);
+}
+
+bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
+    const Vec3 d = y.position - x.position;
+    return !embree_->caster->occluded(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
+}
+
+std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
+    const auto* mesh = std::get_if<TriangleMesh>(&shapes_[shape]);
+    return mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
+}
+
+double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
+    if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
+        const TriangleRecord& t = embree_->triangles[shape][primitive];
+        return 0.5 * glm::length(glm::cross(t.edge1, t.edge2));
+    }
+    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
+    const Disk& disk = std::get<Disk>(shapes_[shape]);
+    return pi * glm::length(glm::cross(disk.u, disk.v));
+}
+
+double Geometry::area(std::uint32_t shape) const {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < primitive_count(shape); ++i) sum += area(shape, i);
+    return sum;
+}
+
+SurfacePoint Geometry::point(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
+    SurfacePoint p;
+    if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
+        const Vec2 weights = uniform_triangle(uv);
+        p = on_triangle(embree_->triangles[shape][primitive], weights.x, weights.y);
+    } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
+        p = on_sphere(*sphere, sphere->center + uniform_sphere(uv), embree_->error[shape]);
+    } else {
+        const Disk& disk = std::get<Disk>(shapes_[shape]);
+        const Vec2 d = concentric_disk(uv);
+        p = {disk.center + disk.u * d.x + disk.v * d.y, disk.normal, embree_->error[shape], 0, 0};
+    }
+    p.shape = shape;
+    p.primitive = primitive;
+    return p;
+}
+
+}  // namespace neumann

@@ -1,0 +1,235 @@
+#include "core/geometry/ray_caster.h"
+
+#include "core/base/error.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <cmath>
+#include <limits>
+
+namespace neumann {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+Vec3 origin(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
+Vec3 direction(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
+
+struct SphereData {
+    Vec3 center;
+    double radius;
+    RTCBounds bounds;
+
+    // Smallest root in (tnear, tfar), or NaN. The half chord comes from the distance of the centre to the line, which keeps its digits
+    // for rays that start on the sphere.
+    double intersect(const RTCRay& ray) const {
+        const Vec3 d = direction(ray), f = origin(ray) - center;
+        const double a = glm::dot(d, d), middle = -glm::dot(f, d) / a;
+        const Vec3 nearest = f + d * middle;
+        const double discriminant = radius * radius - glm::dot(nearest, nearest);
+        if (!(discriminant >= 0.0)) return std::nan("");
+        const double half = std::sqrt(discriminant / a);
+        for (const double t : {middle - half, middle + half})
+            if (t > ray.tnear && t < ray.tfar) return t;
+        return std::nan("");
+    }
+};
+
+struct DiskData {
+    Vec3 center, normal, dual_u, dual_v;
+    RTCBounds bounds;
+
+    double intersect(const RTCRay& ray) const {
+        const Vec3 d = direction(ray), f = center - origin(ray);
+        const double t = glm::dot(normal, f) / glm::dot(normal, d);
+        if (!(t > ray.tnear && t < ray.tfar)) return std::nan("");
+        const Vec3 p = d * t - f;
+        const double a = glm::dot(p, dual_u), b = glm::dot(p, dual_v);
+        return a * a + b * b <= 1.0 ? t : std::nan("");
+    }
+};
+
+// The float box around center ± extent, rounded outwards.
+RTCBounds outward_bounds(const Vec3& center, const Vec3& extent) {
+    const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -infinity); };
+    const auto up = [](double x) { return std::nextafter(static_cast<float>(x), infinity); };
+    const Vec3 low = center - extent, high = center + extent;
+    return {down(low.x), down(low.y), down(low.z), 0.0f, up(high.x), up(high.y), up(high.z), 0.0f};
+}
+
+template <class Data>
+void bounds_callback(const RTCBoundsFunctionArguments* args) {
+    *args->bounds_o = static_cast<const Data*>(args->geometryUserPtr)->bounds;
+}
+
+// Embree calls these with packets of one ray, because only single rays are traced here.
+template <class Data>
+void intersect_callback(const RTCIntersectFunctionNArguments* args) {
+    if (!args->valid[0]) return;
+    auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+    const double t = static_cast<const Data*>(args->geometryUserPtr)->intersect(query.ray);
+    if (std::isnan(t)) return;
+    query.ray.tfar = static_cast<float>(t);
+    query.hit.geomID = args->geomID;
+    query.hit.primID = args->primID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+template <class Data>
+void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+    if (!args->valid[0]) return;
+    auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+    if (!std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(ray))) ray.tfar = -infinity;
+}
+
+void intersect1(RTCScene scene, RTCRayHit& query) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &query, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+#endif
+}
+
+void occluded1(RTCScene scene, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded1(scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+#endif
+}
+
+void set_ray(RTCRay& ray, const Vec3& org, const Vec3& dir, float tfar) {
+    ray.org_x = static_cast<float>(org.x);
+    ray.org_y = static_cast<float>(org.y);
+    ray.org_z = static_cast<float>(org.z);
+    ray.dir_x = static_cast<float>(dir.x);
+    ray.dir_y = static_cast<float>(dir.y);
+    ray.dir_z = static_cast<float>(dir.z);
+    ray.tnear = 0.0f;
+    ray.tfar = tfar;
+    ray.time = 0.0f;
+    ray.mask = ~0u;
+    ray.flags = 0;
+}
+
+}  // namespace
+
+struct RayCaster::Impl {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::vector<std::unique_ptr<SphereData>> spheres;
+    std::vector<std::unique_ptr<DiskData>> disks;
+
+    ~Impl() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+
+    void check(const char* what) const {
+        const RTCError code = rtcGetDeviceError(device);
+        if (code == RTC_ERROR_OUT_OF_MEMORY) throw RunError(std::string("not enough memory while ") + what);
+        if (code != RTC_ERROR_NONE) throw RunError("Embree error " + std::to_string(code) + " while " + what);
+    }
+
+    template <class Data>
+    void attach_user(Data* data, std::uint32_t id) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserData(geometry, data);
+        rtcSetGeometryBoundsFunction(geometry, bounds_callback<Data>, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, intersect_callback<Data>);
+        rtcSetGeometryOccludedFunction(geometry, occluded_callback<Data>);
+        attach(geometry, id);
+    }
+
+    void attach(RTCGeometry geometry, std::uint32_t id) {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, id);
+        rtcReleaseGeometry(geometry);
+    }
+
+    void attach_mesh(const TriangleMesh& mesh, std::uint32_t id, const RayCaster& caster) {
+        if (mesh.triangles.empty()) return;
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                     3 * sizeof(float), mesh.vertices.size()));
+        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
+        check("building the scene");
+        for (const Vec3& world : mesh.vertices) {
+            const Vec3 p = caster.to_embree(world);
+            for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(p[axis]);
+        }
+        for (const auto& triangle : mesh.triangles)
+            for (const std::uint32_t index : triangle) *indices++ = index;
+        attach(geometry, id);
+    }
+
+    void attach_sphere(const Sphere& sphere, std::uint32_t id, const RayCaster& caster) {
+        const Vec3 center = caster.to_embree(sphere.center);
+        const double radius = sphere.radius * caster.scale_;
+        spheres.push_back(std::make_unique<SphereData>(SphereData{center, radius, outward_bounds(center, Vec3(radius))}));
+        attach_user(spheres.back().get(), id);
+    }
+
+    void attach_disk(const Disk& disk, std::uint32_t id, const RayCaster& caster) {
+        const Vec3 center = caster.to_embree(disk.center), u = disk.u * caster.scale_, v = disk.v * caster.scale_;
+        const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), gram = uu * vv - uv * uv;
+        const Vec3 extent(std::hypot(u.x, v.x), std::hypot(u.y, v.y), std::hypot(u.z, v.z));
+        disks.push_back(std::make_unique<DiskData>(DiskData{center, disk.normal, (u * vv - v * uv) / gram, (v * uu - u * uv) / gram,
+                                                            outward_bounds(center, extent)}));
+        attach_user(disks.back().get(), id);
+    }
+};
+
+RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, double scale)
+    : center_(center), scale_(scale), impl_(std::make_unique<Impl>()) {
+    impl_->device = rtcNewDevice(nullptr);
+    if (!impl_->device) throw RunError("Embree could not be started");
+    impl_->scene = rtcNewScene(impl_->device);
+    // Robust: no ray slips through the edge that two triangles share.
+    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    for (std::uint32_t id = 0; id < shapes.size(); ++id) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[id])) impl_->attach_mesh(*mesh, id, *this);
+        if (const auto* sphere = std::get_if<Sphere>(&shapes[id]); sphere && sphere->radius > 0.0) impl_->attach_sphere(*sphere, id, *this);
+        if (const auto* disk = std::get_if<Disk>(&shapes[id]); disk && glm::length(glm::cross(disk->u, disk->v)) > 0.0)
+            impl_->attach_disk(*disk, id, *this);
+    }
+    rtcCommitScene(impl_->scene);
+    impl_->check("building the scene");
+}
+
+RayCaster::~RayCaster() = default;
+
+std::optional<RayCaster::Hit> RayCaster::intersect(const Vec3& origin, const Vec3& direction, double distance) const {
+    RTCRayHit query;
+    set_ray(query.ray, to_embree(origin), direction, static_cast<float>(distance * scale_));
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    intersect1(impl_->scene, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / scale_};
+}
+
+bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
+    const Vec3 org = to_embree(from);
+    RTCRay ray;
+    set_ray(ray, org, to_embree(to) - org, 1.0f);
+    occluded1(impl_->scene, ray);
+    return ray.tfar < 0.0f;
+}
+
+RTCSceneTy* RayCaster::embree_scene() const { return impl_->scene; }
+
+const char* embree_version() { return "Embree " RTC_VERSION_STRING; }
+
+}  // namespace neumann

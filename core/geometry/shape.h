@@ -1,0 +1,40 @@
+// The shapes: triangle meshes, and spheres and discs that are exact rather than tessellated. Scene units, double.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace neumann {
+
+// Front side: vertices counter-clockwise.
+struct TriangleMesh {
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// Front side: outside, or inside when flipped.
+struct Sphere {
+    Vec3 center{0.0};
+    double radius = 1.0;
+    bool flip_normals = false;
+};
+
+// The ellipse center + a·u + b·v, a² + b² ≤ 1, with u ⟂ v not required; `normal` has unit length and is perpendicular to both.
+struct Disk {
+    Vec3 center{0.0}, u{1.0, 0.0, 0.0}, v{0.0, 1.0, 0.0};
+    Vec3 normal{0.0, 0.0, 1.0};
+};
+
+using Shape = std::variant<TriangleMesh, Sphere, Disk>;
+
+// Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed.
+TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals = false);
+TriangleMesh make_cube(const Mat4& to_world, bool flip_normals = false);
+// Mitsuba's unit disk facing +z, transformed.
+Disk make_disk(const Mat4& to_world, bool flip_normals = false);
+
+}  // namespace neumann

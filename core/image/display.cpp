@@ -1,0 +1,59 @@
+#include "core/image/display.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace neumann {
+namespace {
+
+// IEC 61966-2-1.
+std::uint8_t srgb_byte(double linear) {
+    const double v = std::clamp(linear, 0.0, 1.0);
+    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
+
+}  // namespace
+
+void DisplayImage::paste(const DisplayImage& picture, int x, int y) {
+    if (x < 0 || y < 0 || x + picture.width > width || y + picture.height > height) {
+        throw std::out_of_range("DisplayImage::paste: the picture does not fit");
+    }
+    const auto row = 3 * static_cast<std::ptrdiff_t>(picture.width);
+    for (int j = 0; j < picture.height; ++j) {
+        const auto to = 3 * (static_cast<std::ptrdiff_t>(y + j) * width + x);
+        std::copy_n(picture.bytes.begin() + j * row, row, bytes.begin() + to);
+    }
+}
+
+double luminance(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+
+double exposure_for(const Image& sum, const Image& emission) {
+    if (sum.width != emission.width || sum.height != emission.height) {
+        throw std::invalid_argument("exposure_for: the pictures differ in size");
+    }
+    std::vector<double> lit, emitting;
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+        const double value = luminance(sum.pixels[i]);
+        if (!(value > 0.0) || !std::isfinite(value)) continue;
+        (is_black(emission.pixels[i]) ? lit : emitting).push_back(value);
+    }
+    std::vector<double>& voters = lit.empty() ? emitting : lit;
+    if (voters.empty()) return 1.0;
+    const auto rank = voters.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(voters.size() - 1));
+    std::nth_element(voters.begin(), rank, voters.end());
+    return 1.0 / *rank;
+}
+
+DisplayImage to_display(const Image& picture, double exposure) {
+    DisplayImage out(picture.width, picture.height, 0);
+    auto byte = out.bytes.begin();
+    for (const Rgb& pixel : picture.pixels) {
+        const Rgb shown = is_finite(pixel) ? pixel * exposure : Rgb(1.0, 0.0, 1.0);
+        for (int c = 0; c < 3; ++c) *byte++ = srgb_byte(shown[c]);
+    }
+    return out;
+}
+
+}  // namespace neumann

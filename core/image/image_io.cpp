@@ -1,0 +1,206 @@
+#include "core/image/image_io.h"
+
+#include "core/base/error.h"
+#include "core/image/gif_frames.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+
+namespace neumann {
+namespace {
+
+constexpr std::array<const char*, 3> mean_channels = {"R", "G", "B"};
+constexpr std::array<const char*, 3> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
+
+std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(format);
+    if (!output || output->supports("ioproxy") == 0)
+        throw RunError(fmt::format("this OpenImageIO cannot write {} to memory", format));
+    const std::string name = std::string("memory.") + format;
+    if (!output->set_ioproxy(&memory) || !output->open(name, spec) || !output->write_image(type, pixels) || !output->close()) {
+        throw RunError(fmt::format("OpenImageIO cannot write {}: {}", format, output->geterror()));
+    }
+    return {bytes.begin(), bytes.end()};
+}
+
+OIIO::ImageSpec display_spec(const DisplayImage& picture) { return {picture.width, picture.height, 3, OIIO::TypeDesc::UINT8}; }
+
+void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Attribute& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        spec.attribute(name, *text);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        spec.attribute(name, OIIO::TypeDesc::DOUBLE, real);
+    } else {
+        const std::int64_t whole = std::get<std::int64_t>(value);
+        constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
+        if (whole >= std::numeric_limits<int>::min() && whole <= std::numeric_limits<int>::max()) {
+            spec.attribute(name, static_cast<int>(whole));
+        } else if (std::abs(whole) <= exact_in_double) {
+            const auto rounded = static_cast<double>(whole);
+            spec.attribute(name, OIIO::TypeDesc::DOUBLE, &rounded);
+        } else {
+            spec.attribute(name, std::to_string(whole));
+        }
+    }
+}
+
+void get_attributes(const OIIO::ImageSpec& spec, Attributes& attributes) {
+    for (const auto& entry : spec.extra_attribs) {
+        const std::string name = entry.name().string();
+        const OIIO::TypeDesc type = entry.type();
+        if (type == OIIO::TypeDesc::STRING) {
+            attributes[name] = entry.get_string();
+        } else if (type == OIIO::TypeDesc::DOUBLE) {
+            attributes[name] = *static_cast<const double*>(entry.data());
+        } else if (type == OIIO::TypeDesc::FLOAT) {
+            attributes[name] = static_cast<double>(entry.get_float());
+        } else if (type == OIIO::TypeDesc::INT) {
+            attributes[name] = static_cast<std::int64_t>(entry.get_int());
+        }
+    }
+}
+
+// Where the three channels stand in the file, or nothing unless all are there.
+std::optional<std::array<std::size_t, 3>> find_channels(const OIIO::ImageSpec& spec, const std::array<const char*, 3>& names) {
+    std::array<std::size_t, 3> places{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const int place = spec.channelindex(names[c]);
+        if (place < 0) return std::nullopt;
+        places[c] = static_cast<std::size_t>(place);
+    }
+    return places;
+}
+
+Image pick_channels(const OIIO::ImageSpec& spec, const std::vector<float>& values, const std::array<std::size_t, 3>& places) {
+    Image picture(spec.width, spec.height);
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const float* pixel = &values[i * channels];
+        picture.pixels[i] = Rgb(pixel[places[0]], pixel[places[1]], pixel[places[2]]);
+    }
+    return picture;
+}
+
+// The system's word on a file that cannot be read; OpenImageIO's differs by version and format.
+void expect_readable(const std::string& path) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (file) file.peek();
+    if (file.bad() || !file.is_open()) {
+        throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno != 0 ? errno : EIO)));
+    }
+}
+
+}  // namespace
+
+std::string encode_exr(const Estimate& picture, const Attributes& attributes) {
+    const Image& mean = picture.mean;
+    const Image& error = picture.standard_error;
+    const bool has_error = !error.pixels.empty();
+    if (mean.pixels.empty() || (has_error && (error.width != mean.width || error.height != mean.height))) {
+        throw std::invalid_argument("encode_exr: an empty picture, or a standard error of another size");
+    }
+    OIIO::ImageSpec spec(mean.width, mean.height, has_error ? 6 : 3, OIIO::TypeDesc::FLOAT);
+    spec.channelnames.assign(mean_channels.begin(), mean_channels.end());
+    if (has_error) spec.channelnames.insert(spec.channelnames.end(), error_channels.begin(), error_channels.end());
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // not the present time: the same pictures are the same bytes
+    for (const auto& [name, value] : attributes) set_attribute(spec, name, value);
+
+    std::vector<float> values;
+    values.reserve(mean.pixels.size() * static_cast<std::size_t>(spec.nchannels));
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(mean.pixels[i][c]));
+        for (int c = 0; has_error && c < 3; ++c) values.push_back(static_cast<float>(error.pixels[i][c]));
+    }
+    return encode("exr", spec, OIIO::TypeDesc::FLOAT, values.data());
+}
+
+std::string encode_png(const DisplayImage& picture) {
+    OIIO::ImageSpec spec = display_spec(picture);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    return encode("png", spec, OIIO::TypeDesc::UINT8, picture.bytes.data());
+}
+
+std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_second) {
+    for (const DisplayImage& frame : frames) {
+        if (frame.width != frames[0].width || frame.height != frames[0].height) {
+            throw std::invalid_argument("encode_gif: frames of several sizes");
+        }
+    }
+    std::vector<std::string> gifs(frames.size());
+    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+        gifs[i] = encode("gif", display_spec(frames[i]), OIIO::TypeDesc::UINT8, frames[i].bytes.data());
+    });
+    return join_gif_frames(gifs, static_cast<int>(std::lround(100.0 / frames_per_second)));
+}
+
+Estimate read_exr(const std::string& path, Attributes* attributes) {
+    expect_readable(path);
+    const auto input = OIIO::ImageInput::open(path);
+    if (!input) {
+        OIIO::geterror();
+        throw InputError(path + ": not a picture that can be read");
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    const auto mean_places = find_channels(spec, mean_channels);
+    if (!mean_places) {
+        throw InputError(fmt::format("{}: no channels R, G, B; it has {}", path, fmt::join(spec.channelnames, ", ")));
+    }
+    std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
+        throw InputError(fmt::format("{}: the picture is damaged: {}", path, input->geterror()));
+    }
+    if (attributes != nullptr) get_attributes(spec, *attributes);
+    Estimate picture{pick_channels(spec, values, *mean_places), {}};
+    if (const auto places = find_channels(spec, error_channels)) picture.standard_error = pick_channels(spec, values, *places);
+    return picture;
+}
+
+std::optional<std::string> find_label_font() {
+    // Debian and Ubuntu, Fedora, Arch, and wherever OpenImageIO looks.
+    const std::array<std::string, 4> fonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                              "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                              "/usr/share/fonts/TTF/DejaVuSans.ttf", "DejaVuSans"};
+    const auto found =
+        std::find_if(fonts.begin(), fonts.end(), [](const std::string& font) { return text_width("0", 16, font) > 0; });
+    OIIO::geterror();  // of the fonts that are not there; it would be printed at exit
+    return found != fonts.end() ? std::optional(*found) : std::nullopt;
+}
+
+int text_width(const std::string& text, int font_size, const std::string& font) {
+    const OIIO::ROI size = OIIO::ImageBufAlgo::text_size(text, font_size, font);
+    return size.defined() ? size.width() : 0;
+}
+
+void draw_text(DisplayImage& picture, int x, int y, const std::string& text, int font_size, const std::string& font,
+               std::uint8_t grey) {
+    if (text.empty()) return;
+    OIIO::ImageBuf buffer(display_spec(picture));
+    buffer.set_pixels(OIIO::ROI(), OIIO::TypeDesc::UINT8, picture.bytes.data());
+    const float level = static_cast<float>(grey) / 255.0F;
+    const std::array<float, 3> colour = {level, level, level};
+    if (!OIIO::ImageBufAlgo::render_text(buffer, x, y, text, font_size, font, colour) ||
+        !buffer.get_pixels(OIIO::ROI(), OIIO::TypeDesc::UINT8, picture.bytes.data())) {
+        throw RunError(fmt::format("OpenImageIO cannot draw text with {}: {}", font, buffer.geterror()));
+    }
+}
+
+}  // namespace neumann

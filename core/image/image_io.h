@@ -1,0 +1,47 @@
+// Pictures as files, and text on pictures: all that OpenImageIO does for the program. Files are made in memory, so that whoever
+// writes them sees every failure of the disk.
+#pragma once
+
+#include "core/image/display.h"
+#include "core/image/image.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace neumann {
+
+// What an EXR header says beside the picture: "neumann:bounce" and the like. Whole numbers beyond 32 bits, which OpenEXR does not
+// have, are written as double where that is exact and as text otherwise.
+using Attribute = std::variant<std::int64_t, double, std::string>;
+using Attributes = std::map<std::string, Attribute>;
+
+// An OpenEXR file: float32 channels R, G, B (`mean`) and stderr.R, stderr.G, stderr.B (`standard_error`; left out where that
+// picture is empty). Both pictures have one size, at least 1×1; otherwise throws std::invalid_argument.
+std::string encode_exr(const Estimate& picture, const Attributes& attributes = {});
+
+// A PNG file with 8 bits a channel.
+std::string encode_png(const DisplayImage& picture);
+
+// An endless animated GIF of frames of one size (at least one frame), each of 256 colours of its own, dithered.
+std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_second);
+
+// Any picture that OpenImageIO reads, values as they are in the file (8-bit ones scaled to 0..1, not linearised; NaN and infinity
+// kept), and `attributes`, if asked for, with the numbers and texts of its header. Without stderr channels `standard_error` is
+// empty (0×0). Throws InputError, beginning with the path: no such file, not a picture, damaged, no channels R, G, B.
+Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
+
+// The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
+std::optional<std::string> find_label_font();
+
+// How wide a text is, in pixels.
+int text_width(const std::string& text, int font_size, const std::string& font);
+
+// Draws ASCII text (OpenImageIO 2.4 draws no other) in a grey level, its baseline beginning at (x, y).
+void draw_text(DisplayImage& picture, int x, int y, const std::string& text, int font_size, const std::string& font,
+               std::uint8_t grey = 255);
+
+}  // namespace neumann

@@ -1,0 +1,28 @@
+// What a surface does with the light that arrives: fs(p, ωi → ωo), in 1/sr. Directions are in the local frame, unit length and
+// pointing away from the surface; pdfs are per solid angle.
+#pragma once
+
+#include "core/material/diffuse.h"
+
+#include <variant>
+
+namespace neumann {
+
+// A closed set: adding a material is a file beside diffuse.h and a name here.
+using Bsdf = std::variant<Diffuse>;
+
+inline Rgb eval(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
+    return std::visit([&](const auto& b) { return b.eval(p, wo, wi); }, bsdf);
+}
+inline double pdf(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
+    return std::visit([&](const auto& b) { return b.pdf(p, wo, wi); }, bsdf);
+}
+inline BsdfSample sample(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec2& u) {
+    return std::visit([&](const auto& b) { return b.sample(p, wo, u); }, bsdf);
+}
+// An upper bound on ∫ fs |cosθ| dω over all points and directions, for each channel.
+inline Rgb largest_albedo(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);
+}
+
+}  // namespace neumann

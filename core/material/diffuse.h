@@ -1,0 +1,37 @@
+// Lambert's ideal diffuse reflection: fs = ρ/π on the front side, nothing on the back (Mitsuba's `diffuse`).
+#pragma once
+
+#include "core/material/surface_function.h"
+#include "core/sampling/warp.h"
+
+namespace neumann {
+
+struct BsdfSample {
+    Vec3 wi{0.0};
+    Rgb weight{0.0};   // fs |cosθi| / pdf; black when nothing is reflected
+    double pdf = 0.0;  // per solid angle
+};
+
+class Diffuse {
+public:
+    explicit Diffuse(SurfaceFunction reflectance) : reflectance_(std::move(reflectance)) {}
+
+    Rgb eval(const SurfacePoint& p, const Vec3& wo, const Vec3& wi) const {
+        return wo.z > 0.0 && wi.z > 0.0 ? reflectance_(p) * inv_pi : Rgb(0.0);
+    }
+    double pdf(const SurfacePoint&, const Vec3& wo, const Vec3& wi) const {
+        return wo.z > 0.0 && wi.z > 0.0 ? wi.z * inv_pi : 0.0;
+    }
+    // The weight is ρ itself and not a quotient: in the white furnace every path then carries ρ^i exactly.
+    BsdfSample sample(const SurfacePoint& p, const Vec3& wo, const Vec2& u) const {
+        if (wo.z <= 0.0) return {};
+        const Vec3 wi = cosine_hemisphere(u);
+        return {wi, reflectance_(p), wi.z * inv_pi};
+    }
+    Rgb largest_albedo() const { return reflectance_.upper_bound(); }
+
+private:
+    SurfaceFunction reflectance_;
+};
+
+}  // namespace neumann

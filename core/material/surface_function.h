@@ -1,0 +1,26 @@
+// A quantity that is constant on a surface or varies from point to point: reflectance, and later textures.
+#pragma once
+
+#include "core/geometry/surface_point.h"
+
+#include <functional>
+#include <utility>
+
+namespace neumann {
+
+class SurfaceFunction {
+public:
+    SurfaceFunction(const Rgb& constant) : constant_(constant) {}
+    // `upper_bound`: at least the function's largest value in each channel; it enters the bounds on the series.
+    SurfaceFunction(std::function<Rgb(const SurfacePoint&)> f, const Rgb& upper_bound)
+        : constant_(upper_bound), function_(std::move(f)) {}
+
+    Rgb operator()(const SurfacePoint& p) const { return function_ ? function_(p) : constant_; }
+    const Rgb& upper_bound() const { return constant_; }
+
+private:
+    Rgb constant_;
+    std::function<Rgb(const SurfacePoint&)> function_;
+};
+
+}  // namespace neumann

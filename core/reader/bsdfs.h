@@ -1,0 +1,31 @@
+// <bsdf>: `diffuse`, and `twosided` around one or two of them.
+#pragma once
+
+#include "core/material/materials.h"
+#include "core/reader/context.h"
+
+namespace neumann::reader {
+
+class Bsdfs {
+public:
+    explicit Bsdfs(const Context& context) : context_(context) {}
+
+    // Each element is stored once, however many shapes it stands on.
+    Materials::Sides sides(const Element& e);
+    // What stands on a shape that names no material: Mitsuba's diffuse of reflectance 0.5, or nothing where it emits.
+    Materials::Sides default_sides(bool emits);
+
+    bool has(const Element& e) const { return sides_.count(&e) > 0; }
+    std::vector<Bsdf> take() { return std::move(bsdfs_); }
+
+private:
+    int store(Bsdf bsdf);
+    Materials::Sides read(const Element& e);
+
+    const Context& context_;
+    std::vector<Bsdf> bsdfs_;
+    std::map<const Element*, Materials::Sides> sides_;
+    int default_ = Materials::absorbing;
+};
+
+}  // namespace neumann::reader

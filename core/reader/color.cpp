@@ -1,0 +1,83 @@
+#include "core/reader/color.h"
+
+#include "core/reader/numbers.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace neumann::reader {
+
+namespace {
+
+Rgb parse_hex(const Attribute& a) {
+    double c[3] = {};
+    bool good = a.value.size() == 7;
+    for (std::size_t i = 0; good && i < 3; ++i) {
+        int byte = 0;
+        const char* at = a.value.data() + 1 + 2 * i;
+        const auto [end, error] = std::from_chars(at, at + 2, byte, 16);
+        good = error == std::errc() && end == at + 2 && *at != '-';
+        c[i] = srgb_decode(byte / 255.0);
+    }
+    if (!good) throw InputError(a.place, fmt::format("'{}' is not a colour, expected #rrggbb", a.value));
+    return {c[0], c[1], c[2]};
+}
+
+Rgb parse_rgb(const Attribute& a) {
+    if (a.value.starts_with('#')) return parse_hex(a);
+    const std::vector<double> v = parse_numbers(a);
+    if (v.size() == 1) return Rgb(v[0]);
+    if (v.size() == 3) return {v[0], v[1], v[2]};
+    throw InputError(a.place, fmt::format("'{}' has {} numbers, expected 1 or 3", a.value, v.size()));
+}
+
+SpectrumTable parse_table(const Attribute& a) {
+    SpectrumTable s;
+    for (const std::string& pair : split(a.value)) {
+        const std::size_t colon = pair.find(':');
+        if (colon == std::string::npos) throw InputError(a.place, fmt::format("'{}' is not a pair wavelength:value", pair));
+        s.wavelengths.push_back(parse_number({a.name, pair.substr(0, colon), a.place}));
+        s.values.push_back(parse_number({a.name, pair.substr(colon + 1), a.place}));
+        const std::size_t n = s.wavelengths.size();
+        if (n > 1 && s.wavelengths[n - 1] <= s.wavelengths[n - 2])
+            throw InputError(a.place, fmt::format("the wavelength {} follows {}, expected increasing ones", s.wavelengths[n - 1],
+                                                  s.wavelengths[n - 2]));
+    }
+    if (s.wavelengths.size() < 2)
+        throw InputError(a.place,
+                         fmt::format("the spectrum has {} pairs wavelength:value, expected at least 2", s.wavelengths.size()));
+    return s;
+}
+
+// A neutral spectrum comes out as 1 ± 1e-4 in each channel, by the rounding of the matrix; that is not worth a warning.
+constexpr double slack = 1e-3;
+
+Rgb table_to_rgb(const SpectrumTable& s, Illuminant illuminant, Warnings& warnings) {
+    const Rgb c = spectrum_to_rgb(s, illuminant);
+    const Rgb upper(illuminant == Illuminant::d65 ? 1.0 : INFINITY);
+    const Rgb inside = glm::clamp(c, Rgb(0.0), upper);
+    if (max_component(glm::abs(c - inside)) > slack * std::max(1.0, max_component(c)))
+        warnings.add("spectrum outside the colours of sRGB, cut to them");
+    return inside;
+}
+
+}  // namespace
+
+Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings) {
+    const Attribute& value = e.attribute("value");
+    const auto check = [&](double least) {
+        if (least < 0.0) p.fail(name, fmt::format("{} is negative: '{}'", name, value.value));
+    };
+    if (e.tag == "spectrum" && value.value.find(':') != std::string::npos) {
+        const SpectrumTable s = parse_table(value);
+        for (const double v : s.values) check(v);
+        return table_to_rgb(s, illuminant, warnings);
+    }
+    const Rgb c = e.tag == "rgb" ? parse_rgb(value) : Rgb(parse_number(value));
+    check(std::min({c.r, c.g, c.b}));
+    return c;
+}
+
+}  // namespace neumann::reader

@@ -1,0 +1,16 @@
+// What the readers of the single plugins share.
+#pragma once
+
+#include "core/base/warnings.h"
+#include "core/reader/document.h"
+#include "core/reader/objects.h"
+
+namespace neumann::reader {
+
+struct Context {
+    const Document& document;
+    const Objects& objects;
+    Warnings& warnings;
+};
+
+}  // namespace neumann::reader

@@ -1,0 +1,31 @@
+// What an XML file says, with its places, after includes and parameters are resolved.
+#pragma once
+
+#include "core/base/error.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace neumann::reader {
+
+struct Attribute {
+    std::string name, value;
+    Location place;
+};
+
+struct Element {
+    std::string tag;
+    std::vector<Attribute> attributes;
+    std::vector<Element> children;
+    Location place;
+
+    const Attribute* find(std::string_view name) const;
+    // Attributes that grammar.h requires are there in every element of a document.
+    const Attribute& attribute(std::string_view name) const;
+};
+
+// "a, b, c".
+std::string join(const std::vector<std::string>& names);
+
+}  // namespace neumann::reader

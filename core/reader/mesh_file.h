@@ -1,0 +1,29 @@
+// OBJ and PLY files as triangle meshes. Written by hand because vertices are needed in double precision and errors need
+// file:line:column; the libraries at hand (tinyobjloader as packaged, assimp) read floats and give no place.
+#pragma once
+
+#include "core/geometry/shape.h"
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct MeshFile {
+    TriangleMesh mesh;
+    // One per vertex, or empty; file space, as long as the file gives them.
+    std::vector<Vec3> normals;
+};
+
+// Both read polygons as fans around their first vertex, which is right for convex polygons, and refuse files without faces. Errors
+// are InputError "file:line:column: …"; where a binary body has no lines, "file: face 12: …", counted from 1.
+
+// Texture coordinates, groups, materials, lines and points are ignored, free-form geometry is refused. With normals, a vertex is
+// repeated for each of its normals and left out if no face uses it; a triangle without normals among others with normals gets its
+// geometric normal, of length 1, or 0 if it has no area.
+MeshFile read_obj(const std::string& path);
+
+// ASCII and binary of both byte orders. Elements and properties beyond positions, normals and vertex indices are skipped.
+MeshFile read_ply(const std::string& path);
+
+}  // namespace neumann

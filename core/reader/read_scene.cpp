@@ -1,0 +1,9 @@
+#include "core/reader/read_scene.h"
+
+namespace neumann {
+
+Scene read_scene(const std::string& path, const std::map<std::string, std::string>& definitions) {
+    return make_scene(read_scene_parts(path, definitions));
+}
+
+}  // namespace neumann

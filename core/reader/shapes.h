@@ -1,0 +1,17 @@
+// <shape>: obj, ply, rectangle, cube, disk, sphere.
+#pragma once
+
+#include "core/geometry/shape.h"
+#include "core/reader/context.h"
+
+namespace neumann::reader {
+
+struct ReadShape {
+    Shape shape;
+    const Element* bsdf = nullptr;     // null: not named
+    const Element* emitter = nullptr;  // null: it does not emit
+};
+
+ReadShape read_shape(const Element& e, const Context& context);
+
+}  // namespace neumann::reader

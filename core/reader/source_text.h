@@ -1,0 +1,27 @@
+// The text of an XML file, in which places are found again.
+#pragma once
+
+#include "core/base/error.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace neumann::reader {
+
+class SourceText {
+public:
+    // Throws InputError where the file cannot be read.
+    explicit SourceText(const std::string& path);
+
+    const std::string& text() const { return text_; }
+    Location place(std::size_t offset) const;
+    // The place of the index-th attribute of the element whose name begins at `offset`.
+    Location attribute_place(std::size_t offset, int index) const;
+
+private:
+    std::string path_, text_;
+    std::vector<std::size_t> line_starts_;
+};
+
+}  // namespace neumann::reader

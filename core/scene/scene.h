@@ -1,0 +1,51 @@
+// A scene: where things are, what they are made of, what shines, and who looks.
+#pragma once
+
+#include "core/base/warnings.h"
+#include "core/emitter/emitters.h"
+#include "core/geometry/geometry.h"
+#include "core/material/materials.h"
+#include "core/sensor/perspective.h"
+
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+enum class SamplerKind { independent, sobol };
+
+struct Scene {
+    Geometry geometry;
+    Materials materials;
+    Emitters emitters;
+    Perspective camera;
+    Film film;
+
+    // What the scene file asks for, if it does; the command line overrides it.
+    std::optional<int> bounces;
+    std::optional<SamplerKind> sampler;
+
+    std::string hash;  // of all files the scene was read from; empty for a scene made otherwise
+    Warnings warnings;
+};
+
+// The parts of a scene one by one, as the reader and the tests put it together.
+struct SceneParts {
+    std::vector<Shape> shapes;
+    std::vector<Bsdf> bsdfs;
+    std::vector<Materials::Sides> sides_of_shape;
+    std::vector<AreaLight> lights;
+    std::vector<int> light_of_shape;  // Emitters::none where a shape does not emit
+    Perspective::Options camera;
+    Film film;
+    std::optional<int> bounces;
+    std::optional<SamplerKind> sampler;
+    std::string hash;
+    Warnings warnings;
+};
+
+// Builds the search structures, and warns of what is odd but accepted: degenerate triangles, lights without area, no surfaces, no
+// light, albedo above 1. Throws InputError as Geometry does.
+Scene make_scene(SceneParts parts);
+
+}  // namespace neumann

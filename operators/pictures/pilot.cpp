@@ -1,0 +1,94 @@
+#include "operators/pictures/pilot.h"
+
+#include "core/sampling/independent_sampler.h"
+
+#include <chrono>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t pilot_stream = 0x70696c6f74ull;  // another seed than the pictures'
+constexpr std::uint64_t batch = 64, largest_batches = 256;
+constexpr std::uint64_t enough_rays = 4'000'000;
+
+}  // namespace
+
+Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
+    constexpr std::size_t quantities = bounces + 2;
+    const WalkSettings settings{.bounces = bounces, .direct = direct, .rest_probability = 1.0, .give_up = give_up};
+    const auto start = std::chrono::steady_clock::now();
+
+    // For each walk the tails Σ_{k>i}, of which mean and variance are wanted; in batches of fixed order.
+    struct Batch {
+        double emitted = 0.0;
+        std::vector<double> tail = std::vector<double>(quantities), square = std::vector<double>(quantities);
+        std::vector<std::uint64_t> rays = std::vector<std::uint64_t>(quantities);
+        std::uint64_t given_up = 0;
+    };
+    std::vector<double> tail(quantities), square(quantities);
+    std::vector<std::uint64_t> rays(quantities);
+    std::uint64_t all_rays = 0, batches = 0;
+    constexpr std::uint64_t together = 8;
+    while (batches < largest_batches && all_rays < enough_rays) {
+        std::vector<Batch> round(together);
+        oneapi::tbb::parallel_for(std::uint64_t{0}, together, [&](std::uint64_t b) {
+            std::vector<Rgb> sampled(quantities);
+            TermSamples result{sampled, round[b].rays};
+            for (std::uint64_t i = 0; i < batch; ++i) {
+                std::fill(sampled.begin(), sampled.end(), Rgb(0.0));
+                IndependentSampler sampler(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
+                sampler.start(0);
+                const Vec2 u = sampler.next2();
+                const Film& film = scene.film;
+                const Vec2 position(film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height);
+                walk(scene, scene.geometry, settings, scene.camera.ray(position), sampler, result);
+                double sum = 0.0;
+                for (std::size_t q = quantities; q-- > 1;) {
+                    sum += mean_component(sampled[q]);
+                    round[b].tail[q - 1] += sum;
+                    round[b].square[q - 1] += sum * sum;
+                }
+                round[b].emitted += mean_component(sampled[0]);
+            }
+            round[b].given_up = result.given_up;
+        });
+        for (const Batch& b : round) {
+            emitted_ += b.emitted;
+            given_up_ += b.given_up;
+            for (std::size_t q = 0; q < quantities; ++q) {
+                tail[q] += b.tail[q];
+                square[q] += b.square[q];
+                rays[q] += b.rays[q];
+                all_rays += b.rays[q];
+            }
+        }
+        batches += together;
+    }
+    walks_ = batches * batch;
+    const auto n = static_cast<double>(walks_);
+    emitted_ /= n;
+    for (std::size_t q = 0; q < quantities; ++q) {
+        const double mean = tail[q] / n, variance = std::max(square[q] / n - mean * mean, 0.0) / (n - 1.0);
+        rest_.push_back({mean, std::sqrt(variance), n - 1.0});
+        rays_.push_back(static_cast<double>(rays[q]) / n);
+    }
+    seconds_per_walk_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / n;
+}
+
+MeanWithError Pilot::rest(int i) const { return rest_[static_cast<std::size_t>(i)]; }
+
+int Pilot::bounces_for_tail(double fraction) const {
+    for (int i = 0; i <= bounces; ++i)
+        if (rest(i).mean + 2.0 * rest(i).standard_error <= fraction * sum()) return i;
+    return -1;
+}
+
+double Pilot::rest_probability(int N) const {
+    double terms = 0.0, beyond = 0.0;
+    for (std::size_t q = 0; q < rays_.size(); ++q) (static_cast<int>(q) <= N ? terms : beyond) += rays_[q];
+    return beyond > terms ? terms / beyond : 1.0;
+}
+
+}  // namespace neumann

@@ -1,0 +1,44 @@
+// A few thousand walks before the pictures, to learn how long walks are, how fast the terms fall, and whether the series ends at all.
+// They use random numbers of their own, so that nothing chosen by looking at them is judged by them again.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/statistics/picture_statistics.h"
+#include "operators/walk/walk.h"
+
+#include <vector>
+
+namespace neumann {
+
+class Pilot {
+public:
+    // Terms looked at one by one, and bounces beyond them after which a walk is given up.
+    static constexpr int bounces = 256, give_up = 10'000;
+
+    Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed);
+
+    // Σ_{k>i} K^k Le, averaged over the picture and the channels; i ≤ bounces.
+    MeanWithError rest(int i) const;
+    // Σ_k K^k Le, likewise.
+    double sum() const { return rest_[0].mean + emitted_; }
+
+    // More than 1 in 20 walks were alive when given up: either the series does not converge, or too slowly to tell.
+    bool converges() const { return given_up_ * 20 <= walks_; }
+    std::uint64_t walks() const { return walks_; }
+    std::uint64_t given_up() const { return given_up_; }
+
+    // The smallest N ≤ bounces whose rest, with twice its standard error, is below `fraction` of the sum; −1 if there is none.
+    int bounces_for_tail(double fraction) const;
+    // The probability of going on into the rest beyond N at which the rest costs no more rays than the terms.
+    double rest_probability(int N) const;
+    double seconds_per_walk() const { return seconds_per_walk_; }
+
+private:
+    double emitted_ = 0.0;
+    std::vector<MeanWithError> rest_;
+    std::vector<double> rays_;  // for each term and the rest beyond `bounces`, a walk
+    std::uint64_t walks_ = 0, given_up_ = 0;
+    double seconds_per_walk_ = 0.0;  // all terms, on all threads
+};
+
+}  // namespace neumann

@@ -1,0 +1,114 @@
+#include "operators/pictures/render.h"
+
+#include "operators/statistics/picture_statistics.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <numeric>
+#include <thread>
+
+namespace neumann {
+
+namespace {
+
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Checkpoint make_checkpoint(const RenderedSeries& series, const RenderObserver& observer) {
+    Checkpoint checkpoint;
+    checkpoint.samples = series.samples;
+    checkpoint.seconds = series.seconds;
+    checkpoint.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
+    const auto result = series.moments.result();
+    const std::size_t terms = result.quantities() - 1;
+    for (std::size_t i = 0; i < terms; ++i) checkpoint.term_error.push_back(relative_standard_error(result.term(i)));
+    checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
+    observer.judge(result, checkpoint);
+    return checkpoint;
+}
+
+}  // namespace
+
+std::uint32_t replicate_size(std::uint64_t samples) {
+    std::uint32_t size = 8;
+    while (size > 1 && (samples % size != 0 || samples / size < 4)) size /= 2;
+    return size;
+}
+
+RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
+                             const RenderObserver& observer) {
+    const PictureSampler sampler(scene, settings);
+    const std::uint64_t size = settings.replicate_size;
+    const auto pixels = static_cast<double>(sampler.width()) * sampler.height();
+    RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
+    const Stopwatch watch;
+
+    const auto report = [&](double replicates_done) {
+        const double seconds = watch.seconds();
+        RenderProgress progress{series.samples, seconds, 0.0, std::nullopt};
+        const double samples = replicates_done * static_cast<double>(size);
+        if (goal.samples) progress.fraction = samples / static_cast<double>(*goal.samples);
+        if (goal.seconds) progress.fraction = std::max(progress.fraction, seconds / *goal.seconds);
+        if (progress.fraction > 0.0) progress.seconds_left = std::max(seconds / progress.fraction - seconds, 0.0);
+        observer.progress(progress);
+    };
+
+    for (std::uint64_t done = 0;;) {
+        // Blocks of at most a sixteenth of what is done: few nodes are kept, and little is lost when one is dropped.
+        std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
+        if (goal.samples)
+            while (block > 1 && (done + block) * size > *goal.samples) block /= 2;
+        if (goal.seconds && done > 0) {
+            const double each = watch.seconds() / static_cast<double>(done), left = *goal.seconds - watch.seconds();
+            while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
+            if (each > left && replicate_size(done * size) == size) {
+                series.outcome = Outcome::time_reached;
+                break;
+            }
+        }
+
+        Tally tally(sampler.quantities());
+        const auto work = [&] {
+            return sampler.run(done, block, tally, [&](std::uint64_t pixels_done) {
+                report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
+                return done > 0 && observer.interrupted();
+            });
+        };
+        auto node = work();
+        if (!node) {
+            series.outcome = Outcome::interrupted;
+            break;
+        }
+        series.moments.add(std::move(*node));
+        series.tally.merge(tally);
+        done += block;
+        series.samples = done * size;
+        series.seconds = watch.seconds();
+
+        const bool last = goal.samples && series.samples >= *goal.samples;
+        const bool stop = observer.interrupted();
+        if (std::has_single_bit(series.samples) && !last) {
+            series.convergence.push_back(make_checkpoint(series, observer));
+            const auto& errors = series.convergence.back().term_error;
+            if (goal.relative_error && done >= 4 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error) {
+                series.outcome = Outcome::error_reached;
+                break;
+            }
+        }
+        if (last || stop) {
+            series.outcome = last ? Outcome::samples_reached : Outcome::interrupted;
+            break;
+        }
+    }
+    if (series.convergence.empty() || series.convergence.back().samples != series.samples)
+        series.convergence.push_back(make_checkpoint(series, observer));
+    return series;
+}
+
+}  // namespace neumann

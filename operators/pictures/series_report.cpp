@@ -1,0 +1,48 @@
+#include "operators/pictures/series_report.h"
+
+#include "operators/series/tail_bound.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace neumann {
+
+bool SeriesReport::infinite_variance() const {
+    return std::any_of(bounces.begin(), bounces.end(), [](const BounceReport& b) { return b.infinite_variance; });
+}
+
+double SeriesReport::tail_fraction() const {
+    const double tail = rest.mean + rest.interval();
+    return tail == 0.0 ? 0.0 : tail / sum.mean;
+}
+
+SeriesReport report_series(const Scene& scene, const RenderedSeries& series, RestVerdict rest_verdict) {
+    SeriesReport report;
+    report.rest_verdict = rest_verdict;
+    const auto result = series.moments.result();
+    const std::size_t N = result.quantities() - 2;
+    const auto all_rays = static_cast<double>(std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0}));
+    const auto is_infinite = [&](std::size_t q) {
+        const auto tail = tail_index(series.tally.largest[q]);
+        return tail && tail->variance_is_infinite();
+    };
+    for (std::size_t i = 0; i <= N; ++i) {
+        BounceReport bounce;
+        bounce.mean = picture_mean(result.term(i));
+        if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
+        bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
+        bounce.tail = tail_index(series.tally.largest[i]);
+        bounce.infinite_variance = is_infinite(i);
+        bounce.rays = series.tally.rays[i];
+        bounce.seconds = all_rays > 0.0 ? series.seconds * static_cast<double>(bounce.rays) / all_rays : 0.0;
+        report.bounces.push_back(bounce);
+    }
+    report.sum = picture_mean(result.sum(N));
+    if (rest_verdict == RestVerdict::measured) {
+        report.rest = picture_mean(result.term(N + 1));
+        report.rest_infinite_variance = is_infinite(N + 1);
+    }
+    return report;
+}
+
+}  // namespace neumann

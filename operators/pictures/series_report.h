@@ -1,0 +1,42 @@
+// What a rendered series says of itself: each bounce in figures, and what is left out.
+#pragma once
+
+#include "operators/pictures/render.h"
+#include "operators/statistics/picture_statistics.h"
+
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+struct BounceReport {
+    MeanWithError mean;               // radiance of K^i Le, over pixels and channels
+    std::optional<double> ratio;      // to the mean of the bounce before: an estimate, not a bound; none after a bounce that is zero
+    double bound;                     // a priori, of ‖Σ_{k>i} K^k Le‖∞; infinite: there is none
+    bool infinite_variance = false;   // then `mean` has no interval
+    std::optional<TailIndex> tail;
+    std::uint64_t rays = 0;
+    double seconds = 0.0;             // of the sampling, shared out by rays
+};
+
+enum class RestVerdict {
+    measured,        // Σ_{k>N} K^k Le is estimated
+    not_converging,  // walks did not end: it was given up
+    not_sampled,     // the method has no rest
+};
+
+struct SeriesReport {
+    std::vector<BounceReport> bounces;
+    MeanWithError sum;  // of Σ_{k≤N}
+    RestVerdict rest_verdict = RestVerdict::measured;
+    MeanWithError rest;
+    bool rest_infinite_variance = false;
+
+    bool infinite_variance() const;  // of any bounce
+    // The rest, with its interval, is below this part of the sum.
+    double tail_fraction() const;
+};
+
+SeriesReport report_series(const Scene& scene, const RenderedSeries& series, RestVerdict rest_verdict);
+
+}  // namespace neumann

@@ -1,0 +1,34 @@
+// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. Materials only: no ray is
+// traced here. The integral is estimated with one direction, drawn from the material's own density.
+#pragma once
+
+#include "core/base/frame.h"
+#include "core/material/materials.h"
+#include "operators/pointwise/field.h"
+
+namespace neumann {
+
+class ReflectionOperator {
+public:
+    using Domain = IncidentField;
+    using Range = ExitantField;
+
+    explicit ReflectionOperator(const Materials& materials) : materials_(&materials) {}
+
+    ExitantField operator()(IncidentField g) const {
+        return ExitantField([materials = materials_, g = std::move(g)](const SurfacePoint& p, const Vec3& wo, Random& random) {
+            const bool front = glm::dot(p.normal, wo) > 0.0;
+            const Bsdf* bsdf = materials->at(p, front);
+            if (!bsdf) return Rgb(0.0);
+            const Frame frame(front ? p.normal : -p.normal);
+            const BsdfSample sampled = sample(*bsdf, p, frame.to_local(wo), random.next2());
+            if (sampled.pdf == 0.0) return Rgb(0.0);
+            return sampled.weight * g(p, frame.to_world(sampled.wi), random);
+        });
+    }
+
+private:
+    const Materials* materials_;
+};
+
+}  // namespace neumann

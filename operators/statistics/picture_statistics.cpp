@@ -1,0 +1,77 @@
+#include "operators/statistics/picture_statistics.h"
+
+#include "core/base/error.h"
+#include "operators/statistics/student_t.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace neumann {
+
+namespace {
+
+// √(a / b), and 0/0 = 0. The sums are of numbers that were divided by the largest one, so that squares neither overflow nor vanish.
+double root_of_ratio(double a, double b) { return a == 0.0 ? 0.0 : std::sqrt(a / b); }
+
+double largest(const Image& image) {
+    double value = 0.0;
+    for (const Rgb& p : image.pixels) value = std::max({value, std::abs(p.r), std::abs(p.g), std::abs(p.b)});
+    return value;
+}
+
+}  // namespace
+
+double MeanWithError::interval() const {
+    return standard_error == 0.0 ? 0.0 : student_t_quantile(0.95, degrees_of_freedom) * standard_error;
+}
+
+MeanWithError picture_mean(const Estimate& estimate) {
+    const std::size_t n = estimate.mean.pixels.size();
+    if (n == 0) return {};
+    double sum = 0.0, largest_error = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        sum += mean_component(estimate.mean.pixels[i]);
+        largest_error = std::max(largest_error, mean_component(estimate.standard_error.pixels[i]));
+    }
+    const double mean = sum / static_cast<double>(n), df = estimate.degrees_of_freedom;
+    if (largest_error == 0.0 || !std::isfinite(largest_error)) return {mean, largest_error, df};
+    double variance = 0.0, variance2 = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double error = mean_component(estimate.standard_error.pixels[i]) / largest_error, v = error * error;
+        variance += v;
+        variance2 += v * v;
+    }
+    return {mean, largest_error * std::sqrt(variance) / static_cast<double>(n), df * variance * variance / variance2};
+}
+
+double relative_standard_error(const Estimate& estimate) {
+    const double scale = largest(estimate.mean);
+    if (scale == 0.0) return 0.0;
+    double errors = 0.0, means = 0.0;
+    for (std::size_t i = 0; i < estimate.mean.pixels.size(); ++i) {
+        const Rgb mean = estimate.mean.pixels[i] / scale, error = estimate.standard_error.pixels[i] / scale;
+        errors += glm::dot(error, error);
+        means += glm::dot(mean, mean);
+    }
+    return root_of_ratio(errors, means);
+}
+
+double relative_error(const Image& test, const Image& reference) {
+    if (test.width != reference.width || test.height != reference.height)
+        throw InputError(fmt::format("the pictures differ in size: {}×{} and {}×{}", test.width, test.height, reference.width,
+                                     reference.height));
+    const double scale = std::max(largest(test), largest(reference));
+    if (scale == 0.0) return 0.0;
+    double errors = 0.0, references = 0.0;
+    for (std::size_t i = 0; i < test.pixels.size(); ++i) {
+        const Rgb error = (test.pixels[i] - reference.pixels[i]) / scale, r = reference.pixels[i] / scale;
+        errors += glm::dot(error, error);
+        references += glm::dot(r, r);
+    }
+    return root_of_ratio(errors, references);
+}
+
+bool is_zero(const Image& image) { return std::all_of(image.pixels.begin(), image.pixels.end(), [](const Rgb& p) { return is_black(p); }); }
+
+}  // namespace neumann

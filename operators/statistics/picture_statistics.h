@@ -1,0 +1,26 @@
+// Figures for whole pictures.
+#pragma once
+
+#include "core/image/image.h"
+
+namespace neumann {
+
+struct MeanWithError {
+    double mean = 0.0, standard_error = 0.0, degrees_of_freedom = 0.0;
+    // Half of the width of the 95% interval, by Student's t.
+    double interval() const;
+};
+
+// Mean over pixels and channels. Pixels are independent; a pixel's channels are not, and are taken as fully correlated, which can only
+// make the error larger. Degrees of freedom by Welch and Satterthwaite.
+MeanWithError picture_mean(const Estimate& estimate);
+
+// √(Σ SE² / Σ mean²) over pixels and channels; 0 for a picture that is zero everywhere.
+double relative_standard_error(const Estimate& estimate);
+
+// √(Σ (x − r)² / Σ r²) over pixels and channels; 0 where both are zero everywhere. Throws InputError where the sizes differ.
+double relative_error(const Image& test, const Image& reference);
+
+bool is_zero(const Image& image);
+
+}  // namespace neumann

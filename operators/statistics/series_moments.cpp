@@ -1,0 +1,111 @@
+#include "operators/statistics/series_moments.h"
+
+#include <cmath>
+#include <limits>
+#include <oneapi/tbb/parallel_for.h>
+#include <stdexcept>
+
+namespace neumann {
+
+namespace {
+
+// Where a quantity's numbers lie within its nine doubles.
+constexpr std::size_t mean_at = 0, term_m2_at = 3, sum_m2_at = 6, stride = PixelMoments::doubles_per_quantity;
+
+void merge_pictures(std::vector<double>& a, double na, const std::vector<double>& b, double nb, std::size_t doubles_per_pixel) {
+    const std::size_t pixels = a.size() / doubles_per_pixel;
+    oneapi::tbb::parallel_for(std::size_t{0}, pixels, [&](std::size_t pixel) {
+        const std::size_t at = pixel * doubles_per_pixel;
+        PixelMoments::merge({a.data() + at, doubles_per_pixel}, na, {b.data() + at, doubles_per_pixel}, nb);
+    });
+}
+
+}  // namespace
+
+void PixelMoments::set(std::span<double> node, std::span<const Rgb> means) {
+    for (std::size_t q = 0; q < means.size(); ++q)
+        for (int c = 0; c < 3; ++c) {
+            const std::size_t at = q * stride + static_cast<std::size_t>(c);
+            node[at + mean_at] = means[q][c];
+            node[at + term_m2_at] = node[at + sum_m2_at] = 0.0;
+        }
+}
+
+void PixelMoments::merge(std::span<double> a, double na, std::span<const double> b, double nb) {
+    const double share = nb / (na + nb), spread = na * share;
+    double sum_difference[3] = {0.0, 0.0, 0.0};
+    for (std::size_t q = 0; q < a.size(); q += stride)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t at = q + c;
+            const double difference = b[at + mean_at] - a[at + mean_at];
+            sum_difference[c] += difference;
+            a[at + mean_at] += difference * share;
+            a[at + term_m2_at] += b[at + term_m2_at] + difference * difference * spread;
+            a[at + sum_m2_at] += b[at + sum_m2_at] + sum_difference[c] * sum_difference[c] * spread;
+        }
+}
+
+std::uint64_t SeriesMoments::replicates() const {
+    std::uint64_t count = 0;
+    for (const MomentsNode& node : nodes_) count += node.count;
+    return count;
+}
+
+void SeriesMoments::add(MomentsNode node) {
+    if (!nodes_.empty() && node.first != nodes_.back().first + nodes_.back().count)
+        throw std::logic_error("SeriesMoments: replicates are not consecutive");
+    nodes_.push_back(std::move(node));
+    while (nodes_.size() >= 2) {
+        MomentsNode& left = nodes_[nodes_.size() - 2];
+        const MomentsNode& right = nodes_.back();
+        if (left.count != right.count || left.first % (2 * left.count) != 0) break;
+        merge_pictures(left.data, static_cast<double>(left.count), right.data, static_cast<double>(right.count), doubles_per_pixel());
+        left.count *= 2;
+        nodes_.pop_back();
+    }
+}
+
+void SeriesMoments::add(const SeriesMoments& next) {
+    for (const MomentsNode& node : next.nodes_) add(node);
+}
+
+SeriesMoments::Result SeriesMoments::result() const {
+    Result result;
+    result.width_ = width_;
+    result.height_ = height_;
+    result.quantities_ = quantities_;
+    if (nodes_.empty()) {
+        result.data_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * doubles_per_pixel(), 0.0);
+        return result;
+    }
+    // From the right, where the small nodes of a run that starts at 0 are.
+    result.data_ = nodes_.back().data;
+    result.count_ = static_cast<double>(nodes_.back().count);
+    for (std::size_t i = nodes_.size() - 1; i-- > 0;) {
+        std::vector<double> left = nodes_[i].data;
+        const double count = static_cast<double>(nodes_[i].count);
+        merge_pictures(left, count, result.data_, result.count_, doubles_per_pixel());
+        result.data_ = std::move(left);
+        result.count_ += count;
+    }
+    return result;
+}
+
+Estimate SeriesMoments::Result::estimate(std::size_t quantity, bool sum) const {
+    Estimate estimate{Image(width_, height_), Image(width_, height_), degrees_of_freedom()};
+    const std::size_t pixels = estimate.mean.pixels.size(), m2_at = sum ? sum_m2_at : term_m2_at;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        const double* data = data_.data() + pixel * quantities_ * stride;
+        for (int c = 0; c < 3; ++c) {
+            double mean = 0.0;
+            for (std::size_t q = sum ? 0 : quantity; q <= quantity; ++q) mean += data[q * stride + mean_at + static_cast<std::size_t>(c)];
+            const double m2 = data[quantity * stride + m2_at + static_cast<std::size_t>(c)];
+            estimate.mean.pixels[pixel][c] = mean;
+            estimate.standard_error.pixels[pixel][c] =
+                count_ > 1.0 ? std::sqrt(m2 / (count_ * (count_ - 1.0))) : std::numeric_limits<double>::infinity();
+        }
+    }
+    return estimate;
+}
+
+}  // namespace neumann

@@ -1,0 +1,82 @@
+// Means and variances of all pictures of a series: for every pixel the mean of each term and the second central moments of each term
+// and of each partial sum, over replicates.
+//
+// Replicates are joined as the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k). The
+// rounding therefore does not depend on how a run was cut: any ranges that cover the same replicates merge to the same bits.
+// Two sets are joined by Chan, Golub and LeVeque's formula (1983), under which equal means leave the variance exactly zero.
+#pragma once
+
+#include "core/image/image.h"
+
+#include <cstdint>
+#include <span>
+
+namespace neumann {
+
+// For one pixel: `quantities` terms (the last may be the rest), each with mean, M2 of the term, M2 of the sum up to it; RGB.
+class PixelMoments {
+public:
+    static constexpr std::size_t doubles_per_quantity = 9;
+
+    // Of one replicate: the means are given, the moments are zero.
+    static void set(std::span<double> node, std::span<const Rgb> means);
+    // a ← a ∪ b, with na and nb replicates.
+    static void merge(std::span<double> a, double na, std::span<const double> b, double nb);
+};
+
+// A node of the tree: 2^k consecutive replicates of a whole picture.
+struct MomentsNode {
+    std::uint64_t first = 0, count = 0;
+    std::vector<double> data;  // pixel by pixel
+};
+
+// Any consecutive replicates, as the fewest nodes.
+class SeriesMoments {
+public:
+    SeriesMoments(int width, int height, std::size_t quantities) : width_(width), height_(height), quantities_(quantities) {}
+
+    // `node` must start where the replicates so far end.
+    void add(MomentsNode node);
+    // `next` must start where these replicates end.
+    void add(const SeriesMoments& next);
+
+    std::uint64_t first() const { return nodes_.empty() ? 0 : nodes_.front().first; }
+    std::uint64_t replicates() const;
+    std::size_t quantities() const { return quantities_; }
+    std::size_t doubles_per_pixel() const { return quantities_ * PixelMoments::doubles_per_quantity; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    const std::vector<MomentsNode>& nodes() const { return nodes_; }
+
+    // Joins all nodes into pictures that term() and sum() can be read from.
+    class Result;
+    Result result() const;
+
+private:
+    int width_, height_;
+    std::size_t quantities_;
+    std::vector<MomentsNode> nodes_;
+};
+
+class SeriesMoments::Result {
+public:
+    // Mean over replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of the quantities 0 … i.
+    Estimate term(std::size_t i) const { return estimate(i, false); }
+    Estimate sum(std::size_t i) const { return estimate(i, true); }
+
+    double degrees_of_freedom() const { return count_ > 0.0 ? count_ - 1.0 : 0.0; }
+    std::size_t quantities() const { return quantities_; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+private:
+    friend class SeriesMoments;
+    Estimate estimate(std::size_t i, bool sum) const;
+
+    int width_ = 0, height_ = 0;
+    std::size_t quantities_ = 0;
+    double count_ = 0.0;
+    std::vector<double> data_;
+};
+
+}  // namespace neumann

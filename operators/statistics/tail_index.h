@@ -1,0 +1,43 @@
+// Is the variance finite? The largest samples tell: where P(X > x) ~ x^−α, α ≤ 2 means that it is not, and that no interval built on a
+// variance is to be trusted.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+// The largest samples seen, in any order and any number of pieces: the same samples give the same set.
+class LargestSamples {
+public:
+    static constexpr std::size_t capacity = 1000;
+
+    void add(double x) {
+        ++count_;
+        if (x > threshold_) insert(x);
+    }
+    void add_zeros(std::uint64_t n) { count_ += n; }
+    void merge(const LargestSamples& other);
+
+    std::uint64_t count() const { return count_; }
+    // Largest first.
+    std::vector<double> sorted() const;
+
+private:
+    void insert(double x);
+    std::uint64_t count_ = 0;
+    double threshold_ = 0.0;
+    std::vector<double> heap_;  // smallest on top
+};
+
+struct TailIndex {
+    double alpha;  // Hill's estimate
+    double upper;  // α is below this with about 99.9% confidence
+    bool variance_is_infinite() const { return upper < 2.0; }
+};
+
+// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200); none where k < 100 samples are left.
+std::optional<TailIndex> tail_index(const LargestSamples& samples);
+
+}  // namespace neumann

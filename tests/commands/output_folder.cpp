@@ -1,0 +1,180 @@
+// Files of a run appear whole or not at all.
+#include "apps/output_folder.h"
+
+#include "core/base/error.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace neumann {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputFolderTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+        base_ = fs::path(testing::TempDir()) / ("neumann_output_" + name);
+        fs::remove_all(base_);
+        fs::create_directories(base_);
+    }
+    void TearDown() override { fs::remove_all(base_); }
+
+    static void put(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+    static std::string text_of(const fs::path& path) {
+        std::ostringstream text;
+        text << std::ifstream(path, std::ios::binary).rdbuf();
+        return text.str();
+    }
+
+    static std::set<std::string> names_in(const fs::path& folder) {
+        std::set<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+        return names;
+    }
+
+    static std::string refusal(const fs::path& path) {
+        try {
+            OutputFolder folder(path);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+
+    fs::path base_;
+};
+
+using Names = std::set<std::string>;
+
+TEST_F(OutputFolderTest, FilesAppearTogether) {
+    const fs::path path = base_ / "a" / "b";
+    OutputFolder folder(path);
+    folder.write("run.json", "{}");
+    folder.write("bounce_000.exr", std::string(100'000, 'x'));
+    EXPECT_EQ(names_in(path), (Names{".bounce_000.exr.partial", ".run.json.partial"}));
+    folder.commit();
+    EXPECT_EQ(names_in(path), (Names{"bounce_000.exr", "run.json"}));
+    EXPECT_EQ(text_of(path / "bounce_000.exr"), std::string(100'000, 'x'));
+    EXPECT_EQ(text_of(path / "run.json"), "{}");
+}
+
+TEST_F(OutputFolderTest, WithoutCommitNothingIsLeft) {
+    {
+        OutputFolder folder(base_ / "a" / "b");
+        folder.write("sum_000.exr", "x");
+    }
+    EXPECT_EQ(names_in(base_), Names{});
+}
+
+TEST_F(OutputFolderTest, WithoutCommitAnEarlierRunStays) {
+    put(base_ / "bounce_000.exr", "old");
+    {
+        OutputFolder folder(base_);
+        folder.write("bounce_000.exr", "new");
+        EXPECT_EQ(text_of(base_ / "bounce_000.exr"), "old");
+    }
+    EXPECT_EQ(names_in(base_), Names{"bounce_000.exr"});
+    EXPECT_EQ(text_of(base_ / "bounce_000.exr"), "old");
+}
+
+TEST_F(OutputFolderTest, ACommitRemovesWhatAnEarlierRunLeftAndNothingElse) {
+    for (const char* name : {"bounce_009.exr", "sum_1000.exr", "rest.exr", "bounces.gif", "run.json", ".sum_003.exr.partial"}) {
+        put(base_ / name, "old");
+    }
+    const Names others = {"notes.txt", "bounce_1.exr", "bounce_0x1.exr", "my_bounce_001.exr", "sum_001.exr.bak", ".mine.partial"};
+    for (const std::string& name : others) put(base_ / name, "mine");
+    OutputFolder folder(base_);
+    folder.write("bounce_000.exr", "new");
+    folder.commit();
+    Names expected = others;
+    expected.insert("bounce_000.exr");
+    EXPECT_EQ(names_in(base_), expected);
+}
+
+TEST_F(OutputFolderTest, WritingTwiceKeepsTheLast) {
+    OutputFolder folder(base_);
+    folder.write("series.csv", "a longer first");
+    folder.write("series.csv", "second");
+    folder.commit();
+    EXPECT_EQ(text_of(base_ / "series.csv"), "second");
+}
+
+TEST_F(OutputFolderTest, OnlyKnownNamesAreWritten) {
+    OutputFolder folder(base_);
+    EXPECT_THROW(folder.write("../run.json", ""), std::invalid_argument);
+}
+
+TEST_F(OutputFolderTest, AFileIsNoFolder) {
+    put(base_ / "file", "mine");
+    const fs::path file = base_ / "file", below = file / "x" / "y";
+    EXPECT_EQ(refusal(file), file.string() + ": cannot be written: Not a directory");
+    EXPECT_EQ(refusal(below), below.string() + ": cannot be written: Not a directory");
+    EXPECT_EQ(text_of(file), "mine");
+}
+
+TEST_F(OutputFolderTest, WhereNothingCanBeWrittenIsRefused) {
+    // To root, /proc is a folder in which files cannot exist.
+    const std::string reason = geteuid() == 0 ? "No such file or directory" : "Permission denied";
+    for (const std::string path : {"/proc", "/proc/neumann"}) EXPECT_EQ(refusal(path), path + ": cannot be written: " + reason);
+    EXPECT_EQ(refusal(""), "the output folder has no name");
+}
+
+TEST_F(OutputFolderTest, TwoRunsDoNotShareAFolder) {
+    OutputFolder first(base_);
+    first.write("run.json", "{}");
+    EXPECT_EQ(refusal(base_), base_.string() + ": another run is writing there");
+    first.commit();
+    EXPECT_EQ(names_in(base_), Names{"run.json"});
+}
+
+TEST_F(OutputFolderTest, AFullDiskIsSaidAndLeavesTheOldSet) {
+    put(base_ / "bounce_000.exr", "old");
+    put(base_ / "run.json", "old");
+    {
+        OutputFolder folder(base_);
+        folder.write("run.json", "new");
+        fs::create_symlink("/dev/full", base_ / ".bounce_000.exr.partial");
+        try {
+            folder.write("bounce_000.exr", "new");
+            FAIL();
+        } catch (const RunError& error) {
+            EXPECT_EQ(error.what(), (base_ / "bounce_000.exr").string() + ": cannot be written: No space left on device");
+        }
+    }
+    EXPECT_EQ(names_in(base_), (Names{"bounce_000.exr", "run.json"}));
+    EXPECT_EQ(text_of(base_ / "bounce_000.exr"), "old");
+    EXPECT_EQ(text_of(base_ / "run.json"), "old");
+}
+
+TEST_F(OutputFolderTest, AFileCutOffInTheMiddleIsSaidAndRemoved) {
+    const auto old_action = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit old_limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+    const rlimit limit{1000, old_limit.rlim_max};
+    std::string message;
+    {
+        OutputFolder folder(base_ / "new");
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        try {
+            folder.write("bounce_000.exr", std::string(5000, 'x'));
+        } catch (const RunError& error) {
+            message = error.what();
+        }
+        setrlimit(RLIMIT_FSIZE, &old_limit);
+    }
+    std::signal(SIGXFSZ, old_action);
+    EXPECT_EQ(message, (base_ / "new" / "bounce_000.exr").string() + ": cannot be written: File too large");
+    EXPECT_EQ(names_in(base_), Names{});
+}
+
+}  // namespace
+}  // namespace neumann

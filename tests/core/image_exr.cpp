@@ -1,0 +1,145 @@
+// Pictures go to EXR and come back; what is not a picture is refused by name.
+#include "core/base/error.h"
+#include "core/image/image_io.h"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace neumann {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ImageExr : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+        folder_ = fs::path(testing::TempDir()) / ("neumann_image_exr_" + name);
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string put(const std::string& name, const std::string& bytes) const {
+        const fs::path path = folder_ / name;
+        std::ofstream(path, std::ios::binary) << bytes;
+        return path.string();
+    }
+
+    std::string refusal(const std::string& path) const {
+        try {
+            read_exr(path);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "read";
+    }
+
+    fs::path folder_;
+};
+
+Estimate gradient(int width, int height) {
+    Estimate e{Image(width, height), Image(width, height)};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            e.mean.at(x, y) = Rgb(x, y, 0.5 * x * y);
+            e.standard_error.at(x, y) = Rgb(0.25, 0.125 * x, 0.0625 * y);
+        }
+    }
+    return e;
+}
+
+TEST_F(ImageExr, PicturesAndTheirErrorsComeBack) {
+    const Estimate sent = gradient(7, 5);
+    const Estimate got = read_exr(put("a.exr", encode_exr(sent)));
+    ASSERT_EQ(got.mean.width, 7);
+    ASSERT_EQ(got.mean.height, 5);
+    EXPECT_EQ(got.mean.pixels, sent.mean.pixels);
+    EXPECT_EQ(got.standard_error.pixels, sent.standard_error.pixels);
+}
+
+TEST_F(ImageExr, AttributesComeBackAsWhatTheyWere) {
+    const std::int64_t beyond_int = 5'000'000'000, beyond_double = (std::int64_t{1} << 53) + 1;
+    const Attributes sent = {{"neumann:bounce", std::int64_t{3}},     {"neumann:degrees_of_freedom", 15.5},
+                             {"neumann:method", std::string("walk")}, {"neumann:negative", std::int64_t{-2}},
+                             {"neumann:paths", beyond_int},           {"neumann:seed", beyond_double}};
+    Attributes got;
+    read_exr(put("a.exr", encode_exr(gradient(2, 2), sent)), &got);
+    EXPECT_EQ(got.at("neumann:bounce"), Attribute(std::int64_t{3}));
+    EXPECT_EQ(got.at("neumann:degrees_of_freedom"), Attribute(15.5));
+    EXPECT_EQ(got.at("neumann:method"), Attribute(std::string("walk")));
+    EXPECT_EQ(got.at("neumann:negative"), Attribute(std::int64_t{-2}));
+    EXPECT_EQ(got.at("neumann:paths"), Attribute(5e9));
+    EXPECT_EQ(got.at("neumann:seed"), Attribute(std::string("9007199254740993")));
+}
+
+TEST_F(ImageExr, ValuesThatAreNotFiniteAndVerySmallOnesStay) {
+    Estimate sent{Image(3, 1), Image(3, 1)};
+    const double infinity = std::numeric_limits<double>::infinity();
+    sent.mean.at(0, 0) = Rgb(std::nan(""), infinity, -1.0);
+    sent.mean.at(1, 0) = Rgb(1e-30, 1e30, 1e-37);
+    sent.standard_error.at(2, 0) = Rgb(infinity);
+    const Estimate got = read_exr(put("a.exr", encode_exr(sent)));
+    EXPECT_TRUE(std::isnan(got.mean.at(0, 0).r));
+    EXPECT_EQ(got.mean.at(0, 0).g, infinity);
+    EXPECT_EQ(got.mean.at(0, 0).b, -1.0);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(got.mean.at(1, 0)[c], static_cast<double>(static_cast<float>(sent.mean.at(1, 0)[c])));
+    EXPECT_EQ(got.standard_error.at(2, 0).r, infinity);
+}
+
+TEST_F(ImageExr, APictureWithoutErrorsHasNone) {
+    const Estimate got = read_exr(put("a.exr", encode_exr({gradient(4, 4).mean, {}})));
+    EXPECT_EQ(got.mean.width, 4);
+    EXPECT_EQ(got.standard_error.width, 0);
+    EXPECT_TRUE(got.standard_error.pixels.empty());
+}
+
+TEST_F(ImageExr, TheSamePictureIsTheSameBytes) { EXPECT_EQ(encode_exr(gradient(9, 9)), encode_exr(gradient(9, 9))); }
+
+TEST_F(ImageExr, OtherFormatsAreRead) {
+    DisplayImage sent(3, 2, 255);
+    sent.bytes[1] = 51;
+    const Estimate got = read_exr(put("a.png", encode_png(sent)));
+    ASSERT_EQ(got.mean.width, 3);
+    EXPECT_NEAR(got.mean.at(0, 0).g, 0.2, 1e-6);
+    EXPECT_EQ(got.mean.at(2, 1), Rgb(1.0));
+}
+
+TEST_F(ImageExr, AMissingFileIsRefused) {
+    const std::string path = (folder_ / "none.exr").string();
+    EXPECT_EQ(refusal(path), path + ": cannot be read: No such file or directory");
+}
+
+TEST_F(ImageExr, AFolderIsRefused) {
+    const std::string path = folder_.string();
+    EXPECT_EQ(refusal(path), path + ": cannot be read: Is a directory");
+}
+
+TEST_F(ImageExr, WhatIsNotAPictureIsRefused) {
+    for (const std::string& path : {put("a.exr", "no picture at all"), put("b.exr", "")}) {
+        EXPECT_EQ(refusal(path), path + ": not a picture that can be read");
+    }
+}
+
+TEST_F(ImageExr, ACutFileIsRefused) {
+    std::string bytes = encode_exr(gradient(64, 64));
+    bytes.resize(bytes.size() / 2);
+    const std::string path = put("a.exr", bytes);
+    EXPECT_EQ(refusal(path).rfind(path + ": the picture is damaged: ", 0), 0U) << refusal(path);
+}
+
+TEST_F(ImageExr, APictureWithoutRgbIsRefusedWithWhatItHas) {
+    // A greyscale PGM.
+    const std::string path = put("a.pgm", "P2\n1 1\n255\n7\n");
+    EXPECT_EQ(refusal(path).rfind(path + ": no channels R, G, B; it has ", 0), 0U) << refusal(path);
+}
+
+TEST_F(ImageExr, PicturesOfDifferentSizesDoNotMakeAnEstimate) {
+    EXPECT_THROW(encode_exr({Image(2, 2), Image(2, 3)}), std::invalid_argument);
+    EXPECT_THROW(encode_exr({}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace neumann

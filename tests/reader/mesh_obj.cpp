@@ -1,0 +1,158 @@
+#include "tests/reader/mesh_test_file.h"
+
+namespace neumann {
+namespace {
+
+class MeshObj : public MeshTestFile {
+protected:
+    MeshFile obj(const std::string& content) const { return read(read_obj, content); }
+    std::string error(const std::string& content) const { return MeshTestFile::error(read_obj, content); }
+};
+
+const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+
+TEST_F(MeshObj, KeepsDoublePrecision) {
+    const auto [mesh, normals] = obj("v 0.1 -2.5e-3 +3\nv 123456789.123456789 .5 1.\nv 1E+2 -0 0\nf 1 2 3\n");
+    ASSERT_EQ(mesh.vertices.size(), 3u);
+    EXPECT_EQ(mesh.vertices[0], Vec3(0.1, -0.0025, 3.0));
+    EXPECT_EQ(mesh.vertices[1], Vec3(123456789.123456789, 0.5, 1.0));
+    EXPECT_EQ(mesh.vertices[2], Vec3(100.0, 0.0, 0.0));
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_TRUE(normals.empty());
+}
+
+TEST_F(MeshObj, ReadsFormsOfFaces) {
+    for (const std::string face : {"f 1 2 3", "f 1/1 2/2 3/3", "f 1/7/1 2/8/1 3/9/1", "f 1//1 2//1 3//1", "f -3 -2 -1",
+                                   "f -3/1/-1 2//1 -1//1", "\tf  1\t2  3  ", "f 1 2 3 # a face"}) {
+        EXPECT_EQ(obj(three + "vn 0 0 1\n" + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
+    }
+}
+
+TEST_F(MeshObj, NegativeIndicesCountFromTheFace) {
+    const auto mesh = obj(three + "f -3 -2 -1\nv 2 2 2\nf -3 -2 -1\n").mesh;
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {1, 2, 3}}));
+}
+
+TEST_F(MeshObj, FacesMayPrecedeVertices) { EXPECT_EQ(obj("f 1 2 3\n" + three).mesh.triangles, (Triangles{{0, 1, 2}})); }
+
+TEST_F(MeshObj, PolygonsAreFans) {
+    const auto mesh = obj(three + "v 2 0 0\nv 3 0 0\nf 1 2 3 4 5\n").mesh;
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+}
+
+TEST_F(MeshObj, IgnoresWhatHasNoShape) {
+    const auto mesh = obj("# exported\nmtllib a.mtl\no it\ng a b \\\n c\ns off\nusemtl red\nvt 0\nvt 0 1\nvt 0 1 0.5\n"
+                          "v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 0.5 0.5 0.5\nl 1 2\np 1\nf 1 2 3\n")
+                          .mesh;
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y}));
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+}
+
+TEST_F(MeshObj, LineEndsAndContinuations) {
+    const Triangles expected{{0, 1, 2}};
+    EXPECT_EQ(obj("v 0 0 0\r\nv 1 0 0\r\n\r\nv 0 1 0\r\nf 1 2 3\r\n").mesh.triangles, expected);
+    EXPECT_EQ(obj("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3").mesh.triangles, expected);
+    EXPECT_EQ(obj("v 0 \\\n0 0\nv 1 0\\\r\n 0\nv 0 1 0\nf 1 2 \\\n3").mesh.triangles, expected);
+    EXPECT_EQ(obj("\xEF\xBB\xBF" + three + "f 1 2 3").mesh.triangles, expected);
+    // A comment ends with its line.
+    EXPECT_EQ(obj("# C:\\models\\\n" + three + "f 1 2 3").mesh.triangles, expected);
+}
+
+TEST_F(MeshObj, SplitsVerticesByNormal) {
+    const auto [mesh, normals] = obj(three + "v 1 1 0\nvn 0 0 1\nvn 0 0 2\nf 1//1 2//1 3//1\nf 2//1 4//2 3//2\n");
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {1, 3, 4}}));
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y, Vec3(1, 1, 0), y}));
+    EXPECT_EQ(normals, (std::vector<Vec3>{z, z, z, 2.0 * z, 2.0 * z}));
+}
+
+TEST_F(MeshObj, UnusedNormalsAreLeftOut) { EXPECT_TRUE(obj(three + "vn 0 0 1\nf 1 2 3\n").normals.empty()); }
+
+TEST_F(MeshObj, FacesWithoutNormalsAmongOthersGetTheirOwn) {
+    const auto [mesh, normals] = obj(three + "v 0 0 9\nvn 1 1 1\nf 1 2 3\nf 1//1 2//1 3//1\nf 1 2 4\nf 1 1 1\n");
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}));
+    const Vec3 given(1, 1, 1), zero(0.0);
+    EXPECT_EQ(normals, (std::vector<Vec3>{z, z, z, given, given, given, -y, -y, -y, zero, zero, zero}));
+    EXPECT_EQ(mesh.vertices[8], Vec3(0, 0, 9));
+}
+
+TEST_F(MeshObj, RefusesNumbers) {
+    EXPECT_EQ(error("v 0 0 0\n  v 1 nan 0\n"), "FILE:2:7: vertex coordinate is not finite");
+    EXPECT_EQ(error("v inf 0 0\n"), "FILE:1:3: vertex coordinate is not finite");
+    EXPECT_EQ(error("vn 0 0 -inf\n"), "FILE:1:8: normal coordinate is not finite");
+    EXPECT_EQ(error("v 1 1.2x 0\n"), "FILE:1:5: expected a number, found '1.2x'");
+    EXPECT_EQ(error("v 1 +-2 0\n"), "FILE:1:5: expected a number, found '+-2'");
+    EXPECT_EQ(error("v 1 + 0\n"), "FILE:1:5: expected a number, found '+'");
+    EXPECT_EQ(error("v 1 0x10 0\n"), "FILE:1:5: expected a number, found '0x10'");
+    EXPECT_EQ(error("v 1 1,5 0\n"), "FILE:1:5: expected a number, found '1,5'");
+    EXPECT_EQ(error("v 1 1e999 0\n"), "FILE:1:5: number '1e999' is beyond the range of double precision");
+    EXPECT_EQ(error("v 1 2\n"), "FILE:1:6: expected a number, found the end of the line");
+    EXPECT_EQ(error("v 1 2 # 3\n"), "FILE:1:7: expected a number, found the end of the line");
+    EXPECT_EQ(error("v 1 2"), "FILE:1:6: expected a number, found the end of the file");
+    EXPECT_EQ(error("v 1 2 \\\n  3z\n"), "FILE:2:3: expected a number, found '3z'");
+    EXPECT_EQ(error("v 1 2 3 red\n"), "FILE:1:9: expected a number, found 'red'");
+    EXPECT_EQ(error("v 1 2 3 4 5 6 7 8\n"), "FILE:1:17: expected the end of the line, found '8'");
+    EXPECT_EQ(error("vn 1 2 3 4\n"), "FILE:1:10: expected the end of the line, found '4'");
+    EXPECT_EQ(error("vt\n"), "FILE:1:3: expected a number, found the end of the line");
+    EXPECT_EQ(error("vt 0 u\n"), "FILE:1:6: expected a number, found 'u'");
+    EXPECT_EQ(error("v 1 2 " + std::string(50, 'a')), "FILE:1:7: expected a number, found '" + std::string(40, 'a') + "...'");
+    EXPECT_EQ(error("v 1 \x01-\xFF 0\n"), "FILE:1:5: expected a number, found '?-?'");
+}
+
+TEST_F(MeshObj, RefusesIndices) {
+    EXPECT_EQ(error(three + "f 1 2 99\nv 1 1 1\n"), "FILE:4:7: vertex index 99 is out of range, the file has 4 vertices");
+    // The first of the file, not the largest.
+    EXPECT_EQ(error("f 1 4 2\nf 1 2 9\nf 1 2 5\n" + three), "FILE:1:5: vertex index 4 is out of range, the file has 3 vertices");
+    EXPECT_EQ(error("v 0 0 0\nf 1 1 2\n"), "FILE:2:7: vertex index 2 is out of range, the file has 1 vertex");
+    EXPECT_EQ(error(three + "f 1 2 -4\nv 1 1 1\n"), "FILE:4:7: vertex index -4 is out of range, the file has 3 vertices so far");
+    EXPECT_EQ(error(three + "f 0 1 2\n"), "FILE:4:3: vertex index 0, expected 1 for the first or -1 for the last");
+    EXPECT_EQ(error(three + "vn 0 0 1\nf 1//1 2//1 3//2\n"), "FILE:5:16: normal index 2 is out of range, the file has 1 normal");
+    EXPECT_EQ(error(three + "vn 0 0 1\nf 1/5/-2 2//1 3//1\n"),
+              "FILE:5:7: normal index -2 is out of range, the file has 1 normal so far");
+    EXPECT_EQ(error(three + "f 1//0 2//1 3//1\n"), "FILE:4:6: normal index 0, expected 1 for the first or -1 for the last");
+    EXPECT_EQ(error(three + "f 1 2 4294967297\n"), "FILE:4:7: vertex index 4294967297 is out of range, the file has 3 vertices");
+    EXPECT_EQ(error(three + "f 1 2 -9223372036854775808\n"),
+              "FILE:4:7: vertex index -9223372036854775808 is out of range, the file has 3 vertices so far");
+    EXPECT_EQ(error(three + "vn 0 0 1\nf 1//4294967296 2//1 3//1\n"),
+              "FILE:5:17: expected a normal at all vertices of a face or at none");
+}
+
+TEST_F(MeshObj, RefusesFaces) {
+    EXPECT_EQ(error(three + "f 1 \\\n 2\n"), "FILE:4:1: a face needs at least 3 vertices, found 2");
+    EXPECT_EQ(error(three + "f\n"), "FILE:4:1: a face needs at least 3 vertices, found 0");
+    for (const std::string corner : {"2/", "2//", "2/1/", "/1", "2x", "2/1/1/1", "2/a", "1.5", "9223372036854775808"}) {
+        EXPECT_EQ(error(three + "vn 0 0 1\nf 1 " + corner + " 3\n"),
+                  "FILE:5:5: expected a vertex as v, v/vt, v//vn or v/vt/vn, found '" + corner + "'");
+    }
+    EXPECT_EQ(error(three + "vn 0 0 1\nf 1//1 2 3//1\n"), "FILE:5:8: expected a normal at all vertices of a face or at none");
+    EXPECT_EQ(error(three + "vn 0 0 1\nf 1 2 3//1\n"), "FILE:5:7: expected a normal at all vertices of a face or at none");
+}
+
+TEST_F(MeshObj, RefusesOtherElements) {
+    const std::string expected = ", expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl";
+    EXPECT_EQ(error("v 0 0 0\n curv 0 1 1 2\n"), "FILE:2:2: unsupported OBJ element 'curv'" + expected);
+    EXPECT_EQ(error("vp 0 0\n"), "FILE:1:1: unsupported OBJ element 'vp'" + expected);
+    EXPECT_EQ(error(std::string("\0-\x80", 3)), "FILE:1:1: unsupported OBJ element '?-?'" + expected);
+}
+
+TEST_F(MeshObj, RefusesFilesWithoutFaces) {
+    EXPECT_EQ(error(""), "FILE: has no faces");
+    EXPECT_EQ(error(three), "FILE: has no faces");
+}
+
+TEST_F(MeshObj, RefusesFilesThatCannotBeOpened) {
+    const auto message = [](const std::string& path) -> std::string {
+        try {
+            read_obj(path);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(message(folder() + "/none"), folder() + "/none: cannot be opened: No such file or directory");
+    EXPECT_EQ(message(folder()), folder() + ": cannot be opened: Is a directory");
+    EXPECT_EQ(message("/dev/zero"), "/dev/zero: cannot be opened: Not a regular file");
+}
+
+}  // namespace
+}  // namespace neumann

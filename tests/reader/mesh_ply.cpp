@@ -1,0 +1,282 @@
+#include "tests/reader/mesh_test_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+
+namespace neumann {
+namespace {
+
+// Builds the body of a binary file.
+class Bytes {
+public:
+    explicit Bytes(std::endian order) : order_(order) {}
+
+    template <class T>
+    Bytes& add(T value) {
+        char bytes[sizeof(T)];
+        std::memcpy(bytes, &value, sizeof(T));
+        if (order_ != std::endian::native) std::reverse(bytes, bytes + sizeof(T));
+        text_.append(bytes, sizeof(T));
+        return *this;
+    }
+    template <class T>
+    Bytes& list(std::initializer_list<T> values) {
+        add(static_cast<std::uint8_t>(values.size()));
+        for (const T value : values) add(value);
+        return *this;
+    }
+    Bytes& point(float x, float y, float z) { return add(x).add(y).add(z); }
+    const std::string& text() const { return text_; }
+
+private:
+    std::endian order_;
+    std::string text_;
+};
+
+const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string indices = "property list uchar int vertex_indices\n";
+
+std::string head(const std::string& format, const std::string& vertices, const std::string& faces) {
+    return "ply\nformat " + format + " 1.0\nelement vertex " + vertices + "\n" + xyz + "element face " + faces + "\n" + indices +
+           "end_header\n";
+}
+
+class MeshPly : public MeshTestFile {
+protected:
+    MeshFile ply(const std::string& content) const { return read(read_ply, content); }
+    std::string error(const std::string& content) const { return MeshTestFile::error(read_ply, content); }
+    // Of a header, with a body that fits none.
+    std::string header_error(const std::string& lines) const { return error("ply\nformat ascii 1.0\n" + lines + "end_header\n"); }
+};
+
+const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+
+TEST_F(MeshPly, ReadsAscii) {
+    const auto [mesh, normals] = ply(head("ascii", "4", "2") + "0.1 -2.5e-3 +3\n1 0 0\n\n0 1 0\n  1 1 0\n3 0 1 2\n4 0 1 2 3\n");
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.1, -0.0025, 3.0), x, y, Vec3(1, 1, 0)}));
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
+    EXPECT_TRUE(normals.empty());
+}
+
+TEST_F(MeshPly, ReadsBothByteOrders) {
+    for (const auto order : {std::endian::little, std::endian::big}) {
+        Bytes body(order);
+        body.point(0.5f, -2.0f, 3.0f).point(1, 0, 0).point(0, 1, 0).point(1, 1, 0);
+        body.list({0, 1, 2}).list({0, 1, 2, 3});
+        const auto mesh =
+            ply(head(order == std::endian::little ? "binary_little_endian" : "binary_big_endian", "4", "2") + body.text()).mesh;
+        EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.5, -2.0, 3.0), x, y, Vec3(1, 1, 0)}));
+        EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
+    }
+}
+
+TEST_F(MeshPly, ReadsNormals) {
+    const auto [mesh, normals] = ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float nz\n" + xyz +
+                                     "property float nx\nproperty float ny\nelement face 1\n" + indices +
+                                     "end_header\n9 0 0 0 7 8\n1 1 0 0 0 0\n1 0 1 0 0 0\n3 0 1 2\n");
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y}));
+    EXPECT_EQ(normals, (std::vector<Vec3>{Vec3(7, 8, 9), z, z}));
+}
+
+TEST_F(MeshPly, ReadsEveryTypeAndSkipsWhatAMeshDoesNotNeed) {
+    for (const auto order : {std::endian::little, std::endian::big}) {
+        Bytes body(order);
+        body.list<std::uint16_t>({1, 2, 3}).list<std::uint16_t>({});
+        const auto vertex = [&](std::int8_t x, std::int16_t y, double z) {
+            body.add(std::uint8_t{200}).add(x).list<float>({1.0f, 2.0f}).add(y).add(std::uint32_t{7}).add(z).add(std::int32_t{-1});
+        };
+        vertex(-5, -300, 0.1);
+        vertex(1, 0, 0.0);
+        vertex(0, 1, 0.0);
+        const auto face = [&](std::uint16_t a, std::uint16_t b, std::uint16_t c) {
+            body.add(std::int32_t{2}).add(0.5).add(0.5).add(std::uint32_t{3}).add(a).add(b).add(c).add(std::int8_t{1});
+        };
+        face(0, 1, 2);
+        face(2, 1, 0);
+        const auto mesh =
+            ply(std::string("ply\nformat ") + (order == std::endian::little ? "binary_little_endian" : "binary_big_endian") +
+                " 1.0\ncomment made by hand\nobj_info none\n\nelement empty 1000000000000\nelement strip 2\n"
+                "property list uint8 uint16 items\nelement vertex 3\nproperty uint8 red\nproperty int8 x\n"
+                "property list uchar float32 uv\nproperty short y\nproperty uint32 id\nproperty float64 z\nproperty int w\n"
+                "element face 2\nproperty list int double texcoord\nproperty list uint ushort vertex_index\n"
+                "property char flags\nend_header\n" +
+                body.text())
+                .mesh;
+        EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(-5, -300, 0.1), x, y}));
+        EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {2, 1, 0}}));
+    }
+}
+
+TEST_F(MeshPly, FacesMayPrecedeVertices) {
+    const auto mesh =
+        ply("ply\nformat ascii 1.0\nelement face 1\n" + indices + "element vertex 3\n" + xyz + "end_header\n3 0 1 2\n" + points)
+            .mesh;
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+}
+
+TEST_F(MeshPly, LineEnds) {
+    const auto with = [](std::string text, const std::string& line_end) {
+        for (std::size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += line_end.size()) text.replace(i, 1, line_end);
+        return text;
+    };
+    // The first byte of the body is a line feed.
+    Bytes body(std::endian::little);
+    float feed = 0.0f;
+    const std::uint32_t bits = 0x3f80000a;
+    std::memcpy(&feed, &bits, sizeof(feed));
+    body.point(feed, 0, 0).point(1, 0, 0).point(0, 1, 0).list({0, 1, 2});
+    for (const std::string line_end : {"\n", "\r\n", "\r"}) {
+        EXPECT_EQ(ply(with(head("ascii", "3", "1") + points + "3 0 1 2\n", line_end)).mesh.triangles, (Triangles{{0, 1, 2}}));
+        const auto mesh = ply(with(head("binary_little_endian", "3", "1"), line_end) + body.text()).mesh;
+        EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(feed, 0, 0), x, y}));
+        EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+    }
+}
+
+TEST_F(MeshPly, RefusesHeaders) {
+    const std::string types = "expected a type (char, uchar, short, ushort, int, uint, float, double or int8 to float64), found ";
+    const std::string vertex = "element vertex 3\n" + xyz;
+    EXPECT_EQ(error(""), "FILE:1:1: expected 'ply' at the beginning of a PLY file, found the end of the file");
+    EXPECT_EQ(error("v 0 0 0\n"), "FILE:1:1: expected 'ply' at the beginning of a PLY file, found 'v'");
+    EXPECT_EQ(error("ply 2\n"), "FILE:1:5: expected the end of the line, found '2'");
+    EXPECT_EQ(error("ply\nformat ascii 1.0\n"), "FILE: ends before 'end_header'");
+    EXPECT_EQ(error("ply\n" + vertex + "element face 1\n" + indices + "end_header\n"), "FILE: the header has no line 'format'");
+    EXPECT_EQ(error("ply\nformat binary 1.0\n"),
+              "FILE:2:8: expected ascii, binary_little_endian or binary_big_endian, found 'binary'");
+    EXPECT_EQ(error("ply\nformat ascii 2.0\n"), "FILE:2:14: expected version 1.0, found '2.0'");
+    EXPECT_EQ(header_error("format ascii 1.0\n"), "FILE:3:1: 'format' is given twice");
+    EXPECT_EQ(header_error("elements 3\n"),
+              "FILE:3:1: expected format, element, property, comment, obj_info or end_header, found 'elements'");
+    EXPECT_EQ(header_error("property float x\n"), "FILE:3:1: expected an element before its properties");
+    EXPECT_EQ(header_error("element\n"), "FILE:3:8: expected the name of an element, found the end of the line");
+    EXPECT_EQ(header_error("element vertex -3\n"), "FILE:3:16: expected the number of elements, found '-3'");
+    EXPECT_EQ(header_error("element vertex 4294967296\n"), "FILE:3:16: more than 4294967295 vertices");
+    EXPECT_EQ(header_error("element face 99999999999999999999\n"),
+              "FILE:3:14: expected the number of elements, found '99999999999999999999'");
+    EXPECT_EQ(header_error("element vertex 3 4\n"), "FILE:3:18: expected the end of the line, found '4'");
+    EXPECT_EQ(header_error("element tristrips 1\n"), "FILE:3:9: unsupported PLY element 'tristrips', expected an element 'face'");
+    EXPECT_EQ(header_error(vertex + "element vertex 3\n"), "FILE:7:9: element 'vertex' is given twice");
+    EXPECT_EQ(header_error("element face 3\nproperty quad a\n"), "FILE:4:10: " + types + "'quad'");
+    EXPECT_EQ(header_error("element face 3\nproperty\n"), "FILE:4:9: " + types + "the end of the line");
+    EXPECT_EQ(header_error("element face 3\nproperty list uchar\n"), "FILE:4:20: " + types + "the end of the line");
+    EXPECT_EQ(header_error("element face 3\nproperty list float int a\n"),
+              "FILE:4:15: expected an integer type for the length of a list");
+    EXPECT_EQ(header_error("element face 3\nproperty int\n"),
+              "FILE:4:13: expected the name of a property, found the end of the line");
+    EXPECT_EQ(header_error("element face 3\nproperty int a b\n"), "FILE:4:16: expected the end of the line, found 'b'");
+    EXPECT_EQ(header_error("element face 3\nproperty int vertex_index\n"),
+              "FILE:4:14: property 'vertex_index' is a number, expected a list");
+    EXPECT_EQ(header_error("element face 3\nproperty list uchar float vertex_index\n"),
+              "FILE:4:21: expected an integer type for vertex indices");
+    EXPECT_EQ(header_error("element face 3\n" + indices + "property list uchar int vertex_index\n"),
+              "FILE:5:25: property 'vertex_index' is given besides 'vertex_indices'");
+    EXPECT_EQ(header_error("element vertex 3\nproperty list uchar float x\n"),
+              "FILE:4:27: property 'x' is a list, expected a number");
+    EXPECT_EQ(header_error(vertex + "property float y\n"), "FILE:7:16: property 'y' is given twice");
+    EXPECT_EQ(header_error("element face 1\n" + indices), "FILE: the header has no element 'vertex'");
+    EXPECT_EQ(header_error(vertex), "FILE: the header has no element 'face'");
+    EXPECT_EQ(header_error("element vertex 3\nproperty float x\nproperty float y\nelement face 1\n" + indices),
+              "FILE:3:9: element 'vertex' has no property 'z'");
+    EXPECT_EQ(header_error(vertex + "property float nx\nproperty float nz\nelement face 1\n" + indices),
+              "FILE:3:9: element 'vertex' has no property 'ny'");
+    EXPECT_EQ(header_error(vertex + "element face 1\nproperty int a\n"),
+              "FILE:7:9: element 'face' has no property 'vertex_indices'");
+}
+
+TEST_F(MeshPly, RefusesAsciiBodies) {
+    // The body begins at line 10.
+    const std::string header = head("ascii", "3", "1");
+    EXPECT_EQ(error(header + "0 0 0\n1 nan 0\n"), "FILE:11:3: vertex coordinate is not finite");
+    EXPECT_EQ(error(header + "0 0 0\n1 0 0z\n"), "FILE:11:5: expected a number, found '0z'");
+    EXPECT_EQ(error(header + "0 0 0\n1 0\n0 1 0\n"), "FILE:11:4: expected a number, found the end of the line");
+    EXPECT_EQ(error(header + "0 0 0\n1 0 0 0\n"), "FILE:11:7: expected the end of the line, found '0'");
+    EXPECT_EQ(error(header + "0 0 1e999\n"), "FILE:10:5: number '1e999' is beyond the range of double precision");
+    EXPECT_EQ(error(header + points + "3 0 1 99\n"), "FILE:13:7: vertex index 99 is out of range, the file has 3 vertices");
+    EXPECT_EQ(error(header + points + "3 0 -1 2\n"), "FILE:13:5: vertex index -1 is out of range, the file has 3 vertices");
+    EXPECT_EQ(error(header + points + "3 0 1.0 2\n"), "FILE:13:5: expected an integer, found '1.0'");
+    EXPECT_EQ(error(header + points + "3 0 1\n"), "FILE:13:6: expected an integer, found the end of the line");
+    EXPECT_EQ(error(header + points + "2 0 1\n"), "FILE:13:1: a face needs at least 3 vertices, found 2");
+    EXPECT_EQ(error(header + points + "3 0 1 2\n3 0 1 2\n"),
+              "FILE:14:1: expected the end of the file after the last element, found '3'");
+    EXPECT_EQ(error("ply\nformat ascii 1.0\nelement a 1\nproperty list char int b\nelement vertex 3\n" + xyz + "element face 1\n" +
+                    indices + "end_header\n-2\n"),
+              "FILE:12:1: a list of length -2");
+}
+
+TEST_F(MeshPly, RefusesBinaryBodies) {
+    const std::string header = head("binary_little_endian", "3", "2");
+    const auto body = [] { return Bytes(std::endian::little); };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(error(header + body().point(0, 0, 0).point(0, nan, 0).text()), "FILE: vertex 2: vertex coordinate is not finite");
+    const std::string corners = body().point(0, 0, 0).point(1, 0, 0).point(0, 1, 0).list({0, 1, 2}).text();
+    EXPECT_EQ(error(header + corners + body().list({0, 1, 99}).text()),
+              "FILE: face 2: vertex index 99 is out of range, the file has 3 vertices");
+    EXPECT_EQ(error(header + corners + body().list({0, 1, -1}).text()),
+              "FILE: face 2: vertex index -1 is out of range, the file has 3 vertices");
+    EXPECT_EQ(error(header + corners + body().list({0, 1}).text()), "FILE: face 2: a face needs at least 3 vertices, found 2");
+    EXPECT_EQ(error(header + corners + body().list({2, 1, 0}).list({0, 1, 2}).text()), "FILE: 13 bytes after the last element");
+    EXPECT_EQ(ply(header + corners + body().list({2, 1, 0}).text() + "\n").mesh.triangles.size(), 2u);
+    EXPECT_EQ(error("ply\nformat binary_big_endian 1.0\nelement edge\x01 1\nproperty list char int b\nelement vertex 3\n" + xyz +
+                    "element face 1\n" + indices + "end_header\n\xFE"),
+              "FILE: edge? 1: a list of length -2");
+}
+
+TEST_F(MeshPly, NormalsMustBeFinite) {
+    EXPECT_EQ(error("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz +
+                    "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n" + indices +
+                    "end_header\n0 0 0 0 0 inf\n"),
+              "FILE:13:11: normal coordinate is not finite");
+}
+
+TEST_F(MeshPly, RefusesTruncatedFiles) {
+    const std::string ascii = head("ascii", "3", "2");
+    EXPECT_EQ(error(ascii), "FILE: ends before vertex 1 of 3");
+    EXPECT_EQ(error(ascii + "0 0 0\n1 0 0\n0 1"), "FILE: ends after vertex 2 of 3");
+    EXPECT_EQ(error(ascii + points), "FILE: ends before face 1 of 2");
+    EXPECT_EQ(error(ascii + points + "3 0 1 2\n3 0 1"), "FILE: ends after face 1 of 2");
+    for (const auto order : {std::endian::little, std::endian::big}) {
+        const std::string binary = head(order == std::endian::little ? "binary_little_endian" : "binary_big_endian", "3", "1");
+        const std::string body = Bytes(order).point(0, 0, 0).point(1, 0, 0).point(0, 1, 0).list({0, 1, 2}).text();
+        EXPECT_EQ(error(binary + body.substr(0, 11)), "FILE: ends before vertex 1 of 3");
+        EXPECT_EQ(error(binary + body.substr(0, 35)), "FILE: ends after vertex 2 of 3");
+        EXPECT_EQ(error(binary + body.substr(0, 36)), "FILE: ends before face 1 of 1");
+        EXPECT_EQ(error(binary + body.substr(0, body.size() - 1)), "FILE: ends before face 1 of 1");
+    }
+}
+
+TEST_F(MeshPly, CountsOfTheHeaderAllocateNothing) {
+    for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        EXPECT_EQ(error(head(format, "4294967295", "18446744073709551615")), "FILE: ends before vertex 1 of 4294967295");
+        EXPECT_EQ(error(head(format, "0", "18446744073709551615")), "FILE: ends before face 1 of 18446744073709551615");
+    }
+    const auto skipped = [&](const std::string& property, const std::string& body) {
+        return error("ply\nformat binary_little_endian 1.0\nelement a 9223372036854775807\n" + property + "element vertex 0\n" +
+                     xyz + "element face 0\n" + indices + "end_header\n" + body);
+    };
+    EXPECT_EQ(skipped("property double b\n", "12345678"), "FILE: ends after a 1 of 9223372036854775807");
+    EXPECT_EQ(skipped("property list uint double b\n", "\xFF\xFF\xFF\xFF"), "FILE: ends before a 1 of 9223372036854775807");
+    const Bytes polygon = Bytes(std::endian::little).point(0, 0, 0).add(std::int32_t{2147483647}).add(0).add(0).add(0);
+    EXPECT_EQ(error("ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + xyz +
+                    "element face 1\nproperty list int int vertex_indices\nend_header\n" + polygon.text()),
+              "FILE: ends before face 1 of 1");
+}
+
+TEST_F(MeshPly, RefusesFilesWithoutFaces) { EXPECT_EQ(error(head("ascii", "3", "0") + points), "FILE: has no faces"); }
+
+TEST_F(MeshPly, RefusesFilesThatCannotBeOpened) {
+    const std::string path = folder() + "/none";
+    try {
+        read_ply(path);
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), path + ": cannot be opened: No such file or directory");
+    }
+}
+
+}  // namespace
+}  // namespace neumann

@@ -1,0 +1,251 @@
+// What the reader makes of scenes that are right.
+#include "tests/reader/xml_scene_files.h"
+
+#include <numbers>
+
+namespace neumann {
+
+class XmlAccepted : public XmlTest {
+protected:
+    SceneParts read_sensor(const std::string& inside) const {
+        return read_file("<scene version=\"3.0.0\"><sensor type=\"perspective\">\n" + inside + "</sensor></scene>");
+    }
+    static double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+    Rgb reflectance(const std::string& parameter) const {
+        const SceneParts parts = read("<shape type='cube'><bsdf type='diffuse'>" + parameter + "</bsdf></shape>");
+        return largest_albedo(parts.bsdfs.at(0));
+    }
+};
+
+TEST_F(XmlAccepted, Defaults) {
+    const SceneParts parts = read("");
+    EXPECT_TRUE(parts.shapes.empty());
+    EXPECT_TRUE(parts.bsdfs.empty());
+    EXPECT_FALSE(parts.bounces);
+    EXPECT_FALSE(parts.sampler);
+    EXPECT_EQ(parts.film.width, 768);
+    EXPECT_EQ(parts.film.height, 576);
+    EXPECT_EQ(parts.film.crop_width, 768);
+    EXPECT_EQ(parts.film.crop_height, 576);
+    ASSERT_TRUE(std::holds_alternative<GaussianFilter>(parts.film.filter));
+    EXPECT_EQ(std::get<GaussianFilter>(parts.film.filter).radius(), 2.0);
+    EXPECT_EQ(parts.camera.to_world, Mat4(1.0));
+    EXPECT_DOUBLE_EQ(parts.camera.fov, radians(40.0));
+    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::x);
+    EXPECT_EQ(parts.camera.near_clip, 1e-2);
+    EXPECT_EQ(parts.camera.far_clip, 1e4);
+    EXPECT_TRUE(parts.warnings.counts().empty());
+}
+
+TEST_F(XmlAccepted, OldestCompatibleVersion) {
+    EXPECT_NO_THROW(
+        read_file("\xEF\xBB\xBF<?xml version='1.0' encoding='utf-8'?>\n<!-- a scene -->\n<scene version=\"2.0.0\">"
+                  "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>"));
+}
+
+TEST_F(XmlAccepted, Camera) {
+    const SceneParts parts = read_sensor(
+        "<float name='fov' value='30'/><string name='fov_axis' value='smaller'/><float name='near_clip' value='10'/>"
+        "<integer name='far_clip' value='2800'/><float name='focus_distance' value='1000'/>"
+        "<float name='principal_point_offset_x' value='0.25'/><float name='principal_point_offset_y' value='-0.5'/>");
+    EXPECT_DOUBLE_EQ(parts.camera.fov, radians(30.0));
+    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::smaller);
+    EXPECT_EQ(parts.camera.near_clip, 10.0);
+    EXPECT_EQ(parts.camera.far_clip, 2800.0);
+    EXPECT_EQ(parts.camera.principal_point_offset, Vec2(0.25, -0.5));
+}
+
+TEST_F(XmlAccepted, FocalLength) {
+    const SceneParts parts = read_sensor("<string name='focal_length' value='50mm'/>");
+    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::diagonal);
+    EXPECT_NEAR(parts.camera.fov * 180.0 / std::numbers::pi, 46.7930, 1e-4);  // what a 50 mm lens is known for
+}
+
+TEST_F(XmlAccepted, MirroredCamera) {
+    const SceneParts parts = read_sensor("<float name='fov' value='9'/><transform name='to_world'><scale x='-1'/></transform>");
+    EXPECT_EQ(parts.camera.to_world[0][0], -1.0);
+}
+
+TEST_F(XmlAccepted, FilmAndSampler) {
+    const SceneParts parts = read_sensor(
+        "<float name='fov' value='9'/><sampler type='multijitter'><integer name='sample_count' value='64'/>"
+        "<integer name='seed' value='3'/></sampler>"
+        "<film type='hdrfilm'><integer name='width' value='100'/><integer name='height' value='50'/>"
+        "<integer name='crop_offset_x' value='20'/><integer name='crop_offset_y' value='10'/><integer name='crop_width' "
+        "value='30'/>"
+        "<string name='pixel_format' value='rgba'/><string name='component_format' value='float32'/>"
+        "<string name='file_format' value='openexr'/><boolean name='banner' value='FALSE'/><rfilter type='box'/></film>");
+    EXPECT_EQ(parts.sampler, SamplerKind::sobol);
+    EXPECT_EQ(parts.film.width, 100);
+    EXPECT_EQ(parts.film.height, 50);
+    EXPECT_EQ(parts.film.crop_x, 20);
+    EXPECT_EQ(parts.film.crop_y, 10);
+    EXPECT_EQ(parts.film.crop_width, 30);
+    EXPECT_EQ(parts.film.crop_height, 40);
+    EXPECT_TRUE(std::holds_alternative<BoxFilter>(parts.film.filter));
+}
+
+TEST_F(XmlAccepted, Samplers) {
+    for (const auto& [type, kind] : std::map<std::string, SamplerKind>{{"independent", SamplerKind::independent},
+                                                                       {"ldsampler", SamplerKind::sobol},
+                                                                       {"orthogonal", SamplerKind::sobol},
+                                                                       {"stratified", SamplerKind::sobol}})
+        EXPECT_EQ(read_sensor("<float name='fov' value='9'/><sampler type='" + type + "'/>").sampler, kind) << type;
+}
+
+TEST_F(XmlAccepted, MaxDepthCountsOneMoreThanBounces) {
+    const auto bounces = [&](const std::string& inside) {
+        return read("<integrator type='path'>" + inside + "</integrator>").bounces;
+    };
+    EXPECT_EQ(bounces("<integer name='max_depth' value='6'/><integer name='rr_depth' value='3'/>"), 5);
+    EXPECT_EQ(bounces("<integer name='max_depth' value='1'/><boolean name='hide_emitters' value='false'/>"), 0);
+    EXPECT_EQ(bounces("<integer name='max_depth' value='-1'/>"), std::nullopt);
+    EXPECT_EQ(bounces(""), std::nullopt);
+}
+
+TEST_F(XmlAccepted, Substitution) {
+    const std::string body =
+        "<default name='r' value='2'/><default name='radius' value='$r.5'/><default name='r' value='7'/>"
+        "<shape type='sphere'><float name='$kind' value='$radius'/></shape>";
+    // The longest name wins ($radius, not $r and "adius"), and the first default stands.
+    EXPECT_EQ(std::get<Sphere>(read(body, {{"kind", "radius"}}).shapes.at(0)).radius, 2.5);
+    EXPECT_EQ(std::get<Sphere>(read(body, {{"kind", "radius"}, {"r", "3"}}).shapes.at(0)).radius, 3.5);
+    EXPECT_EQ(std::get<Sphere>(read(body, {{"kind", "radius"}, {"radius", "9"}}).shapes.at(0)).radius, 9.0);
+}
+
+TEST_F(XmlAccepted, EscapedDollarAndLiteralReplacement) {
+    write("$r.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(read("<shape type='obj'><string name='filename' value='\\$r.obj'/></shape>").shapes.size(), 1u);
+    EXPECT_EQ(
+        read("<default name='f' value='$g'/><shape type='obj'><string name='filename' value='$f'/></shape>", {{"g", "$r.obj"}})
+            .shapes.size(),
+        1u);
+}
+
+TEST_F(XmlAccepted, IncludesAndFolders) {
+    const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    write("meshes/main.obj", triangle);
+    write("parts/beside.obj", triangle);
+    write("far/away/searched.obj", triangle);
+    write("parts/inner.xml",
+          "<scene version='3.0.0'><default name='size' value='4'/>"
+          "<shape type='obj'><string name='filename' value='meshes/main.obj'/></shape>"
+          "<shape type='obj'><string name='filename' value='beside.obj'/></shape>"
+          "<shape type='obj'><string name='filename' value='searched.obj'/></shape></scene>");
+    const SceneParts parts = read(
+        "<path value='far/away'/><include filename='parts/inner.xml'/>"
+        "<shape type='sphere'><float name='radius' value='$size'/></shape>");
+    ASSERT_EQ(parts.shapes.size(), 4u);
+    EXPECT_EQ(std::get<Sphere>(parts.shapes[3]).radius, 4.0);
+}
+
+TEST_F(XmlAccepted, IncludeOfOneObject) {
+    write("grey.xml", "<bsdf version='3.0.0' type='diffuse'><float name='reflectance' value='0.25'/></bsdf>");
+    const SceneParts parts = read("<shape type='cube'><include filename='grey.xml'/></shape>");
+    EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(0.25));
+}
+
+TEST_F(XmlAccepted, IncludeTwiceIsNoCycle) {
+    write("one.xml", "<scene version='3.0.0'><shape type='cube'/></scene>");
+    EXPECT_EQ(read("<include filename='one.xml'/><include filename='one.xml'/>").shapes.size(), 2u);
+}
+
+TEST_F(XmlAccepted, SharedReferences) {
+    const SceneParts parts = read(
+        "<shape type='cube'><ref id='grey'/></shape><shape type='cube'><ref name='bsdf' id='gray'/></shape>"
+        "<bsdf type='diffuse' id='grey'><float name='reflectance' value='0.25'/></bsdf><alias id='grey' as='gray'/>"
+        "<bsdf type='diffuse' id='unused'/>");
+    EXPECT_EQ(parts.bsdfs.size(), 1u);
+    EXPECT_EQ(parts.sides_of_shape.at(0).front, 0);
+    EXPECT_EQ(parts.sides_of_shape.at(1).front, 0);
+    EXPECT_EQ(parts.sides_of_shape.at(1).back, Materials::absorbing);
+}
+
+TEST_F(XmlAccepted, TwoSided) {
+    const SceneParts parts = read(
+        "<bsdf type='diffuse' id='a'/>"
+        "<shape type='cube'><bsdf type='twosided'><ref id='a'/></bsdf></shape>"
+        "<shape type='cube'><bsdf type='twosided'><ref id='a'/><bsdf type='diffuse'><float name='reflectance' "
+        "value='1'/></bsdf></bsdf></shape>"
+        "<shape type='cube'><ref id='a'/></shape>");
+    EXPECT_EQ(parts.bsdfs.size(), 2u);
+    EXPECT_EQ(parts.sides_of_shape.at(0).front, 0);
+    EXPECT_EQ(parts.sides_of_shape.at(0).back, 0);
+    EXPECT_EQ(parts.sides_of_shape.at(1).front, 0);
+    EXPECT_EQ(parts.sides_of_shape.at(1).back, 1);
+    EXPECT_EQ(parts.sides_of_shape.at(2).back, Materials::absorbing);
+    EXPECT_EQ(largest_albedo(parts.bsdfs[1]), Rgb(1.0));
+}
+
+TEST_F(XmlAccepted, ShapesWithoutBsdf) {
+    const SceneParts parts = read(
+        "<shape type='cube'/><shape type='disk'/>"
+        "<shape type='cube'><emitter type='area'><float name='radiance' value='3'/></emitter></shape>");
+    EXPECT_EQ(parts.bsdfs.size(), 1u);
+    EXPECT_EQ(largest_albedo(parts.bsdfs[0]), Rgb(0.5));
+    EXPECT_EQ(parts.sides_of_shape.at(1).front, 0);
+    EXPECT_EQ(parts.sides_of_shape.at(2).front, Materials::absorbing);  // a lamp without a material is black in Mitsuba
+    EXPECT_EQ(parts.light_of_shape, (std::vector<int>{Emitters::none, Emitters::none, 0}));
+    EXPECT_EQ(parts.lights.at(0).largest, Rgb(3.0));
+}
+
+TEST_F(XmlAccepted, EmittersByReference) {
+    const SceneParts parts = read(
+        "<shape type='cube'><ref id='lamp'/></shape>"
+        "<emitter type='area' id='lamp'><rgb name='radiance' value='1, 2, 3'/></emitter>"
+        "<emitter type='area'><rgb name='radiance' value='9'/></emitter>");
+    EXPECT_EQ(parts.light_of_shape, std::vector<int>{0});
+    ASSERT_EQ(parts.lights.size(), 1u);
+    EXPECT_EQ(parts.lights[0].largest, Rgb(1.0, 2.0, 3.0));
+}
+
+TEST_F(XmlAccepted, Colours) {
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='0.1, +0.2 3e-1'/>"), Rgb(0.1, 0.2, 0.3));
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='0.5'/>"), Rgb(0.5));
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='2'/>"), Rgb(2.0));
+    EXPECT_EQ(reflectance("<spectrum name='reflectance' value=' 0.25 '/>"), Rgb(0.25));
+    EXPECT_EQ(reflectance("<integer name='reflectance' value='1'/>"), Rgb(1.0));
+    const Rgb hex = reflectance("<rgb name='reflectance' value='#ff8000'/>");
+    EXPECT_DOUBLE_EQ(hex.r, 1.0);
+    EXPECT_NEAR(hex.g, 0.2158605, 1e-7);
+    EXPECT_EQ(hex.b, 0.0);
+}
+
+TEST_F(XmlAccepted, Wavelengths) {
+    const Rgb white = reflectance("<spectrum name='reflectance' value='360:0.5, 830:0.5'/>");
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(white[i], 0.5, 1e-4);
+    const SceneParts parts =
+        read("<shape type='cube'><emitter type='area'><spectrum name='radiance' value='360:2, 830:2'/></emitter></shape>");
+    const Rgb lamp = parts.lights.at(0).largest;
+    EXPECT_NEAR(lamp.r, 2.0 * 1.2048, 1e-3);
+    EXPECT_NEAR(lamp.g, 2.0 * 0.9483, 1e-3);
+    EXPECT_NEAR(lamp.b, 2.0 * 0.9089, 1e-3);
+    EXPECT_TRUE(parts.warnings.counts().empty());
+}
+
+TEST_F(XmlAccepted, WavelengthsOutsideSrgb) {
+    const SceneParts parts = read(
+        "<shape type='cube'><bsdf type='diffuse'>"
+        "<spectrum name='reflectance' value='500:1 520:1'/></bsdf></shape>");
+    const Rgb green = largest_albedo(parts.bsdfs.at(0));
+    EXPECT_EQ(green.r, 0.0);  // negative before
+    EXPECT_GT(green.g, 0.1);
+    EXPECT_EQ(parts.warnings.counts(),
+              (std::map<std::string, std::uint64_t>{{"spectrum outside the colours of sRGB, cut to them", 1}}));
+}
+
+TEST_F(XmlAccepted, Spheres) {
+    const Sphere sphere = std::get<Sphere>(
+        read("<shape type='sphere'><point name='center' x='1' y='2' z='3'/><float name='radius' value='2'/>"
+             "<boolean name='flip_normals' value='true'/>"
+             "<transform name='to_world'><scale value='3'/><rotate z='1' angle='90'/><translate x='10'/></transform></shape>")
+            .shapes.at(0));
+    EXPECT_NEAR(glm::length(sphere.center - Vec3(4.0, 3.0, 9.0)), 0.0, 1e-14);
+    EXPECT_DOUBLE_EQ(sphere.radius, 6.0);
+    EXPECT_TRUE(sphere.flip_normals);
+    const Sphere small = std::get<Sphere>(
+        read("<shape type='sphere'><transform name='to_world'><scale value='1e-200'/></transform></shape>").shapes.at(0));
+    EXPECT_DOUBLE_EQ(small.radius, 1e-200);
+}
+
+}  // namespace neumann

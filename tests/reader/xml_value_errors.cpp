@@ -1,0 +1,226 @@
+// What is wrong with objects and their parameters.
+#include "tests/reader/xml_scene_files.h"
+
+namespace neumann {
+
+class XmlValueErrors : public XmlTest {
+protected:
+    std::string diffuse_error(const std::string& parameter) const {
+        return error("<bsdf type=\"diffuse\">\n" + parameter + "</bsdf>");
+    }
+    std::string sensor_error(const std::string& inside) const {
+        return file_error("<scene version=\"3.0.0\"><sensor type=\"perspective\">\n" + inside + "</sensor></scene>");
+    }
+    std::string film_error(const std::string& inside) const {
+        return sensor_error("<float name='fov' value='40'/><film type='hdrfilm'>\n" + inside + "</film>");
+    }
+    std::string transform_error(const std::string& inside) const {
+        return error("<shape type='cube'><transform name='to_world'>\n" + inside + "</transform></shape>");
+    }
+};
+
+TEST_F(XmlValueErrors, UnknownTypes) {
+    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"), "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: diffuse, twosided");
+    EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
+    EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: path");
+    EXPECT_EQ(error("<shape type=\"cylinder\"/>"),
+              "scene.xml:2:8: shape type 'cylinder' is not supported; allowed: cube, disk, obj, ply, rectangle, sphere");
+    EXPECT_EQ(error("<sampler type=\"halton\"/>"),
+              "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
+              "ldsampler, multijitter, orthogonal, stratified");
+    EXPECT_EQ(error("<film type=\"specfilm\"/>"), "scene.xml:2:7: film type 'specfilm' is not supported; allowed: hdrfilm");
+    EXPECT_EQ(error("<rfilter type=\"tent\"/>"), "scene.xml:2:10: rfilter type 'tent' is not supported; allowed: box, gaussian");
+    EXPECT_EQ(file_error("<scene version=\"3.0.0\"><sensor type=\"thinlens\"/></scene>"),
+              "scene.xml:1:32: sensor type 'thinlens' is not supported; allowed: perspective");
+}
+
+TEST_F(XmlValueErrors, UnknownParameters) {
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectence\" value=\"0.5\"/>"),
+              "scene.xml:3:6: unknown parameter 'reflectence' of bsdf 'diffuse'; allowed: reflectance");
+    EXPECT_EQ(error("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/><float name=\"alpha\" value=\"1\"/></bsdf>"),
+              "scene.xml:2:52: unknown parameter 'alpha' of bsdf 'twosided'; it has none");
+    EXPECT_EQ(error("<shape type=\"sphere\"><float name=\"radios\" value=\"1\"/></shape>"),
+              "scene.xml:2:29: unknown parameter 'radios' of shape 'sphere'; allowed: flip_normals, to_world, center, radius");
+    EXPECT_EQ(error("<shape type=\"cube\"><float name=\"radius\" value=\"1\"/></shape>"),
+              "scene.xml:2:27: unknown parameter 'radius' of shape 'cube'; allowed: flip_normals, to_world");
+    EXPECT_EQ(error("<rfilter type=\"box\"><float name=\"radius\" value=\"1\"/></rfilter>"),
+              "scene.xml:2:28: unknown parameter 'radius' of rfilter 'box'; it has none");
+    EXPECT_EQ(error("<integrator type=\"path\"><integer name=\"maxdepth\" value=\"1\"/></integrator>"),
+              "scene.xml:2:34: unknown parameter 'maxdepth' of integrator 'path'; allowed: max_depth, rr_depth, hide_emitters");
+}
+
+TEST_F(XmlValueErrors, NestedWhereItDoesNotBelong) {
+    EXPECT_EQ(error("<shape type=\"sphere\"><film type=\"hdrfilm\"/></shape>"),
+              "scene.xml:2:22: unexpected <film> in shape 'sphere'; allowed: bsdf, emitter");
+    EXPECT_EQ(error("<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"a\"/></bsdf>"),
+              "scene.xml:3:22: unexpected reference to a <bsdf> in bsdf 'diffuse'; nothing is nested in it");
+    EXPECT_EQ(error("<shape type=\"sphere\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></shape>"),
+              "scene.xml:2:44: shape 'sphere' has more than one <bsdf>");
+    EXPECT_EQ(error("<bsdf type='twosided'><bsdf type='diffuse'/><bsdf type='diffuse'/><bsdf type='diffuse'/></bsdf>"),
+              "scene.xml:2:67: bsdf 'twosided' has more than two <bsdf>");
+}
+
+TEST_F(XmlValueErrors, WrongTypes) {
+    EXPECT_EQ(sensor_error("<string name=\"fov\" value=\"40\"/>"),
+              "scene.xml:2:1: parameter 'fov' of sensor 'perspective' is a string, expected float or integer");
+    EXPECT_EQ(diffuse_error("<boolean name=\"reflectance\" value=\"true\"/>"),
+              "scene.xml:3:1: parameter 'reflectance' of bsdf 'diffuse' is a boolean, expected rgb, spectrum, float or integer");
+    EXPECT_EQ(film_error("<float name=\"width\" value=\"10\"/>"),
+              "scene.xml:3:1: parameter 'width' of film 'hdrfilm' is a float, expected integer");
+    EXPECT_EQ(error("<shape type='sphere'>\n<rgb name='to_world' value='1'/></shape>"),
+              "scene.xml:3:1: parameter 'to_world' of shape 'sphere' is an rgb, expected transform");
+    EXPECT_EQ(error("<shape type='sphere'>\n<integer name='center' value='1'/></shape>"),
+              "scene.xml:3:1: parameter 'center' of shape 'sphere' is an integer, expected point or vector");
+}
+
+TEST_F(XmlValueErrors, DuplicateParameter) {
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"0.5\"/>\n<float name=\"reflectance\" value=\"0.5\"/>"),
+              "scene.xml:4:8: parameter 'reflectance' of bsdf 'diffuse' is given twice, first at scene.xml:3:1");
+}
+
+TEST_F(XmlValueErrors, MissingParameter) {
+    EXPECT_EQ(error("<emitter type=\"area\"/>"),
+              "scene.xml:2:1: emitter 'area' lacks the parameter 'radiance', expected rgb, spectrum, float or integer");
+    EXPECT_EQ(error("<shape type=\"obj\"/>"), "scene.xml:2:1: shape 'obj' lacks the parameter 'filename', expected string");
+    EXPECT_EQ(sensor_error(""), "scene.xml:1:24: sensor 'perspective' lacks the parameter 'fov', expected float");
+    EXPECT_EQ(error("<bsdf type=\"twosided\"/>"), "scene.xml:2:1: bsdf 'twosided' has no <bsdf> inside, expected one or two");
+}
+
+TEST_F(XmlValueErrors, Numbers) {
+    EXPECT_EQ(diffuse_error("<float name=\"reflectance\" value=\"0.5x\"/>"), "scene.xml:3:27: '0.5x' is not a number");
+    EXPECT_EQ(diffuse_error("<float name=\"reflectance\" value=\"\"/>"), "scene.xml:3:27: '' is not a number");
+    EXPECT_EQ(diffuse_error("<float name=\"reflectance\" value=\"0.5 0.5\"/>"), "scene.xml:3:27: '0.5 0.5' is not a number");
+    EXPECT_EQ(diffuse_error("<float name=\"reflectance\" value=\"+-1\"/>"), "scene.xml:3:27: '+-1' is not a number");
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"nan\"/>"), "scene.xml:3:25: 'nan' is not a finite number");
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"1, inf, 1\"/>"), "scene.xml:3:25: 'inf' is not a finite number");
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"1e999\"/>"),
+              "scene.xml:3:25: '1e999' is outside the range of double precision");
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"1, 1\"/>"), "scene.xml:3:25: '1, 1' has 2 numbers, expected 1 or 3");
+    EXPECT_EQ(film_error("<integer name=\"width\" value=\"1.5\"/>"), "scene.xml:3:23: '1.5' is not an integer");
+    EXPECT_EQ(film_error("<integer name=\"width\" value=\"99999999999999999999\"/>"),
+              "scene.xml:3:23: '99999999999999999999' is outside the range of 64-bit integers");
+    EXPECT_EQ(film_error("<boolean name=\"banner\" value=\"yes\"/>"),
+              "scene.xml:3:24: 'yes' is not a boolean, expected true or false");
+    EXPECT_EQ(error("<shape type='sphere'>\n<point name='center' x='1' y='2'/></shape>"),
+              "scene.xml:3:1: <point> lacks the attribute 'z'");
+}
+
+TEST_F(XmlValueErrors, Colours) {
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"0.1, -0.2, 0.3\"/>"),
+              "scene.xml:3:25: reflectance is negative: '0.1, -0.2, 0.3'");
+    EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400:0.1, 500:-0.1\"/>"),
+              "scene.xml:3:30: reflectance is negative: '400:0.1, 500:-0.1'");
+    EXPECT_EQ(error("<emitter type=\"area\"><float name=\"radiance\" value=\"-1\"/></emitter>"),
+              "scene.xml:2:45: radiance is negative: '-1'");
+    EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"#12345g\"/>"),
+              "scene.xml:3:25: '#12345g' is not a colour, expected #rrggbb");
+    EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400:0.1, 0.2\"/>"),
+              "scene.xml:3:30: '0.2' is not a pair wavelength:value");
+    EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400:0.1\"/>"),
+              "scene.xml:3:30: the spectrum has 1 pairs wavelength:value, expected at least 2");
+    EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"500:0.1 400:0.2\"/>"),
+              "scene.xml:3:30: the wavelength 400 follows 500, expected increasing ones");
+    EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400: 0.1\"/>"), "scene.xml:3:30: '' is not a number");
+}
+
+TEST_F(XmlValueErrors, Sensors) {
+    EXPECT_EQ(file_error("<scene version=\"3.0.0\">\n</scene>"), "scene.xml:1:1: the scene has no <sensor>, expected one");
+    EXPECT_EQ(error("<sensor type=\"perspective\"/>"),
+              "scene.xml:3:1: a second <sensor>, expected only one; the first is at scene.xml:2:1");
+    EXPECT_EQ(error("<integrator type=\"path\"/>\n<integrator type=\"path\"/>"),
+              "scene.xml:3:1: a second <integrator>, expected only one; the first is at scene.xml:2:1");
+    EXPECT_EQ(sensor_error("<float name='fov' value='180'/>"),
+              "scene.xml:2:19: fov is 180, expected more than 0 and less than 180 degrees");
+    EXPECT_EQ(sensor_error("<float name='fov' value='0'/>"),
+              "scene.xml:2:19: fov is 0, expected more than 0 and less than 180 degrees");
+    EXPECT_EQ(sensor_error("<string name='focal_length' value='50cm'/>"),
+              "scene.xml:2:29: focal_length is '50cm', expected a positive number and mm, such as 50mm");
+    EXPECT_EQ(sensor_error("<float name='fov' value='9'/><string name='focal_length' value='50mm'/>"),
+              "scene.xml:2:58: both fov and focal_length are given, expected one of them");
+    EXPECT_EQ(sensor_error("<float name='fov' value='9'/><string name='fov_axis' value='z'/>"),
+              "scene.xml:2:54: fov_axis is 'z'; allowed: x, y, diagonal, smaller, larger");
+    EXPECT_EQ(sensor_error("<float name='fov' value='9'/><float name='near_clip' value='0'/>"),
+              "scene.xml:2:54: near_clip is 0, expected more than 0");
+    EXPECT_EQ(sensor_error("<float name='fov' value='9'/><float name='far_clip' value='0.01'/>"),
+              "scene.xml:2:53: far_clip is 0.01, expected more than near_clip, 0.01");
+    EXPECT_EQ(sensor_error("<float name='fov' value='9'/><transform name='to_world'><scale value='1.001'/></transform>"),
+              "scene.xml:2:30: to_world of sensor 'perspective' scales or shears, expected rotations and translations");
+    EXPECT_EQ(sensor_error("<float name='fov' value='9'/><transform name='to_world'><scale z='0'/></transform>"),
+              "scene.xml:2:30: to_world of sensor 'perspective' has no inverse");
+}
+
+TEST_F(XmlValueErrors, Films) {
+    EXPECT_EQ(film_error("<integer name='width' value='0'/>"), "scene.xml:3:23: film width is 0, expected at least 1");
+    EXPECT_EQ(film_error("<integer name='height' value='-5'/>"), "scene.xml:3:24: film height is -5, expected at least 1");
+    EXPECT_EQ(film_error("<integer name='width' value='65537'/>"), "scene.xml:3:23: film width is 65537, expected at most 65536");
+    EXPECT_EQ(film_error("<integer name='crop_offset_x' value='768'/>"),
+              "scene.xml:3:31: film crop_offset_x is 768, expected at least 0 and less than the width, 768");
+    EXPECT_EQ(film_error("<integer name='crop_offset_y' value='500'/><integer name='crop_height' value='77'/>"),
+              "scene.xml:3:72: film crop_height is 77, but only 76 pixels are left after the offset");
+    EXPECT_EQ(film_error("<string name='pixel_format' value='xyz'/>"), "scene.xml:3:29: pixel_format is 'xyz'; allowed: rgb, rgba");
+    EXPECT_EQ(film_error("<string name='file_format' value='rgbe'/>"), "scene.xml:3:28: file_format is 'rgbe'; allowed: openexr");
+    EXPECT_EQ(film_error("<boolean name='sample_border' value='true'/>"),
+              "scene.xml:3:31: sample_border is true, which is not supported; allowed: false");
+    EXPECT_EQ(film_error("<rfilter type='gaussian'><float name='stddev' value='0'/></rfilter>"),
+              "scene.xml:3:47: stddev is 0, expected more than 0");
+}
+
+TEST_F(XmlValueErrors, IntegratorsAndSamplers) {
+    EXPECT_EQ(error("<integrator type='path'><integer name='max_depth' value='0'/></integrator>"),
+              "scene.xml:2:51: max_depth is 0, expected -1 or at least 1");
+    EXPECT_EQ(error("<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>"),
+              "scene.xml:2:55: hide_emitters is true, which is not supported; allowed: false");
+    EXPECT_EQ(error("<sampler type='independent'><integer name='sample_count' value='0'/></sampler>"),
+              "scene.xml:2:58: sample_count is 0, expected at least 1");
+}
+
+TEST_F(XmlValueErrors, Transforms) {
+    EXPECT_EQ(transform_error("<rotate angle='90'/>"), "scene.xml:3:1: the axis of <rotate> is zero");
+    EXPECT_EQ(transform_error("<rotate x='1'/>"), "scene.xml:3:1: <rotate> lacks the attribute 'angle'");
+    EXPECT_EQ(transform_error("<translate value='1 2'/>"), "scene.xml:3:12: '1 2' has 2 numbers, expected 1 or 3");
+    EXPECT_EQ(transform_error("<translate value='1' x='2'/>"),
+              "scene.xml:3:12: <translate> has both 'value' and x, y or z, expected one of them");
+    EXPECT_EQ(transform_error("<matrix value='1 2 3'/>"), "scene.xml:3:9: <matrix> has 3 numbers, expected 9 or 16");
+    EXPECT_EQ(transform_error("<matrix value='1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0'/>"),
+              "scene.xml:3:9: the last row of <matrix> is not 0 0 0 1");
+    EXPECT_EQ(transform_error("<lookat origin='1 2 3' target='1 2 3'/>"),
+              "scene.xml:3:1: origin and target of <lookat> are the same point");
+    EXPECT_EQ(transform_error("<lookat origin='0 0 0' target='0 5 0' up='0 1 0'/>"),
+              "scene.xml:3:39: up of <lookat> points along the view");
+    EXPECT_EQ(transform_error("<lookat origin='0 0' target='0 5 0'/>"), "scene.xml:3:9: '0 0' has 2 numbers, expected 3");
+    EXPECT_EQ(transform_error("<scale value='0'/>"), "scene.xml:2:20: to_world of shape 'cube' has no inverse");
+}
+
+TEST_F(XmlValueErrors, Spheres) {
+    EXPECT_EQ(
+        error("<shape type='sphere'>\n<transform name='to_world'><scale x='2'/></transform></shape>"),
+        "scene.xml:3:1: to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
+    EXPECT_EQ(error("<shape type='sphere'>\n<float name='radius' value='-1'/></shape>"),
+              "scene.xml:3:22: radius is -1, expected more than 0");
+}
+
+TEST_F(XmlValueErrors, Meshes) {
+    EXPECT_EQ(error("<shape type='obj'><string name='filename' value='none.obj'/></shape>"),
+              "scene.xml:2:43: there is no file 'none.obj'; looked in: .");
+    write("bad.obj", "v 0 0 zero\n");
+    EXPECT_EQ(error("<shape type='obj'><string name='filename' value='bad.obj'/></shape>").substr(0, 12), "bad.obj:1:7:");
+    write("smooth.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 1 0 1\nf 1//1 2//2 3//1\n");
+    EXPECT_EQ(error("<shape type='obj'><string name='filename' value='smooth.obj'/></shape>"),
+              "scene.xml:2:43: 'smooth.obj' has smooth vertex normals, which are not supported yet; set face_normals to true to "
+              "render it "
+              "flat");
+}
+
+TEST_F(XmlValueErrors, Bsdfs) {
+    EXPECT_EQ(error("<bsdf type='twosided'><bsdf type='twosided'><bsdf type='diffuse'/></bsdf></bsdf>"),
+              "scene.xml:2:1: bsdf 'twosided' stands inside another one");
+    EXPECT_EQ(error("<bsdf type='twosided' id='a'><ref id='a'/></bsdf>"),
+              "scene.xml:2:1: bsdf 'twosided' stands inside another one");
+}
+
+TEST_F(XmlValueErrors, UnusedDefinitionsAreCheckedToo) {
+    EXPECT_EQ(error("<film type='hdrfilm' id='f'><integer name='width' value='0'/></film>"),
+              "scene.xml:2:51: film width is 0, expected at least 1");
+}
+
+}  // namespace neumann
