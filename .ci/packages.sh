@@ -68,6 +68,10 @@ install_missing() {
     fi
     missing=$(missing_packages "$1")
     [[ -n $missing ]] || return 0
+    if [[ -e $build/build.ninja && -e $log.failed && $missing == "$(<"$log.failed")" ]]; then
+        say "Still missing, and not tried again (remove ${log#"$root/"}.failed for that): $missing"
+        return 0
+    fi
     say "Missing packages: $missing"
     if ((EUID != 0)); then
         if ! command -v sudo >/dev/null; then
@@ -76,7 +80,7 @@ install_missing() {
         fi
         as_root=(sudo)
     fi
-    say "Installing them; this takes a minute or two. Details: $log"
+    say "Installing them; this takes a minute or two. Details: ${log#"$root/"}"
     mkdir -p "$(dirname "$log")"
     as_root+=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
     # shellcheck disable=SC2024
@@ -85,6 +89,7 @@ install_missing() {
     if ! "${as_root[@]}" install -y --no-install-recommends $missing >>"$log" 2>&1; then
         tail -n 5 "$log" >&2
         say "Not everything could be installed. Going on with what is there."
+        printf '%s' "$missing" >"$log.failed"
     fi
 }
 
@@ -95,5 +100,5 @@ build_in() {
     if [[ $# -gt 0 || ! -e $build/build.ninja ]]; then
         (cd "$root" && cmake --preset "$preset" "$@" >/dev/null) || return 1  # errors and warnings stay, on stderr
     fi
-    cmake --build "$build" --target "$target" | sed -u '/no work to do/d; /Re-checking globbed/d' >&2
+    cmake --build "$build" --target "$target" -j "$(nproc)" | sed -u '/no work to do/d; /Re-checking globbed/d' >&2
 }

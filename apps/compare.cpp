@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -28,6 +29,7 @@ constexpr double confidence = 0.95;
 struct Side {
     Estimate picture;
     std::optional<double> degrees_of_freedom;
+    bool infinite_variance = false;  // so that its standard errors give no interval
 
     bool has_error() const { return !picture.standard_error.pixels.empty(); }
 };
@@ -37,9 +39,10 @@ struct Row {
     Metrics metrics;
     MeanDifferences means;
     double noise = 0.0;
-    bool a_has_error = false, b_has_error = false, degrees_known = true;
+    bool a_has_error = false, b_has_error = false, degrees_known = true, infinite_variance = false;
 
-    bool has_interval() const { return a_has_error || b_has_error; }
+    bool has_error() const { return a_has_error || b_has_error; }
+    bool has_interval() const { return has_error() && !infinite_variance; }
 };
 
 struct Comparison {
@@ -51,6 +54,11 @@ Side read_side(const std::string& path) {
     Side side;
     Attributes attributes;
     side.picture = read_exr(path, &attributes);
+    const auto variance = attributes.find("neumann:variance");
+    if (variance != attributes.end()) {
+        const auto* text = std::get_if<std::string>(&variance->second);
+        side.infinite_variance = text != nullptr && text->starts_with("infinite");
+    }
     const auto found = attributes.find("neumann:degrees_of_freedom");
     if (found == attributes.end()) return side;
     if (const auto* whole = std::get_if<std::int64_t>(&found->second)) side.degrees_of_freedom = static_cast<double>(*whole);
@@ -67,6 +75,7 @@ Row compare_pictures(const std::string& name, const std::string& path_a, const s
         row.means = compare_means(a.picture, a.degrees_of_freedom.value_or(exact_degrees_of_freedom), b.picture,
                                   b.degrees_of_freedom.value_or(exact_degrees_of_freedom), confidence);
         row.degrees_known = (!a.has_error() || a.degrees_of_freedom) && (!b.has_error() || b.degrees_of_freedom);
+        row.infinite_variance = a.infinite_variance || b.infinite_variance;
         return row;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{} and {}: {}", path_a, path_b, error.what()));
@@ -113,8 +122,11 @@ bool is_folder(const std::string& path) {
     return fs::is_directory(status);
 }
 
+// A file says that an error is unknown by infinity: so after a single replicate.
 std::string interval_text(const Row& row, const MeanDifference& d) {
-    return row.has_interval() ? fmt::format("± {:.2e}", d.half_width) : "no standard error in the file";
+    if (!row.has_error()) return "no standard error in the file";
+    if (row.infinite_variance) return "none: infinite variance";
+    return std::isfinite(d.half_width) ? fmt::format("± {:.2e}", d.half_width) : "unknown";
 }
 
 void print_means(const Row& row, const std::string& name, const MeanDifference& d) {
@@ -143,7 +155,7 @@ void print_table(const std::string& a, const std::string& b, const Comparison& c
     fmt::print("{:<13}{:>13}{:>13}{:>13}{:>13}{:>13}{:>13}\n", "", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A-B|");
     for (const Row& row : comparison.rows) {
         const Metrics& m = row.metrics;
-        const std::string noise = row.has_interval() ? fmt::format("{:.4e}", row.noise) : "unknown";
+        const std::string noise = row.has_interval() && std::isfinite(row.noise) ? fmt::format("{:.4e}", row.noise) : "unknown";
         fmt::print("{:<13}{:>13.4e}{:>13}{:>13.4e}{:>13.4e}{:>13.4e}{:>13.4e}\n", row.name, m.rmse, noise, m.rel_mse, m.mape,
                    m.smape, m.max_error);
     }
@@ -177,9 +189,16 @@ nlohmann::ordered_json json_of(const Row& row, const MeanDifference& d) {
 // What is infinite or not a number is null, as JSON has neither.
 nlohmann::ordered_json json_of(const Row& row) {
     const Metrics& m = row.metrics;
-    nlohmann::ordered_json j = {{"name", row.name},         {"rmse", m.rmse},     {"rmse_by_noise", nullptr},
-                                {"rel_mse", m.rel_mse},     {"mape", m.mape},     {"smape", m.smape},
-                                {"max_error", m.max_error}, {"pixels", m.pixels}, {"not_finite", m.not_finite}};
+    nlohmann::ordered_json j = {{"name", row.name},
+                                {"rmse", m.rmse},
+                                {"rmse_by_noise", nullptr},
+                                {"rel_mse", m.rel_mse},
+                                {"mape", m.mape},
+                                {"smape", m.smape},
+                                {"max_error", m.max_error},
+                                {"pixels", m.pixels},
+                                {"not_finite", m.not_finite},
+                                {"infinite_variance", row.infinite_variance}};
     if (row.has_interval()) j["rmse_by_noise"] = row.noise;
     j.update(json_of(row, row.means.all));
     constexpr const char* names[] = {"red", "green", "blue"};

@@ -158,8 +158,6 @@ SurfacePoint hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, 
     return {origin + direction * t, d.normal, error, 0, 0};
 }
 
-Vec3 leave(const SurfacePoint& p, double side) { return p.position + p.normal * std::copysign(p.error, side); }
-
 }  // namespace
 
 std::optional<SurfacePoint> Geometry::first_hit(const Vec3& origin, const Vec3& direction, double distance) const {
@@ -186,6 +184,8 @@ bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
     const Vec3 d = y.position - x.position;
     return !embree_->caster->occluded(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
 }
+
+const RayCaster& Geometry::caster() const { return *embree_->caster; }
 
 std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
     const auto* mesh = std::get_if<TriangleMesh>(&shapes_[shape]);

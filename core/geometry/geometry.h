@@ -9,11 +9,14 @@
 #include "core/geometry/shape.h"
 #include "core/geometry/surface_point.h"
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
 
 namespace neumann {
+
+class RayCaster;
 
 class Geometry {
 public:
@@ -34,6 +37,9 @@ public:
     // V(x, y): nothing stands between two surface points.
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const;
 
+    // Where a ray starts that leaves p to the side of its normal (side > 0) or to the other: clear of the hit's rounding error.
+    static Vec3 leave(const SurfacePoint& p, double side) { return p.position + p.normal * std::copysign(p.error, side); }
+
     // Uniform by area: number of primitives of a shape, their areas, and the point at (u, v) ∈ [0,1)² of a primitive.
     std::uint32_t primitive_count(std::uint32_t shape) const;
     double area(std::uint32_t shape, std::uint32_t primitive) const;
@@ -43,6 +49,8 @@ public:
     // The sphere around the bounding box, scene units; radius 0 for a scene without surfaces.
     Vec3 center() const { return center_; }
     double radius() const { return radius_; }
+
+    const RayCaster& caster() const;
 
 private:
     struct Embree;

@@ -47,7 +47,7 @@ SpectrumTable parse_table(const Attribute& a) {
     }
     if (s.wavelengths.size() < 2)
         throw InputError(a.place,
-                         fmt::format("the spectrum has {} pairs wavelength:value, expected at least 2", s.wavelengths.size()));
+                         fmt::format("found {} of the at least 2 pairs wavelength:value of a spectrum", s.wavelengths.size()));
     return s;
 }
 

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -104,6 +106,26 @@ TEST_F(CompareCommand, WithoutStandardErrorsThereIsNoInterval) {
     EXPECT_TRUE(j.at("standard_error").is_null());
     EXPECT_TRUE(j.at("rmse_by_noise").is_null());
     EXPECT_EQ(j.at("rmse"), 1.0);
+}
+
+TEST_F(CompareCommand, AnInfiniteStandardErrorIsUnknown) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const std::string a = put("a.exr", constant(4, 3.0, infinity)), b = put("b.exr", constant(4, 2.0, 0.5));
+    const std::string table = printed(a, b);
+    EXPECT_NE(table.find("1.000e+00   unknown\n"), std::string::npos) << table;
+    EXPECT_EQ(table.find("inf"), std::string::npos) << table;
+    EXPECT_TRUE(numbers(a, b).at("pictures").at(0).at("standard_error").is_null());
+}
+
+TEST_F(CompareCommand, AnInfiniteVarianceGivesNoInterval) {
+    const std::string a =
+        put("a.exr", constant(4, 3.0, 0.5), {{"neumann:variance", std::string("infinite: stderr gives no interval")}});
+    const std::string b = put("b.exr", constant(4, 2.0, 0.5), {{"neumann:variance", std::string("finite")}});
+    const std::string table = printed(a, b);
+    EXPECT_NE(table.find("1.000e+00   none: infinite variance\n"), std::string::npos) << table;
+    const nlohmann::json j = numbers(a, b).at("pictures").at(0);
+    EXPECT_EQ(j.at("infinite_variance"), true);
+    EXPECT_TRUE(j.at("interval").is_null());
 }
 
 TEST_F(CompareCommand, AnExactReferenceLeavesTheOthersError) {

@@ -3,9 +3,12 @@
 #include "core/image/image_io.h"
 
 #include <gtest/gtest.h>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <thread>
 
 namespace neumann {
 namespace {
@@ -96,7 +99,12 @@ TEST_F(ImageExr, APictureWithoutErrorsHasNone) {
     EXPECT_TRUE(got.standard_error.pixels.empty());
 }
 
-TEST_F(ImageExr, TheSamePictureIsTheSameBytes) { EXPECT_EQ(encode_exr(gradient(9, 9)), encode_exr(gradient(9, 9))); }
+TEST_F(ImageExr, TheSamePictureIsTheSameBytesAtAnyTime) {
+    const std::string exr = encode_exr(gradient(9, 9)), png = encode_png(DisplayImage(9, 9, 7));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    EXPECT_EQ(encode_exr(gradient(9, 9)), exr);
+    EXPECT_EQ(encode_png(DisplayImage(9, 9, 7)), png);
+}
 
 TEST_F(ImageExr, OtherFormatsAreRead) {
     DisplayImage sent(3, 2, 255);

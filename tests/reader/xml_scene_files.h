@@ -55,9 +55,10 @@ protected:
             read_scene_parts(scene_path, definitions);
         } catch (const InputError& e) {
             std::string what = e.what();
-            for (const std::string& prefix : {folder_.string() + "/", folder_.string()})
-                for (std::size_t at; (at = what.find(prefix)) != std::string::npos;)
-                    what.replace(at, prefix.size(), prefix.ends_with('/') ? "" : ".");
+            for (std::size_t at; (at = what.find(folder_.string() + "/")) != std::string::npos;)
+                what.erase(at, folder_.string().size() + 1);
+            for (std::size_t at; (at = what.find(folder_.string())) != std::string::npos;)
+                what = what.substr(0, at) + "." + what.substr(at + folder_.string().size());
             return what;
         }
         return "no error";

@@ -117,7 +117,7 @@ TEST_F(XmlValueErrors, Colours) {
     EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400:0.1, 0.2\"/>"),
               "scene.xml:3:30: '0.2' is not a pair wavelength:value");
     EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400:0.1\"/>"),
-              "scene.xml:3:30: the spectrum has 1 pairs wavelength:value, expected at least 2");
+              "scene.xml:3:30: found 1 of the at least 2 pairs wavelength:value of a spectrum");
     EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"500:0.1 400:0.2\"/>"),
               "scene.xml:3:30: the wavelength 400 follows 500, expected increasing ones");
     EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400: 0.1\"/>"), "scene.xml:3:30: '' is not a number");

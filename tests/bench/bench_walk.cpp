@@ -1,0 +1,188 @@
+// How much of bare Embree's speed the walk keeps: the walk of a picture, and the same rays cast again with nothing around them, in one
+// run. In between stand the parts: the rays as Geometry casts them (hits put back onto the double geometry, offsets), the random
+// numbers alone, the moments alone; what is left is shading.
+#include "bench_scenes.h"
+#include "core/geometry/ray_caster.h"
+#include "operators/pictures/picture_sampler.h"
+#include "recorded_rays.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <map>
+#include <numeric>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <sys/resource.h>
+
+namespace {
+
+using namespace neumann;
+
+struct Setup {
+    std::string name;
+    Scene scene;
+    SamplerKind sampler;
+    PictureSampler::Settings settings;
+    RecordingTransport rays;
+    std::uint64_t numbers = 0;  // drawn by the walk
+
+    Setup(std::string n, Scene s, SamplerKind kind) : name(std::move(n)), scene(std::move(s)), sampler(kind), rays(scene.geometry) {
+        settings.sampler = kind;
+        settings.walk.bounces = 8;
+        settings.walk.rest_probability = 0.0;
+        if (kind == SamplerKind::sobol) record([this](std::uint32_t pixel) { return SobolSampler(points, 0, pixel); });
+        else record([](std::uint32_t pixel) { return IndependentSampler(0, pixel); });
+    }
+
+    SobolPoints points{8};
+
+    // What PictureSampler does for one replicate, with the rays taken down.
+    template <class MakeSampler>
+    void record(const MakeSampler& make) {
+        struct Counting {
+            decltype(make(0u)) sampler;
+            std::uint64_t& count;
+            double next() { return ++count, sampler.next(); }
+            Vec2 next2() { return count += 2, sampler.next2(); }
+        };
+        std::vector<Rgb> sample(10);
+        std::vector<std::uint64_t> counts(10);
+        TermSamples result{sample, counts};
+        const Film& film = scene.film;
+        for (std::uint32_t pixel = 0; pixel < static_cast<std::uint32_t>(film.width * film.height); ++pixel) {
+            Counting sampler{make(pixel), numbers};
+            for (std::uint64_t i = 0; i < settings.replicate_size; ++i) {
+                sampler.sampler.start(i);
+                const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
+                const Vec2 position = neumann::sample(film.filter, sampler.next2(), x, y, film.width, film.height);
+                walk(scene, rays, settings.walk, scene.camera.ray(position), sampler, result);
+            }
+        }
+    }
+};
+
+void finish(benchmark::State& state, const Setup& setup) {
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(setup.rays.bare.size()));
+}
+
+oneapi::tbb::global_control limit(const benchmark::State& state) {
+    return {oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
+}
+
+template <class Body>
+void over_rays(const Setup& setup, const Body& body) {
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, setup.rays.bare.size(), 4096), body);
+}
+
+void bare(benchmark::State& state, const Setup& setup) {
+    const auto control = limit(state);
+    for (auto _ : state)
+        over_rays(setup, [&](const auto& range) { benchmark::DoNotOptimize(cast_bare(setup.scene.geometry, setup.rays.bare, range.begin(), range.end())); });
+    finish(state, setup);
+}
+
+void geometry(benchmark::State& state, const Setup& setup) {
+    const auto control = limit(state);
+    for (auto _ : state)
+        over_rays(setup, [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const GeometryQuery& q = setup.rays.queries[i];
+                const Geometry& T = setup.scene.geometry;
+                switch (q.kind) {
+                    case GeometryQuery::Kind::camera: benchmark::DoNotOptimize(T.first_hit(q.from.position, q.direction, q.length)); break;
+                    case GeometryQuery::Kind::surface: benchmark::DoNotOptimize(T.first_hit(q.from, q.direction)); break;
+                    case GeometryQuery::Kind::visibility: benchmark::DoNotOptimize(T.visible(q.from, q.to)); break;
+                }
+            }
+        });
+    finish(state, setup);
+}
+
+template <class Sampler>
+void draw(Sampler sampler, std::uint32_t samples, std::uint64_t numbers) {
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        sampler.start(i);
+        for (std::uint64_t n = 0; n < numbers; ++n) benchmark::DoNotOptimize(sampler.next());
+    }
+}
+
+void numbers(benchmark::State& state, const Setup& setup) {
+    const auto control = limit(state);
+    const auto pixels = static_cast<std::uint32_t>(setup.scene.film.width * setup.scene.film.height);
+    const std::uint64_t each = setup.numbers / (pixels * setup.settings.replicate_size);
+    for (auto _ : state)
+        oneapi::tbb::parallel_for(0u, pixels, [&](std::uint32_t pixel) {
+            if (setup.sampler == SamplerKind::sobol) draw(SobolSampler(setup.points, 0, pixel), setup.settings.replicate_size, each);
+            else draw(IndependentSampler(0, pixel), setup.settings.replicate_size, each);
+        });
+    finish(state, setup);
+}
+
+void whole_walk(benchmark::State& state, const Setup& setup) {
+    const auto control = limit(state);
+    const PictureSampler sampler(setup.scene, setup.settings);
+    for (auto _ : state) {
+        Tally tally(sampler.quantities());
+        benchmark::DoNotOptimize(sampler.run(0, 1, tally));
+    }
+    finish(state, setup);
+}
+
+// Keeps rays per second by benchmark name, the best of the repetitions.
+class Collector : public benchmark::ConsoleReporter {
+public:
+    Collector() : ConsoleReporter(OO_Tabular) {}
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            const auto rate = run.counters.find("items_per_second");
+            if (rate == run.counters.end()) continue;
+            double& best = rates[run.run_name.function_name + "/" + run.run_name.args];
+            best = std::max(best, static_cast<double>(rate->second));
+        }
+        ConsoleReporter::ReportRuns(runs);
+    }
+    std::map<std::string, double> rates;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    std::vector<std::unique_ptr<Setup>> setups;
+    setups.push_back(std::make_unique<Setup>("cornell-box, independent", cornell_box(), SamplerKind::independent));
+    setups.push_back(std::make_unique<Setup>("cornell-box, sobol", cornell_box(), SamplerKind::sobol));
+    setups.push_back(std::make_unique<Setup>("131,072 triangles, independent", landscape(256), SamplerKind::independent));
+    setups.push_back(std::make_unique<Setup>("131,072 triangles, sobol", landscape(256), SamplerKind::sobol));
+    const std::map<std::string, void (*)(benchmark::State&, const Setup&)> parts{
+        {"bare", bare}, {"geometry", geometry}, {"numbers", numbers}, {"walk", whole_walk}};
+    for (const auto& setup : setups)
+        for (const char* part : {"bare", "geometry", "numbers", "walk"})
+            benchmark::RegisterBenchmark((setup->name + ": " + part).c_str(),
+                                         [f = parts.at(part), s = setup.get()](benchmark::State& state) { f(state, *s); })
+                ->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)->Repetitions(5)->ReportAggregatesOnly(false);
+    Collector collector;
+    benchmark::RunSpecifiedBenchmarks(&collector);
+
+    fmt::print("\n{}, robust scene; compiled with {}\n", embree_version(), NEUMANN_CXX_FLAGS);
+    fmt::print("Walk: bounces 0..8, multiple importance sampling, no rest. Best of 5, million rays a second; shares of the walk's time.\n\n");
+    fmt::print("{:<34} {:>7} {:>8} {:>8} {:>10} | {:>6} {:>9} {:>8} {:>8}\n", "scene, numbers", "threads", "bare", "walk", "walk/bare", "bare",
+               "+geometry", "numbers", "shading");
+    for (const auto& setup : setups)
+        for (const int threads : {1, 2}) {
+            const auto rate = [&](const char* part) { return collector.rates[fmt::format("{}: {}/{}", setup->name, part, threads)]; };
+            const double walk = rate("walk"), bare = walk / rate("bare"), geometry = walk / rate("geometry"), numbers = walk / rate("numbers");
+            if (walk == 0.0) continue;
+            fmt::print("{:<34} {:>7} {:>8.2f} {:>8.2f} {:>10.3f} | {:>5.0f}% {:>8.0f}% {:>7.0f}% {:>7.0f}%\n", setup->name, threads, rate("bare") / 1e6,
+                       walk / 1e6, bare, 100 * bare, 100 * (geometry - bare), 100 * numbers, 100 * (1 - geometry - numbers));
+        }
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    for (const auto& setup : setups) {
+        const double samples = setup->scene.film.width * setup->scene.film.height * setup->settings.replicate_size;
+        const double walk = collector.rates[fmt::format("{}: walk/1", setup->name)];
+        if (walk > 0.0)
+            fmt::print("{}: {:.2f} rays and {:.0f} ns a camera sample on one thread\n", setup->name, static_cast<double>(setup->rays.bare.size()) / samples,
+                       1e9 * static_cast<double>(setup->rays.bare.size()) / samples / walk);
+    }
+    fmt::print("peak memory {:.0f} MiB, most of it recorded rays\n", static_cast<double>(usage.ru_maxrss) / 1024.0);
+}

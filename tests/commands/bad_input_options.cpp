@@ -1,0 +1,110 @@
+// Options that are wrong: stderr names the option and what is wrong with it, exit code 2, and nothing is left behind. The words of most
+// of these messages are CLI11's and differ between its versions; what is compared whole is the program's own.
+#include "tests/commands/render_output.h"
+
+namespace neumann {
+namespace {
+
+class BadInputOptions : public RenderTest {
+protected:
+    BadInputOptions() { write("scene.xml", plates()); }
+
+    std::string refusal(std::vector<std::string> options) const {
+        options.insert(options.begin(), {"render", "scene.xml", "-o", "new/folder"});
+        const Names before = names();
+        // What is accepted by mistake ends soon.
+        const Finished done = run(options);
+        EXPECT_EQ(done.exit_code, 2) << testing::PrintToString(options);
+        EXPECT_EQ(done.out, "");
+        EXPECT_EQ(names(), before);
+        return done.err;
+    }
+    void expect_refused(const std::string& option, const std::string& value) const {
+        const std::string message = refusal({option, value});
+        EXPECT_TRUE(message.starts_with(option + ": ")) << message;
+        EXPECT_NE(message.find(value), std::string::npos) << message;
+        EXPECT_LT(message.size(), 250u) << message;
+    }
+};
+
+TEST_F(BadInputOptions, Numbers) {
+    expect_refused("-n", "-1");
+    expect_refused("-n", "1.5");
+    expect_refused("-n", "many");
+    expect_refused("--spp", "0");
+    expect_refused("--spp", "-4");
+    expect_refused("--spp", "1e3");
+    expect_refused("-t", "0");
+}
+
+TEST_F(BadInputOptions, RealNumbers) {
+    for (const char* option : {"--time", "--error", "--tail"})
+        for (const char* value : {"0", "-1"}) expect_refused(option, value);
+    expect_refused("--time", "inf");
+    expect_refused("--error", "small");
+}
+
+// A goal that no number reaches would never end.
+TEST_F(BadInputOptions, NotANumber) {
+    const std::vector<std::string> others{"--spp", "1", "-n", "0"};
+    for (const char* option : {"--time", "--error", "--tail"}) {
+        std::vector<std::string> options{option, "nan", "--spp", "1"};
+        const std::string message = refusal(options);
+        EXPECT_NE(message.find(option), std::string::npos) << message;
+    }
+}
+
+TEST_F(BadInputOptions, ANegativeSeed) {
+    const std::string message = refusal({"--seed", "-1", "--spp", "1"});
+    EXPECT_NE(message.find("--seed"), std::string::npos) << message;
+}
+
+TEST_F(BadInputOptions, Names) {
+    EXPECT_NE(refusal({"--method", "guess"}).find("walk"), std::string::npos);
+    for (const char* direct : {"all", "1"}) {
+        const std::string message = refusal({"--direct", direct, "--spp", "1"});
+        for (const char* allowed : {"light", "bsdf", "mis"}) EXPECT_NE(message.find(allowed), std::string::npos) << message;
+        EXPECT_EQ(message.find("->"), std::string::npos) << message;
+    }
+}
+
+TEST_F(BadInputOptions, UnknownOrMissing) {
+    EXPECT_NE(refusal({"--bounces", "3"}).find("--bounces"), std::string::npos);
+    EXPECT_NE(refusal({"another.xml"}).find("another.xml"), std::string::npos);
+    const std::string both = refusal({"-n", "3", "--tail", "0.1"});
+    EXPECT_TRUE(both.find("-n") != std::string::npos && both.find("--tail") != std::string::npos) << both;
+    const Finished none = run({"render"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_NE(none.err.find("SCENE"), std::string::npos) << none.err;
+}
+
+// Options stand where one likes.
+TEST_F(BadInputOptions, DefinitionsBeforeTheSceneAreFine) {
+    const Finished done = run({"render", "-D", "height=2", "scene.xml", "-n", "0", "--spp", "1", "-o", "a", "--quiet"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
+// Only the scene and its definitions are read before the folder is tried, and nothing is computed.
+TEST_F(BadInputOptions, FoldersThatCannotBeWritten) {
+    write("file", "mine");
+    for (const std::string output : {"file", "file/below", "file/far/below", "/proc/neumann"}) {
+        const Finished done = run({"render", "scene.xml", "-n", "0", "--spp", "1", "-o", output});
+        EXPECT_EQ(done.exit_code, 2);
+        EXPECT_EQ(done.err, output + ": cannot be written: " +
+                                (output.starts_with("/proc") ? "No such file or directory" : "Not a directory") + "\n");
+        EXPECT_EQ(done.out, "");
+    }
+    EXPECT_EQ(text_of(path("file")), "mine");
+    EXPECT_EQ(names(), (Names{"file", "scene.xml"}));
+}
+
+TEST_F(BadInputOptions, ManyPicturesForTheMemory) {
+    const Finished done = run({"render", "scene.xml", "-n", "100000", "--spp", "1", "-o", "new/folder", "-D", "height=60000"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_TRUE(done.err.starts_with("100000 bounces of 164×60000 pixels need about ")) << done.err;
+    EXPECT_TRUE(done.err.ends_with("; take fewer bounces or a smaller film\n")) << done.err;
+    EXPECT_EQ(names(), Names{"scene.xml"});
+}
+
+}  // namespace
+}  // namespace neumann

@@ -1,0 +1,92 @@
+// Scenes that are wrong: the whole message on stderr, exit code 2, and nothing left behind.
+#include "tests/commands/render_output.h"
+
+namespace neumann {
+namespace {
+
+class BadInputScene : public RenderTest {
+protected:
+    // What is said of a scene; `output` is a folder below another, neither of which exists before or after.
+    std::string refusal(const std::string& scene, const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments{"render", scene, "-o", "new/folder", "-n", "1", "--spp", "1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Names before = names();
+        const Finished done = run(arguments);
+        EXPECT_EQ(done.exit_code, 2);
+        EXPECT_EQ(done.out, "");
+        EXPECT_EQ(names(), before);
+        return done.err;
+    }
+    // Of a scene with a body that begins on line 2.
+    std::string refusal_of(const std::string& body) const {
+        write("scene.xml", "<scene version=\"3.0.0\">\n" + body + "\n<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>\n");
+        return refusal("scene.xml");
+    }
+    static std::string mesh(const std::string& type, const std::string& file) {
+        return "<shape type=\"" + type + "\"><string name=\"filename\" value=\"" + file + "\"/></shape>";
+    }
+};
+
+TEST_F(BadInputScene, Files) {
+    EXPECT_EQ(refusal("nowhere.xml"), "nowhere.xml: there is no such file\n");
+    EXPECT_EQ(refusal("."), ".: is a folder, expected a scene file\n");
+    EXPECT_EQ(refusal_of("<shape type=\"cube\">"), "scene.xml:3:61: broken XML: Start-end tags mismatch\n");
+    write("empty.xml", "");
+    EXPECT_EQ(refusal("empty.xml"), "empty.xml:1:1: broken XML: No document element found\n");
+}
+
+TEST_F(BadInputScene, Plugins) {
+    EXPECT_EQ(refusal_of("<shape type=\"teapot\"/>"),
+              "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, disk, obj, ply, rectangle, sphere\n");
+    EXPECT_EQ(refusal_of("<bsdf type=\"dielectric\"/>"),
+              "scene.xml:2:7: bsdf type 'dielectric' is not supported; allowed: diffuse, twosided\n");
+}
+
+TEST_F(BadInputScene, Parameters) {
+    EXPECT_EQ(refusal_of("<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/></shape>"),
+              "scene.xml:2:29: unknown parameter 'raduis' of shape 'sphere'; allowed: flip_normals, to_world, center, radius\n");
+    EXPECT_EQ(refusal_of("<shape type=\"sphere\"><string name=\"radius\" value=\"2\"/></shape>"),
+              "scene.xml:2:22: parameter 'radius' of shape 'sphere' is a string, expected float or integer\n");
+}
+
+TEST_F(BadInputScene, Meshes) {
+    EXPECT_EQ(refusal_of(mesh("obj", "none.obj")), "scene.xml:2:44: there is no file 'none.obj'; looked in: .\n");
+    write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(refusal_of(mesh("obj", "nan.obj")), "nan.obj:2:5: vertex coordinate is not finite\n");
+    write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    EXPECT_EQ(refusal_of(mesh("obj", "range.obj")), "range.obj:4:7: vertex index 4 is out of range, the file has 3 vertices\n");
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    write("nan.ply", head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_EQ(refusal_of(mesh("ply", "nan.ply")), "nan.ply:11:3: vertex coordinate is not finite\n");
+    write("range.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n");
+    EXPECT_EQ(refusal_of(mesh("ply", "range.ply")), "range.ply:13:7: vertex index 3 is out of range, the file has 3 vertices\n");
+}
+
+// What a transform makes of a finite file.
+TEST_F(BadInputScene, CoordinatesThatOverflow) {
+    write("large.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n");
+    EXPECT_EQ(refusal_of("<shape type=\"obj\"><string name=\"filename\" value=\"large.obj\"/>"
+                         "<transform name=\"to_world\"><scale value=\"1e200\"/></transform></shape>")
+                  .substr(0, 10),
+              "scene.xml:");
+}
+
+TEST_F(BadInputScene, Films) {
+    write("scene.xml", plates());
+    EXPECT_EQ(refusal("scene.xml", {"-D", "height=0"}), "scene.xml:6:108: film height is 0, expected at least 1\n");
+    EXPECT_EQ(refusal("scene.xml", {"-D", "width=-3"}), "scene.xml:6:60: film width is -3, expected at least 1\n");
+    EXPECT_EQ(refusal("scene.xml", {"-D", "width=wide"}), "scene.xml:6:60: 'wide' is not an integer\n");
+}
+
+TEST_F(BadInputScene, Definitions) {
+    write("scene.xml", plates());
+    EXPECT_EQ(refusal("scene.xml", {"-D", "hight=3"}),
+              "scene.xml: -D hight=3: nothing in the scene uses $hight; its parameters: height, width\n");
+    for (const char* bad : {"height", "=3", ""})
+        EXPECT_EQ(refusal("scene.xml", {"-D", bad}), std::string("-D ") + bad + ": expected name=value\n");
+    EXPECT_EQ(refusal("scene.xml", {"-D", "height=3", "-D", "height=4"}), "-D height=4: 'height' is given twice\n");
+}
+
+}  // namespace
+}  // namespace neumann

@@ -1,0 +1,71 @@
+// What the command says of itself.
+#include "tests/commands/render_output.h"
+
+#include <regex>
+
+namespace neumann {
+namespace {
+
+class RenderHelp : public CommandTest {
+protected:
+    std::string printed(const std::vector<std::string>& arguments) const {
+        const Finished done = run(arguments);
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_EQ(done.err, "");
+        return done.out;
+    }
+    // The names of the options in a help page; lists of arguments, in brackets of the usage line, do not count.
+    static std::set<std::string> options(const std::string& help) {
+        std::set<std::string> found;
+        std::istringstream lines(help);
+        const std::regex option("^  (-[^ ]+)");
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (std::regex_search(line, match, option)) found.insert(match[1]);
+        }
+        return found;
+    }
+};
+
+// A new option has to be decided on first; then it is added here.
+TEST_F(RenderHelp, OptionsOfRender) {
+    const std::string help = printed({"help", "render"});
+    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o", "-n", "--tail", "--spp", "--time", "--error", "--method", "--direct",
+                                                    "--reference", "--seed", "-t", "-D", "--quiet", "--json"}));
+    EXPECT_NE(help.find("SCENE"), std::string::npos);
+    EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
+    // Nothing of how it is written.
+    for (const char* internal : {"->", "1099511627776", "--direct :"}) EXPECT_EQ(help.find(internal), std::string::npos) << help;
+    EXPECT_EQ(printed({"render", "--help"}), help);
+}
+
+TEST_F(RenderHelp, OptionsOfCompare) {
+    EXPECT_EQ(options(printed({"help", "compare"})), (std::set<std::string>{"-h,--help", "--json"}));
+}
+
+TEST_F(RenderHelp, TheCommands) {
+    const std::string help = printed({"--help"});
+    EXPECT_EQ(help.substr(0, help.find('\n')),
+              "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
+    for (const char* command : {"\n  render ", "\n  compare ", "\n  help "}) EXPECT_NE(help.find(command), std::string::npos) << help;
+    EXPECT_EQ(printed({"help"}), help);
+}
+
+TEST_F(RenderHelp, Version) { EXPECT_TRUE(std::regex_match(printed({"--version"}), std::regex("neumann \\d+\\.\\d+\\.\\d+\n"))); }
+
+TEST_F(RenderHelp, UnknownCommands) {
+    Finished done = run({"help", "rendr"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, help\n");
+    EXPECT_EQ(done.out, "");
+    done = run({"rendr", "scene.xml"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_NE(done.err.find("rendr"), std::string::npos) << done.err;
+    EXPECT_EQ(done.out, "");
+    done = run({});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_NE(done.err, "");
+}
+
+}  // namespace
+}  // namespace neumann

@@ -1,0 +1,90 @@
+// Ctrl-C and SIGTERM: a complete set of what was sampled so far, or nothing.
+#include "tests/commands/render_output.h"
+
+namespace neumann {
+namespace {
+
+using std::chrono::milliseconds;
+
+class RenderInterrupt : public RenderTest {
+protected:
+    RenderInterrupt() { write("scene.xml", plates()); }
+
+    const std::vector<std::string> long_render{"render", "scene.xml", "-o", "a", "-n", "2", "--time", "600", "-t", "1"};
+
+    void wait_for_folder() const {
+        for (int i = 0; i < 6000 && !std::filesystem::exists(path("a")); ++i) std::this_thread::sleep_for(milliseconds(10));
+        ASSERT_TRUE(std::filesystem::exists(path("a")));
+    }
+    void expect_interrupted(const Finished& done) const {
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_NE(done.out.find("\nInterrupted: the pictures hold what was sampled so far.\n"), std::string::npos) << done.out;
+        EXPECT_EQ(run_json("a").at("samples").at("outcome"), "interrupted");
+        EXPECT_EQ(names("a"), output_names(2));
+        const Table convergence(path("a/convergence.csv"));
+        EXPECT_EQ(convergence.last("samples"), run_json("a").at("samples").at("per_pixel").get<double>());
+    }
+};
+
+TEST_F(RenderInterrupt, AfterAWhile) {
+    for (const int number : {SIGINT, SIGTERM}) {
+        RunningCommand command = start(long_render);
+        wait_for_folder();
+        std::this_thread::sleep_for(milliseconds(1500));
+        command.signal(number);
+        expect_interrupted(command.wait());
+        expect_finite("a");
+        if (number == SIGINT) expect_repeatable("a");
+        std::filesystem::remove_all(path("a"));
+    }
+}
+
+// While the scene is looked at and the first samples are taken.
+TEST_F(RenderInterrupt, AtTheBeginning) {
+    for (const int wait : {0, 50, 200}) {
+        RunningCommand command = start(long_render);
+        wait_for_folder();
+        std::this_thread::sleep_for(milliseconds(wait));
+        command.signal(SIGINT);
+        expect_interrupted(command.wait());
+        SCOPED_TRACE(run_json("a").at("samples").dump());
+        expect_repeatable("a");
+        std::filesystem::remove_all(path("a"));
+        std::filesystem::remove_all(path("a_again"));
+    }
+}
+
+// Before and while the program begins: the signal ends it as any program, or as above.
+TEST_F(RenderInterrupt, WithinTheFirstMoments) {
+    for (const int number : {SIGINT, SIGTERM})
+        for (const int wait : {0, 15, 50}) {
+            RunningCommand command = start(long_render);
+            std::this_thread::sleep_for(milliseconds(wait));
+            command.signal(number);
+            const Finished done = command.wait();
+            if (done.exit_code == 128 + number) {
+                EXPECT_EQ(names(), Names{"scene.xml"});
+            } else {
+                expect_interrupted(done);
+                std::filesystem::remove_all(path("a"));
+            }
+        }
+}
+
+// A second one ends the program at once, and what an earlier run left stays as it was.
+TEST_F(RenderInterrupt, TwiceLeavesAnEarlierRunAlone) {
+    render("scene.xml", "a", {"-n", "1", "--spp", "4", "--quiet"});
+    const auto before = contents("a");
+    RunningCommand command = start({"render", "scene.xml", "-o", "a", "-n", "2", "--time", "600", "-t", "1", "-D", "height=4000"});
+    std::this_thread::sleep_for(milliseconds(1500));
+    command.signal(SIGTERM);
+    command.signal(SIGINT);
+    std::this_thread::sleep_for(milliseconds(100));
+    command.signal(SIGTERM);
+    command.signal(SIGINT);
+    EXPECT_NE(command.wait().exit_code, 0);
+    EXPECT_EQ(contents("a"), before);
+}
+
+}  // namespace
+}  // namespace neumann

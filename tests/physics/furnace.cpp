@@ -1,0 +1,111 @@
+// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for lights carries
+// exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
+#include "operators/pictures/picture_sampler.h"
+#include "tests/physics/enclosures.h"
+#include "tests/physics/probe.h"
+
+#include <gtest/gtest.h>
+
+namespace neumann::physics {
+namespace {
+
+const Rgb colour(0.25, 0.5, 0.75), bright(0.9, 0.99, 0.9999);
+
+Surface furnace(const Rgb& rho) { return {rho, grey(1.0)}; }
+
+TEST(Furnace, EveryWalkCarriesThePowersOfTheAlbedo) {
+    for (const Rgb& rho : {colour, bright})
+        for (const Enclosure& enclosure : enclosures(furnace(rho))) {
+            SCOPED_TRACE(enclosure.name);
+            const Scene scene = enclosure.maker.make();
+            expect_exact(probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40}), [&](int i) { return power_of(rho, i); });
+        }
+}
+
+TEST(Furnace, EveryProductOfOperatorsIsThePowerOfTheAlbedo) {
+    for (const Enclosure& enclosure : enclosures(furnace(colour))) {
+        SCOPED_TRACE(enclosure.name);
+        const Scene scene = enclosure.maker.make();
+        expect_exact(probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12}), [](int i) { return power_of(colour, i); });
+    }
+}
+
+TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
+    for (Enclosure& enclosure : enclosures(furnace(colour))) {
+        enclosure.maker.parts.camera.fov = 2.0;
+        enclosure.maker.parts.camera.near_clip = 1e-6;
+        enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
+        const Scene scene = enclosure.maker.make();
+        for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol})
+            for (const Method method : {Method::walk, Method::pointwise}) {
+                SCOPED_TRACE(enclosure.name + (sampler == SamplerKind::sobol ? ", Sobol'" : ", independent") +
+                             (method == Method::walk ? ", walk" : ", operators"));
+                PictureSampler::Settings settings;
+                settings.method = method;
+                settings.sampler = sampler;
+                settings.walk = {10, DirectLight::bsdf, 0.0};
+                settings.seed = fixed_seed;
+                const PictureSampler pictures(scene, settings);
+                Tally tally(pictures.quantities());
+                SeriesMoments moments(pictures.width(), pictures.height(), pictures.quantities());
+                moments.add(*pictures.run(0, 4, tally));
+                const SeriesMoments::Result result = moments.result();
+                for (int i = 0; i <= 10; ++i) {
+                    const Estimate term = result.term(static_cast<std::size_t>(i));
+                    double error = 0.0, spread = 0.0;
+                    for (const Rgb& x : term.mean.pixels) error = std::max(error, max_component(glm::abs(x - power_of(colour, i))));
+                    for (const Rgb& x : term.standard_error.pixels) spread = std::max(spread, max_component(x));
+                    EXPECT_LE(error, 8.0 * i * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le";
+                    EXPECT_EQ(spread, 0.0) << "K^" << i << " Le";
+                }
+                EXPECT_EQ(tally.non_finite_count, 0u);
+            }
+    }
+}
+
+// 7 enclosures × 8 bounces × 2 albedos: 112 comparisons.
+TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
+    for (const double rho : {0.5, 0.9})
+        for (const Enclosure& enclosure : enclosures(glowing(rho, 1.0))) {
+            SCOPED_TRACE(enclosure.name);
+            const Scene scene = enclosure.maker.make();
+            std::vector<double> exact;
+            for (int i = 0; i <= 8; ++i) exact.push_back(std::pow(rho, i));
+            expect_matches(probe(scene, anywhere(scene), Way::mis, {.samples = 2048}), exact);
+        }
+}
+
+TEST(Furnace, WithoutReflectionNothingComesBack) {
+    for (const Enclosure& enclosure : enclosures(glowing(0.0, 1.0))) {
+        SCOPED_TRACE(enclosure.name);
+        const Scene scene = enclosure.maker.make();
+        for (const Way way : {Way::mis, Way::bsdf, Way::light, Way::pointwise})
+            expect_exact(probe(scene, anywhere(scene), way, {.samples = 16, .rest_probability = 1.0}), [](int i) { return grey(i == 0 ? 1.0 : 0.0); });
+    }
+}
+
+TEST(Furnace, WithoutAbsorptionEveryTermIsOneAndTheWalksAreGivenUp) {
+    for (const Enclosure& enclosure : enclosures(glowing(1.0, 1.0))) {
+        SCOPED_TRACE(enclosure.name);
+        const Scene scene = enclosure.maker.make();
+        const Estimates found = probe(scene, anywhere(scene), Way::bsdf, {.samples = 16, .bounces = 30, .rest_probability = 1.0, .give_up = 100});
+        expect_exact(found, [](int) { return grey(1.0); });
+        EXPECT_EQ(found.given_up, found.samples);
+    }
+}
+
+// Beyond the last picture: Σ_{i>N} ρ^i = ρ^(N+1) / (1 − ρ), by walks that roulette ends. 6 comparisons.
+TEST(Furnace, TheRestIsTheTailOfTheGeometricSeries) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.8, 1.0));
+    const Scene scene = maker.make();
+    for (const double go_on : {1.0, 0.5})
+        for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
+            SCOPED_TRACE(name(way));
+            const Estimates found = probe(scene, anywhere(scene), way, {.samples = 16384, .bounces = 3, .rest_probability = go_on});
+            expect_matches(found.rest, std::pow(0.8, 4) / 0.2, "rest");
+        }
+}
+
+}  // namespace
+}  // namespace neumann::physics

@@ -1,0 +1,241 @@
+#include "tests/physics/probe.h"
+
+#include "core/geometry/area_sampler.h"
+#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sobol_sampler.h"
+#include "operators/pointwise/emission.h"
+#include "operators/pointwise/reflection.h"
+#include "operators/pointwise/surface_reflection.h"
+#include "operators/pointwise/transport.h"
+#include "operators/series/neumann_series.h"
+#include "operators/walk/walk.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <oneapi/tbb/parallel_for.h>
+#include <optional>
+#include <sstream>
+
+namespace neumann::physics {
+
+namespace {
+
+// Mean and squared deviations, under which equal samples have exactly no variance.
+struct Welford {
+    double n = 0.0;
+    Rgb mean{0.0}, m2{0.0};
+
+    void add(const Rgb& x) {
+        n += 1.0;
+        const Rgb difference = x - mean;
+        mean += difference / n;
+        m2 += difference * (x - mean);
+    }
+    Rgb variance() const { return m2 / (n - 1.0); }
+    Statistic statistic() const { return {mean, glm::sqrt(variance() / n)}; }
+};
+
+// T of a walk whose first point is given instead of looked for.
+struct TransportFrom {
+    const Geometry* geometry;
+    SurfacePoint start;
+
+    std::optional<SurfacePoint> first_hit(const Vec3&, const Vec3&, double) const { return start; }
+    std::optional<SurfacePoint> first_hit(const SurfacePoint& from, const Vec3& w) const { return geometry->first_hit(from, w); }
+    bool visible(const SurfacePoint& x, const SurfacePoint& y) const { return geometry->visible(x, y); }
+};
+
+template <class Sampler>
+struct FromSampler : Random {
+    explicit FromSampler(Sampler& s) : sampler(s) {}
+    double next() override { return sampler.next(); }
+    Sampler& sampler;
+};
+
+DirectLight direct_light(Way way) {
+    return way == Way::bsdf ? DirectLight::bsdf : way == Way::light ? DirectLight::light : DirectLight::mis;
+}
+
+// The terms as functions, for the ways that are not walks.
+struct Series {
+    std::optional<AreaSampler> surfaces;
+    std::vector<ExitantField> terms;
+
+    template <class Reflection>
+    void develop(const Scene& scene, const Reflection& R, int bounces) {
+        const auto K = R * TransportOperator(scene.geometry);
+        NeumannSeries series(K, emission(scene.emitters));
+        for (terms.push_back(series.term()); series.bounce() < bounces; terms.push_back(series.term())) series.advance();
+    }
+    Series(const Scene& scene, Way way, int bounces) {
+        if (way == Way::pointwise) develop(scene, ReflectionOperator(scene.materials), bounces);
+        if (way == Way::surfaces) {
+            surfaces.emplace(scene.geometry);
+            develop(scene, SurfaceReflectionOperator(scene.geometry, *surfaces, scene.materials), bounces);
+        }
+    }
+};
+
+struct Batch {
+    std::vector<Welford> quantities;  // 0 … N, the rest, Σ_{i≥1}
+    std::vector<std::uint64_t> rays;
+    std::vector<LargestSamples> largest;
+    std::uint64_t given_up = 0;
+};
+
+template <class Sampler>
+Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series, Sampler sampler) {
+    const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
+    const WalkSettings settings{effort.bounces, direct_light(way), effort.rest_probability, effort.give_up};
+    Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities), std::vector<LargestSamples>(quantities), 0};
+    std::vector<Rgb> sample(quantities);
+    TermSamples result{sample, batch.rays};
+    FromSampler<Sampler> random(sampler);
+    for (std::uint32_t i = 0; i < effort.samples; ++i) {
+        std::fill(sample.begin(), sample.end(), Rgb(0.0));
+        sampler.start(i);
+        const Start start = pick(random);
+        if (series.terms.empty()) {
+            walk(scene, TransportFrom{&scene.geometry, start.point}, settings, CameraRay{start.point.position + start.wo, -start.wo}, sampler,
+                 result);
+        } else {
+            for (std::size_t k = 0; k < series.terms.size(); ++k) sample[k] = series.terms[k](start.point, start.wo, random);
+        }
+        Rgb reflected(0.0);
+        for (std::size_t q = 0; q < quantities; ++q) {
+            const Rgb x = start.weight * sample[q];
+            batch.quantities[q].add(x);
+            batch.largest[q].add(max_component(x));
+            if (q > 0) reflected += x;
+        }
+        batch.quantities[quantities].add(reflected);
+    }
+    batch.given_up = result.given_up;
+    return batch;
+}
+
+const SobolPoints& sobol_points(std::uint32_t size) {
+    static std::mutex mutex;
+    static std::map<std::uint32_t, SobolPoints> known;
+    const std::lock_guard lock(mutex);
+    return known.try_emplace(size, size).first->second;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Scene& scene, const Vec3& p, const Vec3& normal, double height) {
+    auto point = scene.geometry.first_hit(p + normal * height, -normal);
+    if (!point || glm::length(point->position - p) > 0.01 * height) throw std::logic_error("there is no surface here");
+    point->position = p;
+    return *point;
+}
+
+StartPicker at(const Scene& scene, const Vec3& p, const Vec3& normal, double height) {
+    return [start = Start{surface_point(scene, p, normal, height), normal}](Random&) { return start; };
+}
+
+StartPicker anywhere_on(const Scene& scene, std::uint32_t shape) {
+    std::vector<double> cumulative;
+    for (std::uint32_t i = 0; i < scene.geometry.primitive_count(shape); ++i)
+        cumulative.push_back(scene.geometry.area(shape, i) + (i ? cumulative.back() : 0.0));
+    return [&geometry = scene.geometry, shape, cumulative](Random& random) {
+        const double choice = random.next() * cumulative.back();
+        std::uint32_t primitive = 0;
+        while (primitive + 1 < cumulative.size() && cumulative[primitive] <= choice) ++primitive;
+        const SurfacePoint p = geometry.point(shape, primitive, random.next2());
+        return Start{p, p.normal};
+    };
+}
+
+StartPicker anywhere(const Scene& scene) {
+    return [surfaces = AreaSampler(scene.geometry)](Random& random) {
+        const double choice = random.next();
+        const SurfacePoint p = surfaces.sample(choice, random.next2());
+        return Start{p, p.normal};
+    };
+}
+
+std::string name(Way way) {
+    switch (way) {
+        case Way::mis: return "walk, direct light by MIS";
+        case Way::bsdf: return "walk, direct light by BSDF sampling";
+        case Way::light: return "walk, direct light by light sampling";
+        case Way::pointwise: return "operators, R over the hemisphere";
+        case Way::surfaces: return "operators, R over surfaces";
+    }
+    return "";
+}
+
+Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort) {
+    const Series series(scene, way, effort.bounces);
+    std::vector<Batch> batches(batch_count);
+    const SobolPoints* points = effort.sampler == SamplerKind::sobol ? &sobol_points(effort.samples) : nullptr;
+    oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
+        batches[b] = points ? run_batch(scene, start, way, effort, series, SobolSampler(*points, effort.seed, b))
+                            : run_batch(scene, start, way, effort, series, IndependentSampler(effort.seed, b));
+    });
+
+    const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
+    std::vector<Welford> means(quantities + 1), variances(quantities);
+    Welford rays;
+    Estimates result;
+    result.rays.resize(quantities);
+    result.largest.resize(quantities);
+    for (const Batch& batch : batches) {
+        double batch_rays = 0.0;
+        for (std::size_t q = 0; q < quantities; ++q) {
+            variances[q].add(batch.quantities[q].variance());
+            result.rays[q] += static_cast<double>(batch.rays[q]) / effort.samples / batch_count;
+            batch_rays += static_cast<double>(batch.rays[q]) / effort.samples;
+            result.largest[q].merge(batch.largest[q]);
+        }
+        for (std::size_t q = 0; q <= quantities; ++q) means[q].add(batch.quantities[q].mean);
+        rays.add(Rgb(batch_rays));
+        result.given_up += batch.given_up;
+    }
+    for (std::size_t q = 0; q + 1 < quantities; ++q) {
+        result.terms.push_back(means[q].statistic());
+        result.variance.push_back(variances[q].statistic());
+    }
+    result.rest = means[quantities - 1].statistic();
+    result.reflected = means[quantities].statistic();
+    result.rays_mean = rays.statistic().mean.r;
+    result.rays_error = rays.statistic().standard_error.r;
+    result.samples = std::uint64_t{batch_count} * effort.samples;
+    return result;
+}
+
+void expect_matches(const Statistic& found, double exact, const std::string& what, double largest_error, int bounce) {
+    const double mean = found.mean.r, error = found.standard_error.r, difference = mean - exact;
+    if (exact == 0.0) {
+        EXPECT_TRUE(mean == 0.0 && error == 0.0) << what << " is " << mean << " ± " << error << " and has to be exactly 0";
+        return;
+    }
+    const double rounding = 8.0 * (bounce + 1) * std::numeric_limits<double>::epsilon() * std::abs(exact);
+    EXPECT_LE(std::abs(difference), z_limit * error + rounding)
+        << what << " is " << mean << " ± " << error << ", exactly " << exact << ": z = " << difference / error;
+    EXPECT_LE(error, largest_error * std::abs(exact))
+        << what << " is " << mean << " ± " << error << ", which is " << error / std::abs(exact) << " of the reference: no power";
+}
+
+void expect_matches(const Estimates& found, std::span<const double> exact, int first, double largest_error) {
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+        const int bounce = first + static_cast<int>(k);
+        expect_matches(found.terms.at(static_cast<std::size_t>(bounce)), exact[k], "K^" + std::to_string(bounce) + " Le", largest_error, bounce);
+    }
+}
+
+void expect_exact(const Estimates& found, const std::function<Rgb(int)>& exact) {
+    for (std::size_t i = 0; i < found.terms.size(); ++i) {
+        const Rgb truth = exact(static_cast<int>(i));
+        const double allowed = 8.0 * static_cast<double>(i) * std::numeric_limits<double>::epsilon();
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LE(std::abs(found.terms[i].mean[c] - truth[c]), allowed) << "K^" << i << " Le, channel " << c;
+            EXPECT_EQ(found.terms[i].standard_error[c], 0.0) << "K^" << i << " Le, channel " << c;
+        }
+    }
+}
+
+}  // namespace neumann::physics
