@@ -61,7 +61,7 @@ install_missing() {
     local missing as_root=() log=$2
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         # Asked only before the first build: it takes a second.
-        [[ -e $build/build.ninja ]] && return 0
+        configured && return 0
         missing=$(missing_by_name "$1")
         [[ -z $missing ]] || say "This system has no apt, and these were not found:" "$(printf '\n%s' "$missing")"
         return 0
@@ -93,12 +93,19 @@ install_missing() {
     fi
 }
 
-# build_in PRESET TARGET [CMake option...]: configures where needed and builds. What is up to date is not mentioned.
+# Whether $build was configured, and here: a folder that was moved has to be configured afresh.
+configured() {
+    [[ -e $build/build.ninja && $(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt") -ef $root ]]
+}
+
+# build_in PRESET TARGET [CMake option...]: configures where needed or where options are given, and builds. What is up to date is not mentioned.
 build_in() {
-    local preset=$1 target=$2
+    local preset=$1 target=$2 fresh=()
     shift 2
-    if [[ $# -gt 0 || ! -e $build/build.ninja ]]; then
-        (cd "$root" && cmake --preset "$preset" "$@" >/dev/null) || return 1  # errors and warnings stay, on stderr
+    configured || fresh=(--fresh)
+    if (($# > 0 || ${#fresh[@]} > 0)); then
+        # Errors and warnings remain, on stderr.
+        (cd "$root" && cmake --preset "$preset" "${fresh[@]}" "$@" >/dev/null) || return 1
     fi
     cmake --build "$build" --target "$target" -j "$(nproc)" | sed -u '/no work to do/d; /Re-checking globbed/d' >&2
 }

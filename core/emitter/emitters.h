@@ -42,11 +42,9 @@ public:
 
     // No emitter has a positive area and radiance.
     bool empty() const { return cumulative_.empty(); }
-    // Whether choice among emitting primitives is needed at all.
-    std::size_t primitive_count() const { return cumulative_.size(); }
 
-    // A point on an emitter: `choice` picks the primitive, (u, v) the point on it. The same density as pdf_area tells.
-    LightSample sample(const Geometry& geometry, double choice, const Vec2& uv) const;
+    // A point on an emitter: u picks the primitive, and what is left of it is, with v, the point there. The same density as pdf_area tells.
+    LightSample sample(const Geometry& geometry, const Vec2& uv) const;
     // Density per area with which sample() finds p.
     double pdf_area(const SurfacePoint& p) const { return density_of_shape_[p.shape]; }
 

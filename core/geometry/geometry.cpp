@@ -1,7 +1,6 @@
 #include "core/geometry/geometry.h"
 
 #include "core/base/error.h"
-#include "core/geometry/ray_caster.h"
 #include "core/sampling/warp.h"
 
 #include <algorithm>
@@ -20,14 +19,6 @@ constexpr double float_epsilon = 0x1p-24;
 double hit_error(double largest_coordinate, double size) { return float_epsilon * (4.0 * largest_coordinate + 8.0 * size); }
 
 double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-// A triangle with what a hit on it needs, scene units.
-struct TriangleRecord {
-    Vec3 vertex, edge1, edge2, normal;
-    double error;
-    double margin;  // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
-                    // meets the triangle there
-};
 
 struct Bounds {
     Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -51,16 +42,10 @@ void validate(const TriangleMesh& mesh) {
 
 }  // namespace
 
-struct Geometry::Embree {
-    std::unique_ptr<RayCaster> caster;
-    std::vector<std::vector<TriangleRecord>> triangles;  // by shape; empty where the shape is no mesh
-    std::vector<double> error;                           // by shape: spheres and discs
-};
-
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry::~Geometry() = default;
 
-Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)), embree_(std::make_unique<Embree>()) {
+Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
     Bounds bounds;
     for (Shape& shape : shapes_) {
         if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
@@ -98,13 +83,13 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)), embr
         scale = std::ldexp(1.0, -exponent);
     }
 
-    embree_->caster = std::make_unique<RayCaster>(shapes_, center_, scale);
-    embree_->triangles.resize(shapes_.size());
-    embree_->error.resize(shapes_.size());
-    const auto to_embree = [&](const Vec3& p) { return embree_->caster->to_embree(p); };
+    caster_ = std::make_unique<RayCaster>(shapes_, center_, scale);
+    triangles_.resize(shapes_.size());
+    error_.resize(shapes_.size());
+    const auto to_embree = [&](const Vec3& p) { return caster_->to_embree(p); };
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&shapes_[i])) {
-            embree_->triangles[i].reserve(mesh->triangles.size());
+            triangles_[i].reserve(mesh->triangles.size());
             for (const auto& t : mesh->triangles) {
                 const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
                 const Vec3 across = glm::cross(b - a, c - a);
@@ -112,23 +97,46 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)), embr
                 const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
                 const double largest = std::max({largest_component(to_embree(a)), largest_component(to_embree(b)), largest_component(to_embree(c))});
                 const double error = hit_error(largest, longest * scale) / scale;
-                embree_->triangles[i].push_back({a, b - a, c - a, across / twice, error, std::min(4.0 * error * longest / twice, 0.25)});
+                triangles_[i].push_back({a, b - a, c - a, across / twice, error, std::min(4.0 * error * longest / twice, 0.25)});
             }
         } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[i])) {
-            embree_->error[i] = hit_error(largest_component(to_embree(sphere->center)) + sphere->radius * scale, 0.0) / scale;
+            error_[i] = hit_error(largest_component(to_embree(sphere->center)) + sphere->radius * scale, 0.0) / scale;
         } else if (const auto* disk = std::get_if<Disk>(&shapes_[i])) {
             const double size = (glm::length(disk->u) + glm::length(disk->v)) * scale;
-            embree_->error[i] = hit_error(largest_component(to_embree(disk->center)) + size, 0.0) / scale;
+            error_[i] = hit_error(largest_component(to_embree(disk->center)) + size, 0.0) / scale;
         }
     }
 }
 
 namespace {
 
-// Puts a hit back onto the double geometry.
-SurfacePoint on_triangle(const TriangleRecord& t, double u, double v) {
+void put_on_sphere(const Sphere& s, const Vec3& position, double error, SurfacePoint& p) {
+    const Vec3 n = glm::normalize(position - s.center);
+    p.position = s.center + n * s.radius;
+    p.normal = s.flip_normals ? -n : n;
+    p.error = error;
+}
+
+// `distance` is Embree's float answer; the exact root beside it is found again in double.
+void hit_sphere(const Sphere& s, const Vec3& origin, const Vec3& direction, double distance, double error, SurfacePoint& p) {
+    const Vec3 f = origin - s.center;
+    const double middle = -glm::dot(f, direction);
+    const Vec3 nearest = f + direction * middle;
+    const double half = std::sqrt(std::max(s.radius * s.radius - glm::dot(nearest, nearest), 0.0));
+    put_on_sphere(s, origin + direction * (distance < middle ? middle - half : middle + half), error, p);
+}
+
+void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double error, SurfacePoint& p) {
+    p.position = origin + direction * (glm::dot(d.normal, d.center - origin) / glm::dot(d.normal, direction));
+    p.normal = d.normal;
+    p.error = error;
+}
+
+}  // namespace
+
+void Geometry::put_on_triangle(const TriangleRecord& t, double u, double v, SurfacePoint& p) {
     double w = 1.0 - u - v;
-    if (std::min({u, v, w}) < t.margin) {
+    if (u < t.margin || v < t.margin || w < t.margin) [[unlikely]] {
         u = std::max(u, t.margin);
         v = std::max(v, t.margin);
         w = std::max(w, t.margin);
@@ -136,56 +144,33 @@ SurfacePoint on_triangle(const TriangleRecord& t, double u, double v) {
         u /= sum;
         v /= sum;
     }
-    return {t.vertex + t.edge1 * u + t.edge2 * v, t.normal, t.error, 0, 0};
+    p.position = t.vertex + t.edge1 * u + t.edge2 * v;
+    p.normal = t.normal;
+    p.error = t.error;
 }
 
-SurfacePoint on_sphere(const Sphere& s, const Vec3& p, double error) {
-    const Vec3 n = glm::normalize(p - s.center);
-    return {s.center + n * s.radius, s.flip_normals ? -n : n, error, 0, 0};
-}
-
-// `distance` is Embree's float answer; the exact root beside it is found again in double.
-SurfacePoint hit_sphere(const Sphere& s, const Vec3& origin, const Vec3& direction, double distance, double error) {
-    const Vec3 f = origin - s.center;
-    const double middle = -glm::dot(f, direction);
-    const Vec3 nearest = f + direction * middle;
-    const double half = std::sqrt(std::max(s.radius * s.radius - glm::dot(nearest, nearest), 0.0));
-    return on_sphere(s, origin + direction * (distance < middle ? middle - half : middle + half), error);
-}
-
-SurfacePoint hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double error) {
-    const double t = glm::dot(d.normal, d.center - origin) / glm::dot(d.normal, direction);
-    return {origin + direction * t, d.normal, error, 0, 0};
-}
-
-}  // namespace
-
-std::optional<SurfacePoint> Geometry::first_hit(const Vec3& origin, const Vec3& direction, double distance) const {
-    const auto hit = embree_->caster->intersect(origin, direction, distance);
-    if (!hit) return std::nullopt;
-    SurfacePoint p;
-    const Shape& shape = shapes_[hit->shape];
-    if (std::holds_alternative<TriangleMesh>(shape))
-        p = on_triangle(embree_->triangles[hit->shape][hit->primitive], hit->u, hit->v);
-    else if (const auto* sphere = std::get_if<Sphere>(&shape))
-        p = hit_sphere(*sphere, origin, direction, hit->distance, embree_->error[hit->shape]);
+void Geometry::put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    if (!triangles_[hit.shape].empty())
+        put_on_triangle(triangles_[hit.shape][hit.primitive], hit.u, hit.v, p);
+    else if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
+        hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
     else
-        p = hit_disk(std::get<Disk>(shape), origin, direction, embree_->error[hit->shape]);
-    p.shape = hit->shape;
-    p.primitive = hit->primitive;
-    return p;
+        hit_disk(std::get<Disk>(shapes_[hit.shape]), origin, direction, error_[hit.shape], p);
+    p.shape = hit.shape;
+    p.primitive = hit.primitive;
 }
 
-std::optional<SurfacePoint> Geometry::first_hit(const SurfacePoint& from, const Vec3& direction) const {
-    return first_hit(leave(from, glm::dot(from.normal, direction)), direction);
+bool Geometry::first_hit(const Vec3& origin, const Vec3& direction, double distance, SurfacePoint& p) const {
+    RayCaster::Hit hit;
+    if (!caster_->intersect(origin, direction, distance, hit)) return false;
+    put_on_surface(origin, direction, hit, p);
+    return true;
 }
 
 bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
     const Vec3 d = y.position - x.position;
-    return !embree_->caster->occluded(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
+    return !caster_->occluded(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
 }
-
-const RayCaster& Geometry::caster() const { return *embree_->caster; }
 
 std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
     const auto* mesh = std::get_if<TriangleMesh>(&shapes_[shape]);
@@ -194,7 +179,7 @@ std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
 
 double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
     if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
-        const TriangleRecord& t = embree_->triangles[shape][primitive];
+        const TriangleRecord& t = triangles_[shape][primitive];
         return 0.5 * glm::length(glm::cross(t.edge1, t.edge2));
     }
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
@@ -212,13 +197,13 @@ SurfacePoint Geometry::point(std::uint32_t shape, std::uint32_t primitive, const
     SurfacePoint p;
     if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
         const Vec2 weights = uniform_triangle(uv);
-        p = on_triangle(embree_->triangles[shape][primitive], weights.x, weights.y);
+        put_on_triangle(triangles_[shape][primitive], weights.x, weights.y, p);
     } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
-        p = on_sphere(*sphere, sphere->center + uniform_sphere(uv), embree_->error[shape]);
+        put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
     } else {
         const Disk& disk = std::get<Disk>(shapes_[shape]);
-        const Vec2 d = concentric_disk(uv);
-        p = {disk.center + disk.u * d.x + disk.v * d.y, disk.normal, embree_->error[shape], 0, 0};
+        const Vec2 d = uniform_disk(uv);
+        p = {disk.center + disk.u * d.x + disk.v * d.y, disk.normal, error_[shape], 0, 0};
     }
     p.shape = shape;
     p.primitive = primitive;

@@ -67,45 +67,60 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o = static_cast<const Data*>(args->geometryUserPtr)->bounds;
 }
 
-// Embree calls these with packets of one ray, because only single rays are traced here.
 template <class Data>
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-    if (!args->valid[0]) return;
-    auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    const double t = static_cast<const Data*>(args->geometryUserPtr)->intersect(query.ray);
-    if (std::isnan(t)) return;
-    query.ray.tfar = static_cast<float>(t);
-    query.hit.geomID = args->geomID;
-    query.hit.primID = args->primID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    const unsigned N = args->N;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
+    for (unsigned i = 0; i < N; ++i) {
+        if (!args->valid[i]) continue;
+        const double t = static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(rays, N, i));
+        if (std::isnan(t)) continue;
+        RTCRayN_tfar(rays, N, i) = static_cast<float>(t);
+        RTCHitN_geomID(hits, N, i) = args->geomID;
+        RTCHitN_primID(hits, N, i) = args->primID;
+        RTCHitN_instID(hits, N, i, 0) = RTC_INVALID_GEOMETRY_ID;
+    }
 }
 
 template <class Data>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-    if (!args->valid[0]) return;
-    auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    if (!std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(ray))) ray.tfar = -infinity;
+    const unsigned N = args->N;
+    for (unsigned i = 0; i < N; ++i)
+        if (args->valid[i] && !std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(args->ray, N, i))))
+            RTCRayN_tfar(args->ray, N, i) = -infinity;
 }
 
-void intersect1(RTCScene scene, RTCRayHit& query) {
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene, &query, nullptr);
+void trace(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query, nullptr); }
+void trace(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
+void trace(const int* valid, RTCScene scene, RTCRayHit8& queries) { rtcIntersect8(valid, scene, &queries, nullptr); }
+void trace(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &rays, nullptr); }
 #else
+RTCIntersectContext make_context() {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    return context;
+}
+void trace(RTCScene scene, RTCRayHit& query) {
+    RTCIntersectContext context = make_context();
     rtcIntersect1(scene, &context, &query);
-#endif
 }
-
-void occluded1(RTCScene scene, RTCRay& ray) {
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded1(scene, &ray, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+void trace(RTCScene scene, RTCRay& ray) {
+    RTCIntersectContext context = make_context();
     rtcOccluded1(scene, &context, &ray);
-#endif
 }
+void trace(const int* valid, RTCScene scene, RTCRayHit8& queries) {
+    RTCIntersectContext context = make_context();
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &context, &queries);
+}
+void trace(const int* valid, RTCScene scene, RTCRay8& rays) {
+    RTCIntersectContext context = make_context();
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &context, &rays);
+}
+#endif
 
 void set_ray(RTCRay& ray, const Vec3& org, const Vec3& dir, float tfar) {
     ray.org_x = static_cast<float>(org.x);
@@ -120,6 +135,28 @@ void set_ray(RTCRay& ray, const Vec3& org, const Vec3& dir, float tfar) {
     ray.mask = ~0u;
     ray.flags = 0;
 }
+
+void set_ray(RTCRay8& rays, std::size_t i, const Vec3& org, const Vec3& dir, float tfar) {
+    rays.org_x[i] = static_cast<float>(org.x);
+    rays.org_y[i] = static_cast<float>(org.y);
+    rays.org_z[i] = static_cast<float>(org.z);
+    rays.dir_x[i] = static_cast<float>(dir.x);
+    rays.dir_y[i] = static_cast<float>(dir.y);
+    rays.dir_z[i] = static_cast<float>(dir.z);
+    rays.tnear[i] = 0.0f;
+    rays.tfar[i] = tfar;
+    rays.time[i] = 0.0f;
+    rays.mask[i] = ~0u;
+    rays.flags[i] = 0;
+}
+
+// Which of 8 places are taken by n rays.
+struct Valid {
+    explicit Valid(std::size_t n) {
+        for (std::size_t i = 0; i < 8; ++i) lanes[i] = i < n ? -1 : 0;
+    }
+    alignas(32) int lanes[8];
+};
 
 }  // namespace
 
@@ -210,22 +247,54 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, doubl
 
 RayCaster::~RayCaster() = default;
 
-std::optional<RayCaster::Hit> RayCaster::intersect(const Vec3& origin, const Vec3& direction, double distance) const {
+bool RayCaster::intersect(const Vec3& origin, const Vec3& direction, double distance, Hit& hit) const {
     RTCRayHit query;
     set_ray(query.ray, to_embree(origin), direction, static_cast<float>(distance * scale_));
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    intersect1(impl_->scene, query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / scale_};
+    trace(impl_->scene, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit = {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / scale_};
+    return true;
 }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     const Vec3 org = to_embree(from);
     RTCRay ray;
     set_ray(ray, org, to_embree(to) - org, 1.0f);
-    occluded1(impl_->scene, ray);
+    trace(impl_->scene, ray);
     return ray.tfar < 0.0f;
+}
+
+std::uint32_t RayCaster::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+    const Valid valid(rays.size());
+    RTCRayHit8 queries;
+    for (std::size_t i = 0; i < packet; ++i) {
+        if (i < rays.size()) set_ray(queries.ray, i, to_embree(rays[i].origin), rays[i].direction, static_cast<float>(rays[i].length * scale_));
+        queries.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        queries.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    trace(valid.lanes, impl_->scene, queries);
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (queries.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        found |= 1u << i;
+        hits[i] = {queries.hit.geomID[i], queries.hit.primID[i], queries.hit.u[i], queries.hit.v[i], queries.ray.tfar[i] / scale_};
+    }
+    return found;
+}
+
+std::uint32_t RayCaster::occluded(std::span<const Vec3> from, std::span<const Vec3> to) const {
+    const Valid valid(from.size());
+    RTCRay8 rays;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const Vec3 org = to_embree(from[i]);
+        set_ray(rays, i, org, to_embree(to[i]) - org, 1.0f);
+    }
+    trace(valid.lanes, impl_->scene, rays);
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) found |= static_cast<std::uint32_t>(rays.tfar[i] < 0.0f) << i;
+    return found;
 }
 
 RTCSceneTy* RayCaster::embree_scene() const { return impl_->scene; }

@@ -2,10 +2,11 @@
 // coordinates of about unit size. Spheres and discs are intersected in double, so they are as exact as the ray.
 #pragma once
 
+#include "core/geometry/ray.h"
 #include "core/geometry/shape.h"
 
 #include <memory>
-#include <optional>
+#include <span>
 
 struct RTCSceneTy;
 
@@ -23,10 +24,15 @@ public:
         float u, v;       // barycentric weights of the second and third vertex (triangles)
         double distance;  // in units of |direction|, scene units
     };
-    // The first thing hit by origin + t·direction, 0 < t < distance. Scene units.
-    std::optional<Hit> intersect(const Vec3& origin, const Vec3& direction, double distance) const;
+    // The first thing hit by origin + t·direction, 0 < t < distance, if any. Scene units.
+    bool intersect(const Vec3& origin, const Vec3& direction, double distance, Hit& hit) const;
     // Whether anything lies strictly between two points.
     bool occluded(const Vec3& from, const Vec3& to) const;
+
+    // The same for up to 8 rays at once, which is faster where they are alike; bit i of the answer belongs to ray i.
+    static constexpr std::size_t packet = 8;
+    std::uint32_t intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
+    std::uint32_t occluded(std::span<const Vec3> from, std::span<const Vec3> to) const;
 
     // For benchmarks that cast the same rays without anything around them.
     RTCSceneTy* embree_scene() const;

@@ -16,18 +16,23 @@ public:
         left_ = 0;
     }
     double next() {
-        if (left_ == 0) {
-            bits_ = random_(sample_, block_++);
-            left_ = 4;
-        }
+        if (left_ == 0) refill();
         return to_unit_interval(bits_[4 - left_--]);
     }
+    // A pair from one block: an odd number that is left over is dropped.
     Vec2 next2() {
-        const double x = next();
-        return {x, next()};
+        if (left_ < 2) refill();
+        const unsigned at = 4 - left_;
+        left_ -= 2;
+        return {to_unit_interval(bits_[at]), to_unit_interval(bits_[at + 1])};
     }
 
 private:
+    void refill() {
+        bits_ = random_(sample_, block_++);
+        left_ = 4;
+    }
+
     CounterBased random_;
     std::uint64_t sample_ = 0;
     std::uint32_t block_ = 0;

@@ -7,6 +7,7 @@
 #include "core/base/vec.h"
 #include "core/sampling/counter_based.h"
 
+#include <memory>
 #include <vector>
 
 namespace neumann {
@@ -27,16 +28,17 @@ private:
     std::vector<std::uint32_t> reversed_;
 };
 
+// Numbers of one sample of a pixel. Copies share the scrambles of their pixel, so they must be on the same replicate at any time.
 class SobolSampler {
 public:
     SobolSampler(const SobolPoints& points, std::uint64_t seed, std::uint32_t pixel)
-        : points_(points), random_(seed, pixel) {}
+        : points_(&points), random_(seed, pixel), scrambles_(std::make_shared<Scrambles>()) {}
 
     void start(std::uint64_t sample) {
-        const std::uint64_t replicate = sample / points_.size();
-        index_ = static_cast<std::uint32_t>(sample % points_.size());
-        if (replicate != replicate_) scrambles_known_ = 0;
-        replicate_ = replicate;
+        const std::uint64_t replicate = sample / points_->size();
+        index_ = static_cast<std::uint32_t>(sample % points_->size());
+        if (replicate != scrambles_->replicate) scrambles_->known = 0;
+        scrambles_->replicate = replicate;
         sample_ = sample;
         dimension_ = 0;
     }
@@ -44,8 +46,8 @@ public:
     double next() {
         const std::uint32_t d = dimension_++;
         if (d >= SobolPoints::dimensions) return beyond(d);
-        if (d >= scrambles_known_) learn_scrambles();
-        return to_unit_interval(scramble(points_.reversed(d, index_), scramble_[d]));
+        if (d >= scrambles_->known) learn_scrambles();
+        return to_unit_interval(scramble(points_->reversed(d, index_), scrambles_->seed[d]));
     }
     Vec2 next2() {
         const double x = next();
@@ -53,6 +55,11 @@ public:
     }
 
 private:
+    struct Scrambles {
+        std::uint64_t replicate = ~std::uint64_t{0};
+        std::uint32_t known = 0;  // dimensions
+        std::array<std::uint32_t, SobolPoints::dimensions> seed;
+    };
     static constexpr std::uint32_t no_scramble_block = 0x80000000u;  // keeps the two uses of the counter apart
 
     static std::uint32_t reverse(std::uint32_t x) {
@@ -72,8 +79,8 @@ private:
         return reverse(x);
     }
     void learn_scrambles() {
-        const auto bits = random_(replicate_, scrambles_known_ / 4);
-        for (const std::uint32_t b : bits) scramble_[scrambles_known_++] = b;
+        const auto bits = random_(scrambles_->replicate, scrambles_->known / 4);
+        for (const std::uint32_t b : bits) scrambles_->seed[scrambles_->known++] = b;
     }
     // Dimensions that the table does not have, deep in long walks: independent numbers.
     double beyond(std::uint32_t d) {
@@ -82,11 +89,10 @@ private:
         return to_unit_interval(bits_[lane]);
     }
 
-    const SobolPoints& points_;
+    const SobolPoints* points_;
     CounterBased random_;
-    std::array<std::uint32_t, SobolPoints::dimensions> scramble_;  // of the current replicate
-    std::uint32_t scrambles_known_ = 0;
-    std::uint64_t replicate_ = ~std::uint64_t{0}, sample_ = 0;
+    std::shared_ptr<Scrambles> scrambles_;
+    std::uint64_t sample_ = 0;
     std::uint32_t index_ = 0, dimension_ = 0;
     std::array<std::uint32_t, 4> bits_{};
 };

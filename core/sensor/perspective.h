@@ -1,9 +1,8 @@
 // The pinhole camera (Mitsuba's `perspective`) and its film.
 #pragma once
 
+#include "core/geometry/ray.h"
 #include "core/sensor/pixel_filter.h"
-
-#include <limits>
 
 namespace neumann {
 
@@ -14,11 +13,8 @@ struct Film {
     PixelFilter filter = GaussianFilter();
 };
 
-// A ray from the camera into the scene; `length` ends it at the far plane.
-struct CameraRay {
-    Vec3 origin, direction;  // direction: unit length
-    double length = std::numeric_limits<double>::infinity();
-};
+// From the camera into the scene; ends at the far plane.
+using CameraRay = Ray;
 
 class Perspective {
 public:

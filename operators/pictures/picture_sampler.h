@@ -56,9 +56,11 @@ public:
     const Settings& settings() const { return settings_; }
 
     // Replicates first … first + count − 1 of every pixel; count is a power of two that divides first. `watch` is told the pixels that
-    // are done as work goes on, from any thread, and drops the work by answering true.
+    // are done as work goes on, from any thread, and drops the work by answering true. `memory` is used for the node: fresh pages for every
+    // block would cost as much as the moments themselves.
     using Watch = std::function<bool(std::uint64_t pixels_done)>;
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {}) const;
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
+                                   std::vector<double> memory = {}) const;
 
 private:
     const Scene& scene_;

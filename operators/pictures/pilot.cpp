@@ -34,23 +34,28 @@ Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
     while (batches < largest_batches && all_rays < enough_rays) {
         std::vector<Batch> round(together);
         oneapi::tbb::parallel_for(std::uint64_t{0}, together, [&](std::uint64_t b) {
-            std::vector<Rgb> sampled(quantities);
-            TermSamples result{sampled, round[b].rays};
+            std::vector<CameraRay> camera_rays;
+            std::vector<IndependentSampler> samplers;
+            const Film& film = scene.film;
             for (std::uint64_t i = 0; i < batch; ++i) {
-                std::fill(sampled.begin(), sampled.end(), Rgb(0.0));
-                IndependentSampler sampler(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
+                IndependentSampler& sampler = samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
                 sampler.start(0);
                 const Vec2 u = sampler.next2();
-                const Film& film = scene.film;
-                const Vec2 position(film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height);
-                walk(scene, scene.geometry, settings, scene.camera.ray(position), sampler, result);
+                camera_rays.push_back(scene.camera.ray({film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height}));
+            }
+            std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
+            TermSamples result{sampled, round[b].rays};
+            Walkers walkers;
+            walk(scene, scene.geometry, settings, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
+            for (std::uint64_t i = 0; i < batch; ++i) {
+                const Rgb* terms = sampled.data() + i * quantities;
                 double sum = 0.0;
                 for (std::size_t q = quantities; q-- > 1;) {
-                    sum += mean_component(sampled[q]);
+                    sum += mean_component(terms[q]);
                     round[b].tail[q - 1] += sum;
                     round[b].square[q - 1] += sum * sum;
                 }
-                round[b].emitted += mean_component(sampled[0]);
+                round[b].emitted += mean_component(terms[0]);
             }
             round[b].given_up = result.given_up;
         });

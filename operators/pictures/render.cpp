@@ -59,6 +59,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         observer.progress(progress);
     };
 
+    std::vector<double> memory;
     for (std::uint64_t done = 0;;) {
         // Blocks of at most a sixteenth of what is done: few nodes are kept, and little is lost when one is dropped.
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
@@ -78,14 +79,14 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             return sampler.run(done, block, tally, [&](std::uint64_t pixels_done) {
                 report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
                 return done > 0 && observer.interrupted();
-            });
+            }, std::move(memory));
         };
         auto node = work();
         if (!node) {
             series.outcome = Outcome::interrupted;
             break;
         }
-        series.moments.add(std::move(*node));
+        memory = series.moments.add(std::move(*node));
         series.tally.merge(tally);
         done += block;
         series.samples = done * size;

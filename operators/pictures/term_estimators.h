@@ -1,4 +1,4 @@
-// The ways to sample all terms along a camera ray, behind one call: estimator(ray, sampler, result).
+// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result).
 #pragma once
 
 #include "operators/pointwise/emission.h"
@@ -17,8 +17,8 @@ public:
     WalkEstimator(const Scene& scene, const WalkSettings& settings) : scene_(&scene), settings_(settings) {}
 
     template <class Sampler>
-    void operator()(const CameraRay& ray, Sampler& sampler, TermSamples& result) const {
-        walk(*scene_, scene_->geometry, settings_, ray, sampler, result);
+    void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
+        walk(*scene_, scene_->geometry, settings_, rays, samplers, walkers, result);
     }
 
 private:
@@ -38,16 +38,21 @@ public:
     }
 
     template <class Sampler>
-    void operator()(const CameraRay& ray, Sampler& sampler, TermSamples& result) const {
+    void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
         struct FromSampler : Random {
             explicit FromSampler(Sampler& s) : sampler(s) {}
             double next() override { return sampler.next(); }
             Sampler& sampler;
-        } random(sampler);
-        for (std::size_t i = 0; i < terms_.size(); ++i) result.rays[i] += i + 1;
-        const auto seen = scene_->geometry.first_hit(ray.origin, ray.direction, ray.length);
-        if (!seen) return;
-        for (std::size_t i = 0; i < terms_.size(); ++i) result.quantities[i] += terms_[i](*seen, -ray.direction, random);
+        };
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            for (std::size_t k = 0; k < terms_.size(); ++k) result.rays[k] += k + 1;
+            const CameraRay& ray = rays[i];
+            SurfacePoint seen;
+            if (!scene_->geometry.first_hit(ray.origin, ray.direction, ray.length, seen)) continue;
+            FromSampler random(samplers[i]);
+            const auto quantities = result.quantities.subspan(i * (terms_.size() + 1), terms_.size());
+            for (std::size_t k = 0; k < terms_.size(); ++k) quantities[k] += terms_[k](seen, -ray.direction, random);
+        }
     }
 
 private:

@@ -15,8 +15,8 @@ public:
 
     IncidentField operator()(ExitantField f) const {
         return IncidentField([geometry = geometry_, f = std::move(f)](const SurfacePoint& p, const Vec3& w, Random& random) {
-            const auto seen = geometry->first_hit(p, w);
-            return seen ? f(*seen, -w, random) : Rgb(0.0);
+            SurfacePoint seen;
+            return geometry->first_hit(p, w, seen) ? f(seen, -w, random) : Rgb(0.0);
         });
     }
 

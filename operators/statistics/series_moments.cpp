@@ -51,18 +51,21 @@ std::uint64_t SeriesMoments::replicates() const {
     return count;
 }
 
-void SeriesMoments::add(MomentsNode node) {
+std::vector<double> SeriesMoments::add(MomentsNode node) {
     if (!nodes_.empty() && node.first != nodes_.back().first + nodes_.back().count)
         throw std::logic_error("SeriesMoments: replicates are not consecutive");
     nodes_.push_back(std::move(node));
+    std::vector<double> free;
     while (nodes_.size() >= 2) {
         MomentsNode& left = nodes_[nodes_.size() - 2];
         const MomentsNode& right = nodes_.back();
         if (left.count != right.count || left.first % (2 * left.count) != 0) break;
         merge_pictures(left.data, static_cast<double>(left.count), right.data, static_cast<double>(right.count), doubles_per_pixel());
         left.count *= 2;
+        free = std::move(nodes_.back().data);
         nodes_.pop_back();
     }
+    return free;
 }
 
 void SeriesMoments::add(const SeriesMoments& next) {

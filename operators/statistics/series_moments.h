@@ -35,8 +35,8 @@ class SeriesMoments {
 public:
     SeriesMoments(int width, int height, std::size_t quantities) : width_(width), height_(height), quantities_(quantities) {}
 
-    // `node` must start where the replicates so far end.
-    void add(MomentsNode node);
+    // `node` must start where the replicates so far end. Returns memory that is free again, if any, for the next node.
+    std::vector<double> add(MomentsNode node);
     // `next` must start where these replicates end.
     void add(const SeriesMoments& next);
 

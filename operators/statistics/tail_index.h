@@ -13,12 +13,14 @@ class LargestSamples {
 public:
     static constexpr std::size_t capacity = 1000;
 
+    // Zeros need not be added one by one: add_count() counts samples, add() looks at one.
     void add(double x) {
-        ++count_;
         if (x > threshold_) insert(x);
     }
-    void add_zeros(std::uint64_t n) { count_ += n; }
+    void add_count(std::uint64_t n) { count_ += n; }
     void merge(const LargestSamples& other);
+    // add() does nothing for values up to this.
+    double threshold() const { return threshold_; }
 
     std::uint64_t count() const { return count_; }
     // Largest first.

@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <vector>
 
 namespace neumann {
 
@@ -28,107 +30,178 @@ struct WalkSettings {
     int give_up = 1'000'000;
 };
 
-// One sample of every term. `quantities` has N + 2 entries: the terms 0 … N, and the rest.
+// Samples of every term, for several walks. `quantities`: for each walk N + 2 entries, the terms 0 … N and the rest.
 struct TermSamples {
-    std::span<Rgb> quantities;
-    std::span<std::uint64_t> rays;  // likewise: rays cast for each; added to
-    std::uint64_t given_up = 0;     // added to
+    std::span<Rgb> quantities;      // added to
+    std::span<std::uint64_t> rays;  // N + 2 entries: rays cast for each, by all walks; added to
+    std::uint64_t given_up = 0;     // walks; added to
 };
 
-// Samples all terms along one camera ray. `T` answers first_hit() and visible() as Geometry does.
-template <class Transport, class Sampler>
-void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, const CameraRay& ray, Sampler& sampler, TermSamples& out) {
-    const int N = settings.bounces;
-    const bool next_event = settings.direct != DirectLight::bsdf && !scene.emitters.empty();
-    const bool choose_light = scene.emitters.primitive_count() > 1;
-    const auto index = [N](int bounce) { return static_cast<std::size_t>(std::min(bounce, N + 1)); };
-
-    ++out.rays[0];
-    auto hit = T.first_hit(ray.origin, ray.direction, ray.length);
-    if (!hit) return;
-    SurfacePoint x = *hit;
-    Vec3 wo = -ray.direction;
-    Rgb beta(1.0);
+// A walk on its way: the camera's side of the path is done up to x, and weighs β.
+struct Walker {
+    SurfacePoint x;
+    Vec3 wo;                   // towards the vertex before
+    Rgb beta{1.0};
     double kept_weight = 0.0;  // largest channel of β when roulette last let the walk live
-    out.quantities[0] += scene.emitters.emitted(x, wo);
 
-    for (int bounce = 1;; ++bounce) {
+    // The next reflection.
+    Vec3 wi;
+    double pdf = 0.0;  // of wi, per solid angle
+    SurfacePoint light;
+    Rgb found;  // what arrives from `light` if it is seen
+};
+
+// Work space of walk(), kept between calls.
+struct Walkers {
+    std::vector<Walker> walker;       // one for each ray
+    std::vector<std::uint32_t> alive;  // those that go on, in order
+    std::vector<std::uint32_t> asking;  // of them, those that ask for their light
+};
+
+// Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so that the
+// processor always has several independent chains of arithmetic to work on. `T` answers first_hit(), visible() and their forms for
+// several rays as Geometry does; samplers[i] gives the numbers of walk i.
+template <class Transport, class Sampler>
+void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, std::span<const CameraRay> rays, std::span<Sampler> samplers,
+          Walkers& walkers, TermSamples& out) {
+    const int N = settings.bounces;
+    const std::size_t stride = static_cast<std::size_t>(N) + 2;
+    const Emitters& emitters = scene.emitters;
+    const bool next_event = settings.direct != DirectLight::bsdf && !emitters.empty();
+
+    auto& [walker, alive, asking] = walkers;
+    walker.resize(rays.size());
+    alive.resize(rays.size());
+    std::iota(alive.begin(), alive.end(), 0u);
+    // For each walk that goes on: goes on with those of which f is true.
+    const auto filter = [&](const auto& f) {
+        std::size_t kept = 0;
+        for (const std::uint32_t i : alive)
+            if (f(walker[i], i)) alive[kept++] = i;
+        alive.resize(kept);
+    };
+    const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x; };
+
+    // T: the first vertices.
+    out.rays[0] += rays.size();
+    constexpr std::size_t packet = RayCaster::packet;
+    std::uint32_t found = 0;
+    filter([&](Walker& w, std::uint32_t i) {
+        if (i % packet == 0)
+            found = T.first_hits(rays.subspan(i, std::min(packet, rays.size() - i)), [&](std::size_t k) -> SurfacePoint& { return walker[i + k].x; });
+        if (!(found >> i % packet & 1u)) return false;
+        w.wo = -rays[i].direction;
+        w.beta = Rgb(1.0);
+        add(i, 0, emitters.emitted(w.x, w.wo));
+        return true;
+    });
+
+    for (int bounce = 1; !alive.empty(); ++bounce) {
         const bool rest = bounce > N;
+        const std::size_t q = static_cast<std::size_t>(std::min(bounce, N + 1));
         if (rest) {
             if (settings.rest_probability == 0.0) return;
-            if (bounce == N + 1) {
-                if (settings.rest_probability < 1.0) {
-                    if (sampler.next() >= settings.rest_probability) return;
-                    beta /= settings.rest_probability;
-                }
-                kept_weight = max_component(beta);
-            } else if (bounce - N > settings.give_up) {
-                ++out.given_up;
+            if (bounce - N > settings.give_up) {
+                out.given_up += alive.size();
                 return;
             }
+            if (bounce == N + 1)
+                filter([&](Walker& w, std::uint32_t i) {
+                    if (settings.rest_probability < 1.0 && samplers[i].next() >= settings.rest_probability) return false;
+                    w.beta /= settings.rest_probability;
+                    w.kept_weight = max_component(w.beta);
+                    return true;
+                });
         }
-        const bool front = glm::dot(x.normal, wo) > 0.0;
-        const Bsdf* bsdf = scene.materials.at(x, front);
-        if (!bsdf) return;
-        const Frame frame(front ? x.normal : -x.normal);
-        const Vec3 wo_local = frame.to_local(wo);
 
-        if (next_event) {
-            const double choice = choose_light ? sampler.next() : 0.0;
-            const LightSample light = scene.emitters.sample(scene.geometry, choice, sampler.next2());
-            const Vec3 d = light.point.position - x.position;
-            const double distance2 = glm::dot(d, d);
-            const Vec3 wi = d / std::sqrt(distance2);
-            const Vec3 wi_local = frame.to_local(wi);
-            const double cos_light = -glm::dot(light.point.normal, wi);
-            if (cos_light > 0.0 && distance2 > 0.0) {
-                const Rgb f = eval(*bsdf, x, wo_local, wi_local);
-                if (!is_black(f)) {
-                    // Densities per solid angle at x.
-                    const double pdf_light = light.pdf_area * distance2 / cos_light;
-                    const double pdf_other = settings.direct == DirectLight::mis ? pdf(*bsdf, x, wo_local, wi_local) : 0.0;
-                    const Rgb found = beta * f * scene.emitters.emitted(light.point, -wi) * (std::abs(wi_local.z) / (pdf_light + pdf_other));
-                    if (!is_black(found)) {
-                        ++out.rays[index(bounce)];
-                        if (T.visible(x, light.point)) out.quantities[index(bounce)] += found;
-                    }
+        // R: a direction for the next reflection, and a light.
+        filter([&](Walker& w, std::uint32_t i) {
+            const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
+            const Bsdf* bsdf = scene.materials.at(w.x, front);
+            if (!bsdf) return false;
+            const Frame frame(front ? w.x.normal : -w.x.normal);
+            const Vec3 wo = frame.to_local(w.wo);
+            Sampler& sampler = samplers[i];
+            w.found = Rgb(0.0);
+            if (next_event) {
+                const LightSample light = emitters.sample(scene.geometry, sampler.next2());
+                const Vec3 d = light.point.position - w.x.position;
+                const double distance2 = glm::dot(d, d);
+                const Vec3 towards = d * (1.0 / std::sqrt(distance2));
+                const double cos_light = -glm::dot(light.point.normal, towards);
+                if (cos_light > 0.0) {
+                    const Vec3 wi = frame.to_local(towards);
+                    // Densities per area at the light.
+                    const double angle_per_area = cos_light / distance2;
+                    const double pdf_other = settings.direct == DirectLight::mis ? pdf(*bsdf, w.x, wo, wi) * angle_per_area : 0.0;
+                    w.found = w.beta * eval(*bsdf, w.x, wo, wi) * emitters.emitted(light.point, -towards) *
+                              (std::abs(wi.z) * angle_per_area / (light.pdf_area + pdf_other));
+                    w.light = light.point;
                 }
             }
+            const BsdfSample sampled = sample(*bsdf, w.x, wo, sampler.next2());
+            w.beta *= sampled.weight;
+            w.pdf = sampled.pdf;
+            w.wi = frame.to_world(sampled.wi);
+            return true;
+        });
+
+        // T: the light is seen or not. The first reflections of a pixel's walks are close together.
+        asking.clear();
+        for (const std::uint32_t i : alive)
+            if (!is_black(walker[i].found)) asking.push_back(i);
+        out.rays[q] += asking.size();
+        if (bounce == 1) {
+            for (std::size_t k = 0; k < asking.size(); k += packet) {
+                const std::size_t n = std::min(packet, asking.size() - k);
+                const std::uint32_t seen = T.visible(n, [&](std::size_t j) {
+                    const Walker& w = walker[asking[k + j]];
+                    return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, w.light);
+                });
+                for (std::size_t j = 0; j < n; ++j)
+                    if (seen >> j & 1u) add(asking[k + j], q, walker[asking[k + j]].found);
+            }
+        } else {
+            for (const std::uint32_t i : asking)
+                if (T.visible(walker[i].x, walker[i].light)) add(i, q, walker[i].found);
         }
 
-        const BsdfSample sampled = sample(*bsdf, x, wo_local, sampler.next2());
-        beta *= sampled.weight;
-        if (sampled.pdf == 0.0 || is_black(beta)) return;
-        // Roulette with the ratio of the throughput: weights stay as they are, so the variance stays finite wherever Σ β² does.
-        if (rest) {
-            const double survival = max_component(beta) / kept_weight;
-            if (survival < 1.0) {
-                if (sampler.next() >= survival) return;
-                beta /= survival;
-            }
-            kept_weight = max_component(beta);
-        }
-        // The ray is wanted for this bounce's light, for a further bounce, or for the rest.
+        // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
         if (settings.direct == DirectLight::light && bounce == N && settings.rest_probability == 0.0) return;
-
-        const Vec3 wi = frame.to_world(sampled.wi);
-        ++out.rays[index(bounce)];
-        hit = T.first_hit(x, wi);
-        if (!hit) return;
-        if (settings.direct != DirectLight::light && scene.emitters.is_emitter(*hit)) {
-            const Rgb emitted = scene.emitters.emitted(*hit, -wi);
-            if (!is_black(emitted)) {
-                double weight = 1.0;
-                if (settings.direct == DirectLight::mis) {
-                    const Vec3 d = hit->position - x.position;
-                    const double pdf_light = scene.emitters.pdf_area(*hit) * glm::dot(d, d) / -glm::dot(hit->normal, wi);
-                    weight = sampled.pdf / (sampled.pdf + pdf_light);
+        filter([&](Walker& w, std::uint32_t i) {
+            if (w.pdf == 0.0 || is_black(w.beta)) return false;
+            // Roulette with the ratio of the throughput: weights stay as they are, so the variance stays finite wherever Σ β² does.
+            if (rest) {
+                const double survival = max_component(w.beta) / w.kept_weight;
+                if (survival < 1.0) {
+                    if (samplers[i].next() >= survival) return false;
+                    w.beta /= survival;
                 }
-                out.quantities[index(bounce)] += beta * emitted * weight;
+                w.kept_weight = max_component(w.beta);
             }
-        }
-        x = *hit;
-        wo = -wi;
+            return true;
+        });
+
+        // T: the next vertices.
+        out.rays[q] += alive.size();
+        filter([&](Walker& w, std::uint32_t i) {
+            const Vec3 from = w.x.position;
+            if (!T.first_hit(w.x, w.wi, w.x)) return false;
+            w.wo = -w.wi;
+            if (settings.direct != DirectLight::light && emitters.is_emitter(w.x)) {
+                const Rgb emitted = emitters.emitted(w.x, w.wo);
+                if (!is_black(emitted)) {
+                    double weight = 1.0;
+                    if (settings.direct == DirectLight::mis) {
+                        const Vec3 d = w.x.position - from;
+                        const double pdf_light = emitters.pdf_area(w.x) * glm::dot(d, d) / glm::dot(w.x.normal, w.wo);
+                        weight = w.pdf / (w.pdf + pdf_light);
+                    }
+                    add(i, q, w.beta * emitted * weight);
+                }
+            }
+            return true;
+        });
     }
 }
 

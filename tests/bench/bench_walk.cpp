@@ -41,22 +41,25 @@ struct Setup {
     void record(const MakeSampler& make) {
         struct Counting {
             decltype(make(0u)) sampler;
-            std::uint64_t& count;
-            double next() { return ++count, sampler.next(); }
-            Vec2 next2() { return count += 2, sampler.next2(); }
+            std::uint64_t* count;
+            double next() { return ++*count, sampler.next(); }
+            Vec2 next2() { return *count += 2, sampler.next2(); }
         };
-        std::vector<Rgb> sample(10);
+        const std::size_t size = settings.replicate_size;
+        std::vector<Rgb> samples(10 * size);
         std::vector<std::uint64_t> counts(10);
-        TermSamples result{sample, counts};
+        TermSamples result{samples, counts};
+        Walkers walkers;
+        std::vector<CameraRay> camera_rays(size);
         const Film& film = scene.film;
         for (std::uint32_t pixel = 0; pixel < static_cast<std::uint32_t>(film.width * film.height); ++pixel) {
-            Counting sampler{make(pixel), numbers};
-            for (std::uint64_t i = 0; i < settings.replicate_size; ++i) {
-                sampler.sampler.start(i);
+            std::vector<Counting> samplers(size, Counting{make(pixel), &numbers});
+            for (std::size_t i = 0; i < size; ++i) {
+                samplers[i].sampler.start(i);
                 const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
-                const Vec2 position = neumann::sample(film.filter, sampler.next2(), x, y, film.width, film.height);
-                walk(scene, rays, settings.walk, scene.camera.ray(position), sampler, result);
+                camera_rays[i] = scene.camera.ray(neumann::sample(film.filter, samplers[i].next2(), x, y, film.width, film.height));
             }
+            walk(scene, rays, settings.walk, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
         }
     }
 };
@@ -88,9 +91,10 @@ void geometry(benchmark::State& state, const Setup& setup) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 const GeometryQuery& q = setup.rays.queries[i];
                 const Geometry& T = setup.scene.geometry;
+                SurfacePoint hit;
                 switch (q.kind) {
-                    case GeometryQuery::Kind::camera: benchmark::DoNotOptimize(T.first_hit(q.from.position, q.direction, q.length)); break;
-                    case GeometryQuery::Kind::surface: benchmark::DoNotOptimize(T.first_hit(q.from, q.direction)); break;
+                    case GeometryQuery::Kind::camera: benchmark::DoNotOptimize(T.first_hit(q.from.position, q.direction, q.length, hit)); break;
+                    case GeometryQuery::Kind::surface: benchmark::DoNotOptimize(T.first_hit(q.from, q.direction, hit)); break;
                     case GeometryQuery::Kind::visibility: benchmark::DoNotOptimize(T.visible(q.from, q.to)); break;
                 }
             }
@@ -121,9 +125,10 @@ void numbers(benchmark::State& state, const Setup& setup) {
 void whole_walk(benchmark::State& state, const Setup& setup) {
     const auto control = limit(state);
     const PictureSampler sampler(setup.scene, setup.settings);
+    std::vector<double> memory;
     for (auto _ : state) {
         Tally tally(sampler.quantities());
-        benchmark::DoNotOptimize(sampler.run(0, 1, tally));
+        memory = std::move(sampler.run(0, 1, tally, {}, std::move(memory))->data);
     }
     finish(state, setup);
 }
@@ -147,7 +152,12 @@ public:
 }  // namespace
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
+    // Interleaved, so that a machine whose speed drifts slows all parts alike.
+    std::vector<char*> arguments(argv, argv + argc);
+    char interleave[] = "--benchmark_enable_random_interleaving=true";
+    arguments.insert(arguments.begin() + 1, interleave);
+    int count = static_cast<int>(arguments.size());
+    benchmark::Initialize(&count, arguments.data());
     std::vector<std::unique_ptr<Setup>> setups;
     setups.push_back(std::make_unique<Setup>("cornell-box, independent", cornell_box(), SamplerKind::independent));
     setups.push_back(std::make_unique<Setup>("cornell-box, sobol", cornell_box(), SamplerKind::sobol));
@@ -159,12 +169,12 @@ int main(int argc, char** argv) {
         for (const char* part : {"bare", "geometry", "numbers", "walk"})
             benchmark::RegisterBenchmark((setup->name + ": " + part).c_str(),
                                          [f = parts.at(part), s = setup.get()](benchmark::State& state) { f(state, *s); })
-                ->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)->Repetitions(5)->ReportAggregatesOnly(false);
+                ->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)->Repetitions(9)->MinTime(0.01);
     Collector collector;
     benchmark::RunSpecifiedBenchmarks(&collector);
 
     fmt::print("\n{}, robust scene; compiled with {}\n", embree_version(), NEUMANN_CXX_FLAGS);
-    fmt::print("Walk: bounces 0..8, multiple importance sampling, no rest. Best of 5, million rays a second; shares of the walk's time.\n\n");
+    fmt::print("Walk: bounces 0..8, multiple importance sampling, no rest. Best of 9, million rays a second; shares of the walk's time.\n\n");
     fmt::print("{:<34} {:>7} {:>8} {:>8} {:>10} | {:>6} {:>9} {:>8} {:>8}\n", "scene, numbers", "threads", "bare", "walk", "walk/bare", "bare",
                "+geometry", "numbers", "shading");
     for (const auto& setup : setups)

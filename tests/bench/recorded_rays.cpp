@@ -21,26 +21,29 @@ void RecordingTransport::record(const Vec3& origin, const Vec3& direction, doubl
     bare.push_back(ray);
 }
 
-std::optional<SurfacePoint> RecordingTransport::first_hit(const Vec3& origin, const Vec3& direction, double length) const {
+void RecordingTransport::record_camera(const Ray& ray) const {
     const RayCaster& caster = geometry_.caster();
-    record(caster.to_embree(origin), direction, length * caster.scale(), false);
-    queries.push_back({{origin, direction}, {}, direction, length, GeometryQuery::Kind::camera});
-    return geometry_.first_hit(origin, direction, length);
+    record(caster.to_embree(ray.origin), ray.direction, ray.length * caster.scale(), false);
+    queries.push_back({{ray.origin, ray.direction}, {}, ray.direction, ray.length, GeometryQuery::Kind::camera});
 }
 
-std::optional<SurfacePoint> RecordingTransport::first_hit(const SurfacePoint& from, const Vec3& direction) const {
+bool RecordingTransport::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
     record(geometry_.caster().to_embree(Geometry::leave(from, glm::dot(from.normal, direction))), direction,
            std::numeric_limits<double>::infinity(), false);
     queries.push_back({from, {}, direction, 0.0, GeometryQuery::Kind::surface});
-    return geometry_.first_hit(from, direction);
+    return geometry_.first_hit(from, direction, hit);
 }
 
-bool RecordingTransport::visible(const SurfacePoint& x, const SurfacePoint& y) const {
+void RecordingTransport::record_visibility(const SurfacePoint& x, const SurfacePoint& y) const {
     const RayCaster& caster = geometry_.caster();
     const Vec3 d = y.position - x.position;
     const Vec3 from = caster.to_embree(Geometry::leave(x, glm::dot(x.normal, d)));
     record(from, caster.to_embree(Geometry::leave(y, -glm::dot(y.normal, d))) - from, 1.0, true);
     queries.push_back({x, y, d, 0.0, GeometryQuery::Kind::visibility});
+}
+
+bool RecordingTransport::visible(const SurfacePoint& x, const SurfacePoint& y) const {
+    record_visibility(x, y);
     return geometry_.visible(x, y);
 }
 

@@ -26,14 +26,25 @@ class RecordingTransport {
 public:
     explicit RecordingTransport(const Geometry& geometry) : geometry_(geometry) {}
 
-    std::optional<SurfacePoint> first_hit(const Vec3& origin, const Vec3& direction, double length) const;
-    std::optional<SurfacePoint> first_hit(const SurfacePoint& from, const Vec3& direction) const;
+    bool first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const;
+    template <class HitAt>
+    std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
+        for (const Ray& ray : rays) record_camera(ray);
+        return geometry_.first_hits(rays, hit);
+    }
+    template <class PairAt>
+    std::uint32_t visible(std::size_t n, const PairAt& pair) const {
+        for (std::size_t i = 0; i < n; ++i) record_visibility(pair(i).first, pair(i).second);
+        return geometry_.visible(n, pair);
+    }
 
     mutable std::vector<BareRay> bare;
     mutable std::vector<GeometryQuery> queries;
 
 private:
+    void record_camera(const Ray& ray) const;
+    void record_visibility(const SurfacePoint& x, const SurfacePoint& y) const;
     void record(const Vec3& origin, const Vec3& direction, double length, bool any_hit) const;
     const Geometry& geometry_;
 };

@@ -14,7 +14,7 @@ protected:
 };
 
 TEST_F(BadInputFullDisk, ANewFolderIsNotLeft) {
-    const Finished done = render_into_little_space("new/folder", 1000);
+    const Finished done = render_into_little_space("new/folder", 600);
     EXPECT_EQ(done.exit_code, 1);
     EXPECT_EQ(done.err, "neumann: new/folder/bounce_000.exr: cannot be written: File too large\n");
     EXPECT_EQ(done.out, "");
@@ -25,7 +25,7 @@ TEST_F(BadInputFullDisk, ANewFolderIsNotLeft) {
 TEST_F(BadInputFullDisk, AnEarlierSetIsUntouched) {
     render("scene.xml", "a", {"-n", "2", "--spp", "1", "--quiet"});
     const auto before = contents("a");
-    for (const rlim_t largest_file : {1, 30'000}) {
+    for (const rlim_t largest_file : {600, 12'000}) {
         const Finished done = render_into_little_space("a", largest_file);
         EXPECT_EQ(done.exit_code, 1);
         EXPECT_TRUE(done.err.starts_with("neumann: a/")) << done.err;

@@ -1,5 +1,5 @@
-// Options that are wrong: stderr names the option and what is wrong with it, exit code 2, and nothing is left behind. The words of most
-// of these messages are CLI11's and differ between its versions; what is compared whole is the program's own.
+// Options that are wrong: stderr names the option and what is wrong with it, exit code 2, and nothing is left behind. The words of
+// most of these messages are CLI11's and differ between its versions; what is compared whole is the program's own.
 #include "tests/commands/render_output.h"
 
 namespace neumann {
@@ -12,7 +12,6 @@ protected:
     std::string refusal(std::vector<std::string> options) const {
         options.insert(options.begin(), {"render", "scene.xml", "-o", "new/folder"});
         const Names before = names();
-        // What is accepted by mistake ends soon.
         const Finished done = run(options);
         EXPECT_EQ(done.exit_code, 2) << testing::PrintToString(options);
         EXPECT_EQ(done.out, "");
@@ -46,7 +45,6 @@ TEST_F(BadInputOptions, RealNumbers) {
 
 // A goal that no number reaches would never end.
 TEST_F(BadInputOptions, NotANumber) {
-    const std::vector<std::string> others{"--spp", "1", "-n", "0"};
     for (const char* option : {"--time", "--error", "--tail"}) {
         std::vector<std::string> options{option, "nan", "--spp", "1"};
         const std::string message = refusal(options);

@@ -19,7 +19,8 @@ protected:
     }
     // Of a scene with a body that begins on line 2.
     std::string refusal_of(const std::string& body) const {
-        write("scene.xml", "<scene version=\"3.0.0\">\n" + body + "\n<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>\n");
+        write("scene.xml", "<scene version=\"3.0.0\">\n" + body +
+                               "\n<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>\n");
         return refusal("scene.xml");
     }
     static std::string mesh(const std::string& type, const std::string& file) {
@@ -30,7 +31,7 @@ protected:
 TEST_F(BadInputScene, Files) {
     EXPECT_EQ(refusal("nowhere.xml"), "nowhere.xml: there is no such file\n");
     EXPECT_EQ(refusal("."), ".: is a folder, expected a scene file\n");
-    EXPECT_EQ(refusal_of("<shape type=\"cube\">"), "scene.xml:3:61: broken XML: Start-end tags mismatch\n");
+    EXPECT_EQ(refusal_of("<shape type=\"cube\">"), "scene.xml:3:69: broken XML: Start-end tags mismatch\n");
     write("empty.xml", "");
     EXPECT_EQ(refusal("empty.xml"), "empty.xml:1:1: broken XML: No document element found\n");
 }
@@ -50,13 +51,14 @@ TEST_F(BadInputScene, Parameters) {
 }
 
 TEST_F(BadInputScene, Meshes) {
-    EXPECT_EQ(refusal_of(mesh("obj", "none.obj")), "scene.xml:2:44: there is no file 'none.obj'; looked in: .\n");
+    EXPECT_EQ(refusal_of(mesh("obj", "none.obj")), "scene.xml:2:43: there is no file 'none.obj'; looked in: .\n");
     write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_EQ(refusal_of(mesh("obj", "nan.obj")), "nan.obj:2:5: vertex coordinate is not finite\n");
     write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     EXPECT_EQ(refusal_of(mesh("obj", "range.obj")), "range.obj:4:7: vertex index 4 is out of range, the file has 3 vertices\n");
-    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     write("nan.ply", head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
     EXPECT_EQ(refusal_of(mesh("ply", "nan.ply")), "nan.ply:11:3: vertex coordinate is not finite\n");
     write("range.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n");
@@ -74,9 +76,9 @@ TEST_F(BadInputScene, CoordinatesThatOverflow) {
 
 TEST_F(BadInputScene, Films) {
     write("scene.xml", plates());
-    EXPECT_EQ(refusal("scene.xml", {"-D", "height=0"}), "scene.xml:6:108: film height is 0, expected at least 1\n");
-    EXPECT_EQ(refusal("scene.xml", {"-D", "width=-3"}), "scene.xml:6:60: film width is -3, expected at least 1\n");
-    EXPECT_EQ(refusal("scene.xml", {"-D", "width=wide"}), "scene.xml:6:60: 'wide' is not an integer\n");
+    EXPECT_EQ(refusal("scene.xml", {"-D", "height=0"}), "scene.xml:6:85: film height is 0, expected at least 1\n");
+    EXPECT_EQ(refusal("scene.xml", {"-D", "width=-3"}), "scene.xml:6:46: film width is -3, expected at least 1\n");
+    EXPECT_EQ(refusal("scene.xml", {"-D", "width=wide"}), "scene.xml:6:46: 'wide' is not an integer\n");
 }
 
 TEST_F(BadInputScene, Definitions) {

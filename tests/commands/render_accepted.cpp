@@ -33,8 +33,9 @@ protected:
 TEST_F(RenderAccepted, DegenerateTriangles) {
     // A point, a segment, three points on a line, and one good triangle; and a PLY that has nothing but the line.
     write("some.obj", "v 0 0 0.5\nv 1 0 0.5\nv 0.5 0 0.5\nv 0 1 0.5\nf 1 1 1\nf 1 2 2\nf 1 3 2\nf 1 2 4\n");
-    write("line.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                      "property list uchar int vertex_indices\nend_header\n0 0 .7\n1 1 .7\n2 2 .7\n3 0 1 2\n");
+    write("line.ply",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+          "property list uchar int vertex_indices\nend_header\n0 0 .7\n1 1 .7\n2 2 .7\n3 0 1 2\n");
     expect_warning(with("<shape type=\"obj\"><string name=\"filename\" value=\"some.obj\"/></shape>"
                         "<shape type=\"ply\"><string name=\"filename\" value=\"line.ply\"/></shape>"),
                    {{"degenerate triangle or shape without extent left out", 4}});
@@ -43,8 +44,9 @@ TEST_F(RenderAccepted, DegenerateTriangles) {
 
 TEST_F(RenderAccepted, ALightOfZeroArea) {
     write("line.obj", "v 0 0 2\nv 1 1 2\nv 2 2 2\nf 1 2 3\n");
-    const std::string light = "<shape type=\"obj\"><string name=\"filename\" value=\"line.obj\"/>"
-                              "<emitter type=\"area\"><rgb name=\"radiance\" value=\"100\"/></emitter></shape>";
+    const std::string light =
+        "<shape type=\"obj\"><string name=\"filename\" value=\"line.obj\"/>"
+        "<emitter type=\"area\"><rgb name=\"radiance\" value=\"100\"/></emitter></shape>";
     const std::map<std::string, int> two{{"degenerate triangle or shape without extent left out", 1},
                                          {"light without area gives off nothing", 1}};
     // Beside another light it changes nothing.
@@ -56,11 +58,12 @@ TEST_F(RenderAccepted, ALightOfZeroArea) {
 
 TEST_F(RenderAccepted, NoLightButOneOfZeroArea) {
     write("line.obj", "v 0 0 2\nv 1 1 2\nv 2 2 2\nf 1 2 3\n");
-    expect_warning(without_shapes("<shape type=\"rectangle\"><ref id=\"grey\"/></shape><shape type=\"obj\"><string name=\"filename\" "
-                                  "value=\"line.obj\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>"),
-                   {{"degenerate triangle or shape without extent left out", 1},
-                    {"light without area gives off nothing", 1},
-                    {"the scene has no light", 1}});
+    expect_warning(
+        without_shapes("<shape type=\"rectangle\"><ref id=\"grey\"/></shape><shape type=\"obj\"><string name=\"filename\" "
+                       "value=\"line.obj\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>"),
+        {{"degenerate triangle or shape without extent left out", 1},
+         {"light without area gives off nothing", 1},
+         {"the scene has no light", 1}});
     for (int i = 0; i <= 2; ++i) EXPECT_EQ(mean(i), 0.0);
 }
 
@@ -85,16 +88,15 @@ TEST_F(RenderAccepted, NothingToSeeEndsAtOnce) {
 }
 
 TEST_F(RenderAccepted, ACameraInsideAClosedSurface) {
-    for (const char* shape : {"sphere", "cube"})
-        for (const char* flipped : {"true", "false"}) {
-            const std::string body = fmt::format(
-                "<shape type=\"{}\"><transform name=\"to_world\"><scale value=\"9\"/></transform><boolean name=\"flip_normals\" "
-                "value=\"{}\"/><ref id=\"grey\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>",
-                shape, flipped);
-            expect_warning(without_shapes(body), {});
-            // Its inside shines where the normals point inwards.
-            EXPECT_EQ(mean(0), std::string(flipped) == "true" ? 1.0 : 0.0);
-        }
+    for (const auto& [shape, flipped] : {std::pair{"sphere", "true"}, {"cube", "true"}, {"cube", "false"}}) {
+        const std::string body = fmt::format(
+            "<shape type=\"{}\"><transform name=\"to_world\"><scale value=\"9\"/></transform><boolean name=\"flip_normals\" "
+            "value=\"{}\"/><ref id=\"grey\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>",
+            shape, flipped);
+        expect_warning(without_shapes(body), {});
+        // Its inside shines where the normals point inwards.
+        EXPECT_EQ(mean(0), std::string(flipped) == "true" ? 1.0 : 0.0);
+    }
 }
 
 }  // namespace

@@ -7,16 +7,17 @@ namespace neumann {
 namespace {
 
 class RenderGoals : public RenderTest {};
+class RenderGoalsSlow : public RenderTest {};
 
 TEST_F(RenderGoals, ErrorHoldsForEveryBounceThatIsNotZero) {
     write("scene.xml", plates());
     // The camera looks at the floor alone, so bounce 0 is zero everywhere and must not keep the render from ending.
     std::string below = plates();
-    below.replace(below.find("3, -2, 2"), 8, "1, -1, .5");
-    below.replace(below.find("0, 0, 0.4"), 9, "1, -.9, 0");
+    below.replace(below.find("3, -0.2, 0.35"), 13, "1, -1, .5");
+    below.replace(below.find("0, 0, 0.5"), 9, "1, -.9, 0");
     write("below.xml", below);
     for (const std::string scene : {"scene", "below"}) {
-        render(scene + ".xml", scene, {"-n", "3", "--error", "0.1", "--quiet"});
+        render(scene + ".xml", scene, {"-n", "3", "--error", "0.3", "--quiet"});
         const nlohmann::json run = run_json(scene);
         EXPECT_EQ(run.at("samples").at("outcome"), "error reached");
         EXPECT_TRUE(std::has_single_bit(run.at("samples").at("per_pixel").get<std::uint64_t>()));
@@ -25,18 +26,23 @@ TEST_F(RenderGoals, ErrorHoldsForEveryBounceThatIsNotZero) {
         double largest_before = 0.0;
         for (int i = 0; i <= 3; ++i) {
             const std::string column = fmt::format("relative_stderr_{:03}", i);
-            EXPECT_LE(convergence.last(column), 0.1) << column;
+            EXPECT_LE(convergence.last(column), 0.3) << column;
             largest_before = std::max(largest_before, convergence.number(convergence.size() - 2, column));
             // √(Σ SE² / Σ mean²), from the picture.
             const Estimate e = picture(scene, numbered("bounce", i));
             double errors = 0.0, means = 0.0;
             for (const Rgb& p : e.standard_error.pixels) errors += glm::dot(p, p);
             for (const Rgb& p : e.mean.pixels) means += glm::dot(p, p);
-            if (scene == "below" && i == 0) EXPECT_EQ(means, 0.0);
-            else EXPECT_NEAR(convergence.last(column), std::sqrt(errors / means), 1e-4 * convergence.last(column));
+            if (scene == "below" && i == 0) {
+                EXPECT_EQ(means, 0.0);
+            } else {
+                EXPECT_NEAR(convergence.last(column), std::sqrt(errors / means), 1e-4 * convergence.last(column));
+            }
         }
         // It did not go on for longer than that; below 32 samples no error is believed.
-        if (convergence.last("samples") > 32.0) EXPECT_GT(largest_before, 0.1);
+        if (convergence.last("samples") > 32.0) {
+            EXPECT_GT(largest_before, 0.3);
+        }
     }
 }
 
@@ -80,7 +86,7 @@ TEST_F(RenderGoals, TheScenesOwnBounces) {
     EXPECT_EQ(names("b"), output_names(1));
 }
 
-TEST_F(RenderGoals, WithoutOptionsAGoodPictureInWellUnderAMinute) {
+TEST_F(RenderGoalsSlow, WithoutOptionsAGoodPictureInWellUnderAMinute) {
     write("scene.xml", plates("width=\"32\" height=\"32\""));
     const auto start = std::chrono::steady_clock::now();
     const Finished done = run({"render", "scene.xml"});
@@ -89,8 +95,11 @@ TEST_F(RenderGoals, WithoutOptionsAGoodPictureInWellUnderAMinute) {
     const nlohmann::json run = run_json("out/scene");
     EXPECT_LE(run.at("timing").at("sampling_seconds").get<double>(), 25.0);
     const Table convergence(path("out/scene/convergence.csv"));
-    if (run.at("samples").at("outcome") == "error reached") EXPECT_LE(convergence.last("relative_stderr_001"), 0.02);
-    else EXPECT_EQ(run.at("samples").at("outcome"), "time reached");
+    if (run.at("samples").at("outcome") == "error reached") {
+        EXPECT_LE(convergence.last("relative_stderr_001"), 0.02);
+    } else {
+        EXPECT_EQ(run.at("samples").at("outcome"), "time reached");
+    }
     EXPECT_LE(run.at("rest").at("fraction_of_sum_with_interval").get<double>(), 0.015);
     expect_complete("out/scene");
 }

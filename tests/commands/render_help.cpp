@@ -30,8 +30,8 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o", "-n", "--tail", "--spp", "--time", "--error", "--method", "--direct",
-                                                    "--reference", "--seed", "-t", "-D", "--quiet", "--json"}));
+    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o", "-n", "--tail", "--spp", "--time", "--error", "--method",
+                                                    "--direct", "--reference", "--seed", "-t", "-D", "--quiet", "--json"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -47,7 +47,8 @@ TEST_F(RenderHelp, TheCommands) {
     const std::string help = printed({"--help"});
     EXPECT_EQ(help.substr(0, help.find('\n')),
               "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
-    for (const char* command : {"\n  render ", "\n  compare ", "\n  help "}) EXPECT_NE(help.find(command), std::string::npos) << help;
+    for (const char* command : {"\n  render ", "\n  compare ", "\n  help "})
+        EXPECT_NE(help.find(command), std::string::npos) << help;
     EXPECT_EQ(printed({"help"}), help);
 }
 

@@ -18,7 +18,8 @@ protected:
     void expect_agreement(const std::string& a, const std::string& b, double visible) const {
         for (int i = 0; i <= N; ++i)
             for (int c = 0; c < 3; ++c) {
-                const ChannelMean x = channel_mean(picture(a, numbered("bounce", i)), c), y = channel_mean(picture(b, numbered("bounce", i)), c);
+                const ChannelMean x = channel_mean(picture(a, numbered("bounce", i)), c),
+                                  y = channel_mean(picture(b, numbered("bounce", i)), c);
                 const double error = std::hypot(x.standard_error, y.standard_error);
                 EXPECT_LE(std::abs(x.mean - y.mean), limit * error) << a << " and " << b << ", bounce " << i << ", channel " << c;
                 EXPECT_LE(error, visible * y.mean) << "what this test can see";
@@ -30,7 +31,7 @@ protected:
 TEST_F(RenderMethods, PointwiseAndWalk) {
     render_plates("pointwise", {"--method", "pointwise", "--spp", "512", "--seed", "1"});
     render_plates("walk", {"--method", "walk", "--spp", "512", "--seed", "2"});
-    expect_agreement("pointwise", "walk", 0.01);
+    expect_agreement("pointwise", "walk", 0.04);
     EXPECT_EQ(names("pointwise"), output_names(N, false));
     EXPECT_EQ(run_json("pointwise").at("rest").at("verdict"), "not sampled by this method");
     EXPECT_EQ(run_json("pointwise").at("options").at("method"), "pointwise");
@@ -44,9 +45,9 @@ TEST_F(RenderMethods, LightBsdfAndMis) {
         EXPECT_EQ(run_json(direct).at("options").at("direct"), direct);
         for (int i = 0; i <= N; ++i) EXPECT_TRUE(run_json(direct).at("bounces")[i].at("interval95").is_number()) << direct << i;
     }
-    expect_agreement("light", "mis", 0.002);
-    expect_agreement("bsdf", "mis", 0.01);
-    expect_agreement("bsdf", "light", 0.01);
+    expect_agreement("light", "mis", 0.02);
+    expect_agreement("bsdf", "mis", 0.04);
+    expect_agreement("bsdf", "light", 0.04);
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include "core/image/image_io.h"
 #include "tests/commands/run_command.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace neumann {
@@ -36,8 +36,10 @@ private:
     static std::vector<std::string> split(const std::string& line) {
         std::vector<std::string> cells(1);
         for (const char c : line) {
-            if (c == ',') cells.emplace_back();
-            else cells.back() += c;
+            if (c == ',')
+                cells.emplace_back();
+            else
+                cells.back() += c;
         }
         return cells;
     }
@@ -60,18 +62,20 @@ inline ChannelMean channel_mean(const Estimate& picture, int channel) {
 
 class RenderTest : public CommandTest {
 protected:
-    // An emitting plate above a floor and beside a wall, in the open; the light touches nothing. Films are long and low: their pictures are
-    // not enlarged for the GIF, which takes most of the time otherwise.
+    // An emitting plate above a floor and beside a wall, in the open; the light touches nothing. The camera lies on its side, so
+    // that a film that is long and low shows floor, wall and light; such pictures are not enlarged for the GIF, which takes most of
+    // the time otherwise.
     static std::string plates(const std::string& film = "width=\"164\" height=\"5\"") {
         const auto attribute = [&](const std::string& name) {
             const std::size_t at = film.find(name + "=\"") + name.size() + 2;
             return film.substr(at, film.find('"', at) - at);
         };
         return R"(<scene version="3.0.0">
-<default name="width" value=")" + attribute("width") + R"("/><default name="height" value=")" + attribute("height") + R"("/>
+<default name="width" value=")" +
+               attribute("width") + R"("/><default name="height" value=")" + attribute("height") + R"("/>
 <sensor type="perspective">
   <float name="fov" value="50"/>
-  <transform name="to_world"><lookat origin="3, -2, 2" target="0, 0, 0.4" up="0, 0, 1"/></transform>
+  <transform name="to_world"><lookat origin="3, -0.2, 0.35" target="0, 0, 0.5" up="0, 1, 0"/></transform>
   <film type="hdrfilm"><integer name="width" value="$width"/><integer name="height" value="$height"/><rfilter type="box"/></film>
 </sensor>
 <bsdf type="twosided" id="grey"><bsdf type="diffuse"><rgb name="reflectance" value=".8, .6, .4"/></bsdf></bsdf>
@@ -95,7 +99,8 @@ protected:
 </sensor>
 <shape type="cube">
   <boolean name="flip_normals" value="true"/>
-  <bsdf type="diffuse"><rgb name="reflectance" value=")" + albedo + R"("/></bsdf>
+  <bsdf type="diffuse"><rgb name="reflectance" value=")" +
+               albedo + R"("/></bsdf>
   <emitter type="area"><rgb name="radiance" value="1"/></emitter>
 </shape>
 </scene>
@@ -146,9 +151,11 @@ protected:
     // The command that repeats a run, put together from its run.json alone.
     std::vector<std::string> repeating(const std::string& output) const {
         const nlohmann::json run = run_json(output);
-        std::vector<std::string> options{"-n", run.at("options").at("bounces").dump(), "--spp", run.at("samples").at("per_pixel").dump(),
+        std::vector<std::string> options{"-n",     run.at("options").at("bounces").dump(),
+                                         "--spp",  run.at("samples").at("per_pixel").dump(),
                                          "--seed", run.at("options").at("seed").dump()};
-        for (const char* name : {"method", "direct"}) options.insert(options.end(), {std::string("--") + name, run.at("options").at(name)});
+        for (const char* name : {"method", "direct"})
+            options.insert(options.end(), {std::string("--") + name, run.at("options").at(name)});
         for (const auto& [name, value] : run.at("scene").at("definitions").items())
             options.insert(options.end(), {"-D", name + "=" + value.get<std::string>()});
         return options;
@@ -156,9 +163,10 @@ protected:
     // Every picture of both folders has the same bytes.
     void expect_same_pictures(const std::string& a, const std::string& b) const {
         EXPECT_EQ(names(a), names(b));
-        for (const std::string& name : names(a))
-            if (!name.ends_with(".csv") && !name.ends_with(".json"))
-                EXPECT_TRUE(text_of(path(a) / name) == text_of(path(b) / name)) << name << " differs between " << a << " and " << b;
+        for (const std::string& name : names(a)) {
+            if (name.ends_with(".csv") || name.ends_with(".json")) continue;
+            EXPECT_TRUE(text_of(path(a) / name) == text_of(path(b) / name)) << name << " differs between " << a << " and " << b;
+        }
     }
     void expect_repeatable(const std::string& output) const {
         const std::string scene = run_json(output).at("scene").at("file");

@@ -9,7 +9,8 @@ protected:
     RenderReference() { write("scene.xml", plates()); }
 
     std::string refusal(const std::string& reference, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> arguments{"render", "scene.xml", "-n", "2", "--spp", "4", "-o", "new/folder", "--reference", reference};
+        std::vector<std::string> arguments{"render", "scene.xml", "-n",         "2",           "--spp",
+                                           "4",      "-o",        "new/folder", "--reference", reference};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Finished done = run(arguments);
         EXPECT_EQ(done.exit_code, 2);
@@ -36,13 +37,17 @@ TEST_F(RenderReference, AgainstItselfAndAnother) {
     render("scene.xml", "again", {"-n", "1", "--spp", "512", "--seed", "1", "--reference", "long", "--quiet"});
     const Table again(path("again/convergence.csv"));
     for (const char* what : {"000", "001", "sum"}) {
-        // Up to the float32 of the reference's file, and, as -n differs and with it the walks, of the same pictures only for bounce 0.
-        if (std::string(what) == "000") EXPECT_LE(again.last(std::string("relative_error_") + what), 0x1p-23);
+        // Up to the float32 of the reference's file, and, as -n differs and with it the walks, of the same pictures only for bounce
+        // 0.
+        if (std::string(what) == "000") {
+            EXPECT_LE(again.last(std::string("relative_error_") + what), 0x1p-23);
+        }
         EXPECT_GT(again.number(0, std::string("relative_error_") + what), 1e-3);
     }
     render("scene.xml", "same", {"-n", "2", "--spp", "512", "--seed", "1", "--reference", "long", "--quiet"});
     const Table same(path("same/convergence.csv"));
-    for (const char* what : {"000", "001", "002", "sum"}) EXPECT_LE(same.last(std::string("relative_error_") + what), 0x1p-23) << what;
+    for (const char* what : {"000", "001", "002", "sum"})
+        EXPECT_LE(same.last(std::string("relative_error_") + what), 0x1p-23) << what;
 }
 
 TEST_F(RenderReference, Refused) {

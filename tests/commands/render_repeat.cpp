@@ -11,7 +11,8 @@ protected:
 };
 
 TEST_F(RenderRepeat, AnyNumberOfThreads) {
-    const std::vector<std::string> options{"-n", "2", "--spp", "40", "--seed", "123456789012345678", "-D", "width=161", "--quiet", "-t"};
+    const std::vector<std::string> options{"-n", "2",         "--spp",   "40", "--seed", "123456789012345678",
+                                           "-D", "width=161", "--quiet", "-t"};
     for (const char* threads : {"1", "2", "7"}) {
         std::vector<std::string> with = options;
         with.push_back(threads);
@@ -65,10 +66,11 @@ TEST_F(RenderRepeat, StoppedByError) {
 TEST_F(RenderRepeat, StoppedByErrorBeforeAShortTime) {
     // 16 samples are enough for this error, and 4 are not; the film is so large that 64 of them would take longer.
     const double seconds = [&] {
-        render("scene.xml", "probe", {"-n", "1", "--spp", "16", "-D", "height=600", "--quiet"});
+        render("scene.xml", "probe", {"-n", "1", "--spp", "16", "-D", "height=60", "--quiet"});
         return run_json("probe").at("timing").at("sampling_seconds").get<double>();
     }();
-    render("scene.xml", "a", {"-n", "1", "--time", fmt::format("{:.3f}", 2.0 * seconds), "--error", "0.35", "-D", "height=600", "--quiet"});
+    render("scene.xml", "a",
+           {"-n", "1", "--time", fmt::format("{:.6f}", 2.0 * seconds), "--error", "0.35", "-D", "height=60", "--quiet"});
     const nlohmann::json run = run_json("a");
     SCOPED_TRACE(run.at("samples").dump());
     expect_repeatable("a");

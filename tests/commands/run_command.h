@@ -1,4 +1,5 @@
-// The command as its users run it: a process with arguments, in a folder of its own, of which all that it prints and leaves is kept.
+// The command as its users run it: a process with arguments, in a folder of its own, of which all that it prints and leaves is
+// kept.
 #pragma once
 
 #include <fcntl.h>
@@ -37,8 +38,8 @@ inline std::string text_of(const std::filesystem::path& path) {
 // A process that is still running; it is ended with this, if it has not ended itself, and with the test.
 class RunningCommand {
 public:
-    // Runs `command` (the program's path first) in `folder`; `logs` is a name for the files of stdout and stderr. With `largest_file`,
-    // no file can grow beyond so many bytes: writes fail as they do on a full disk.
+    // Runs `command` (the program's path first) in `folder`; `logs` is a name for the files of stdout and stderr. With
+    // `largest_file`, no file can grow beyond so many bytes: writes fail as they do on a full disk.
     RunningCommand(std::vector<std::string> command, const std::filesystem::path& folder, const std::filesystem::path& logs,
                    std::optional<rlim_t> largest_file = std::nullopt)
         : out_(logs.string() + ".out"), err_(logs.string() + ".err") {
@@ -51,7 +52,8 @@ public:
         // Only what is allowed between fork and exec.
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() != parent || chdir(folder.c_str()) != 0) _exit(127);
-        const int out = open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), err = open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int out = open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600),
+                  err = open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         const int nothing = open("/dev/null", O_RDONLY);
         if (dup2(nothing, 0) < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) _exit(127);
         const rlimit seconds{120, 120};
@@ -93,7 +95,8 @@ protected:
 
     CommandTest() {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        base_ = std::filesystem::path(testing::TempDir()) / ("neumann_" + std::string(info->test_suite_name()) + "." + info->name());
+        base_ =
+            std::filesystem::path(testing::TempDir()) / ("neumann_" + std::string(info->test_suite_name()) + "." + info->name());
         std::filesystem::remove_all(base_);
         std::filesystem::create_directories(folder());
     }

@@ -67,14 +67,15 @@ TEST(Cube, TheFiguresKeepTheFlux) {
     for (const auto& row : g) EXPECT_NEAR(4.0 * row[wall_mean] + row[floor_mean] + row[ceiling_mean], 1.0, 1e-8);
 }
 
-// 6 places × 2 ways × 10 bounces: 120 comparisons.
+// 6 places × 2 ways × 10 bounces: 120 comparisons. BSDF sampling to 0.6%.
 TEST(CubeSlow, TenBouncesAtTheCentresAndOnAverage) {
     const double rho = 0.8;
     const Scene scene = cube(grey(rho));
     for (const Column column : all_columns)
         for (const Way way : {Way::mis, Way::bsdf}) {
             SCOPED_TRACE(std::string(column_names[column]) + ", " + name(way));
-            expect_matches(probe(scene, place(scene, column), way, {.samples = way == Way::mis ? 16384u : 32768u, .bounces = 10}), terms(column, rho), 1);
+            expect_matches(probe(scene, place(scene, column), way, {.samples = 8192, .bounces = 10}), terms(column, rho), 1,
+                           way == Way::mis ? power : 0.006);
         }
 }
 
@@ -85,19 +86,29 @@ TEST(CubeSlow, TheSameLargerTurnedAndElsewhere) {
     const Scene scene = cube(grey(rho), to_world);
     for (const Column column : {wall_mean, ceiling_mean, floor_center, ceiling_center}) {
         SCOPED_TRACE(column_names[column]);
-        expect_matches(probe(scene, place(scene, column, to_world), Way::mis, {.samples = 16384, .bounces = 10}), terms(column, rho), 1);
+        const Estimates found = probe(scene, place(scene, column, to_world), Way::mis, {.samples = 8192, .bounces = 10});
+        std::vector<double> exact = terms(column, rho);
+        if (exact[0] == 0.0) {
+            // A plane in a skew position is flat up to the rounding of its corners only: two cosines of the order of 1e-14 are left of the light
+            // that the ceiling throws on itself.
+            EXPECT_LE(found.terms[1].mean.r, 1e-25);
+            exact.erase(exact.begin());
+            expect_matches(found, exact, 2);
+        } else {
+            expect_matches(found, exact, 1);
+        }
     }
 }
 
-// Operators start anew for each bounce. 6 places × 4 bounces: 24 comparisons.
+// Operators start anew for each bounce. 6 places × 3 bounces, to 0.5%: 18 comparisons.
 TEST(Cube, TheOperatorsSayTheSame) {
     const double rho = 0.8;
     const Scene scene = cube(grey(rho));
     for (const Column column : all_columns) {
         SCOPED_TRACE(column_names[column]);
         std::vector<double> exact = terms(column, rho);
-        exact.resize(4);
-        expect_matches(probe(scene, place(scene, column), Way::pointwise, {.samples = 16384, .bounces = 4}), exact, 1);
+        exact.resize(3);
+        expect_matches(probe(scene, place(scene, column), Way::pointwise, {.samples = 8192, .bounces = 3}), exact, 1, 0.005);
     }
 }
 
@@ -111,7 +122,7 @@ TEST(Cube, LitByAWallInstead) {
     std::vector<double> exact;
     for (const auto& row : g)
         exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 * (1.0 - row[floor_center] - row[ceiling_center]));
-    expect_matches(probe(scene, place(scene, floor_center), Way::mis, {.samples = 16384, .bounces = 10}), exact, 1);
+    expect_matches(probe(scene, place(scene, floor_center), Way::mis, {.samples = 8192, .bounces = 10}), exact, 1);
 }
 
 // Channels do not know of each other: the same walks, ρ_c^i for each.
@@ -132,8 +143,8 @@ TEST(Cube, TheRestIsWhatTheFurtherBouncesAddUpTo) {
     for (std::size_t i = 2; i < 10; ++i) exact += g[i][floor_center] * std::pow(rho, static_cast<double>(i + 1));
     const Scene scene = cube(grey(rho));
     for (const double go_on : {1.0, 0.7})
-        expect_matches(probe(scene, place(scene, floor_center), Way::mis, {.samples = 32768, .bounces = 2, .rest_probability = go_on}).rest, exact, "rest");
-    expect_matches(probe(scene, place(scene, floor_center), Way::bsdf, {.samples = 65536, .bounces = 2, .rest_probability = 1.0}).rest, exact, "rest");
+        expect_matches(probe(scene, place(scene, floor_center), Way::mis, {.samples = 8192, .bounces = 2, .rest_probability = go_on}).rest, exact, "rest");
+    expect_matches(probe(scene, place(scene, floor_center), Way::bsdf, {.samples = 32768, .bounces = 2, .rest_probability = 1.0}).rest, exact, "rest");
 }
 
 }  // namespace

@@ -24,9 +24,8 @@ void expect_direct(const Shape& light, const Receiver& receiver, double F, const
     const StartPicker start = at(scene, receiver.point, receiver.normal);
     for (const Way way : {Way::mis, Way::light, Way::bsdf, Way::pointwise, Way::surfaces}) {
         SCOPED_TRACE(what + ", " + name(way));
-        const bool looks_for_light = way == Way::mis || way == Way::light || way == Way::surfaces;
-        const double largest_error = looks_for_light || F > 0.05 ? power : 0.01;
-        const Estimates found = probe(scene, start, way, {.samples = 16384, .bounces = 2});
+        const double largest_error = looks_for_lights(way) ? power : F > 0.05 ? 0.005 : 0.02;
+        const Estimates found = probe(scene, start, way, {.samples = 8192, .bounces = 2});
         expect_matches(found, std::vector{0.0, rho * radiance * F, 0.0}, 0, largest_error);
     }
 }
@@ -111,7 +110,7 @@ TEST(DirectLight, BetweenRectanglesTheMeanIsTheFormFactor) {
         for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
             if (pair.touching && way == Way::light) continue;
             SCOPED_TRACE(pair.what + ", " + name(way));
-            expect_matches(probe(scene, anywhere_on(scene, receiver), way, {.samples = 16384, .bounces = 2}),
+            expect_matches(probe(scene, anywhere_on(scene, receiver), way, {.samples = 8192, .bounces = 2}),
                            std::vector{0.0, rho * radiance * pair.F, 0.0});
         }
     }

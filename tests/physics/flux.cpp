@@ -37,15 +37,14 @@ TEST(Flux, WhatIsEmittedIsAbsorbed) {
         if (furnished) {
             add(box({0.2, 0.3, 0.1}, {0.4, 0.7, 0.5}), 0.6, 0.0);
             add(Sphere{{0.7, 0.6, 0.4}, 0.2, false}, 0.85, 0.0);
-            add(Disk{{0.6, 0.3, 0.8}, {0.1, 0, 0}, {0, 0.15, 0}, {0, 0, -1}}, 0.3, 2.0);
-            add(Disk{{0.6, 0.3, 0.81}, {0.1, 0, 0}, {0, 0.15, 0}, {0, 0, 1}}, 0.4, 0.0);
+            add(Sphere{{0.6, 0.3, 0.8}, 0.05, false}, 0.3, 2.0);
         }
         const Scene scene = maker.make();
         const AreaSampler surfaces(scene.geometry);
-        const double emitted = 1.0 + 0.3 + (furnished ? 2.0 * pi * 0.1 * 0.15 : 0.0);
+        const double emitted = 1.0 + 0.3 + (furnished ? 2.0 * 4.0 * pi * 0.05 * 0.05 : 0.0);
         for (const Way way : {Way::mis, Way::bsdf}) {
             SCOPED_TRACE(name(way) + (furnished ? ", furnished" : ""));
-            const Estimates found = probe(scene, absorbed(scene, rho_of_shape), way, {.samples = 16384, .bounces = 4, .rest_probability = 1.0});
+            const Estimates found = probe(scene, absorbed(scene, rho_of_shape), way, {.samples = 4096, .bounces = 4, .rest_probability = 1.0});
             expect_matches(found.reflected, emitted / surfaces.area(), "absorbed flux per area");
         }
     }
@@ -78,13 +77,13 @@ TEST(Flux, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
         for (int i = 0; i <= 6; ++i) exact.push_back(std::pow(rho, i) * (2.0 + mean_height(scene)));
         for (const Way way : {Way::mis, Way::bsdf}) {
             SCOPED_TRACE(enclosure.name + ", " + name(way));
-            expect_matches(probe(scene, anywhere(scene), way, {.samples = 4096, .bounces = 6}), exact);
+            expect_matches(probe(scene, anywhere(scene), way, {.samples = 2048, .bounces = 6}), exact);
         }
     }
 }
 
 // The facets of a 20° cap emit: the area's mean is ρ^i times the emitting fraction, 0.018868107508640625 of 320 facets (0.030 for the true cap).
-// 3 ways × 6 bounces: 18 comparisons.
+// 2 ways × 6 bounces: 12 comparisons.
 TEST(Flux, AMeshedSphereIsExactOnAverage) {
     const double rho = 0.7, fraction = 0.018868107508640625;
     const TriangleMesh sphere = flipped(icosphere(2));
@@ -99,7 +98,8 @@ TEST(Flux, AMeshedSphereIsExactOnAverage) {
     for (int i = 1; i <= 6; ++i) exact.push_back(fraction * std::pow(rho, i));
     for (const Way way : {Way::mis, Way::bsdf}) {
         SCOPED_TRACE(name(way));
-        expect_matches(probe(scene, anywhere(scene), way, {.samples = way == Way::mis ? 16384u : 65536u, .bounces = 6}), exact, 1);
+        expect_matches(probe(scene, anywhere(scene), way, {.samples = way == Way::mis ? 4096u : 32768u, .bounces = 6}), exact, 1,
+                       looks_for_lights(way) ? power : 0.008);
     }
 }
 
@@ -113,7 +113,7 @@ TEST(Superposition, SixGlowingFacesAddUpToTheFurnace) {
         for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == glowing_face ? glowing(rho, 1.0) : matte(rho));
         const Scene scene = maker.make();
         // Seeds of their own, so that the six errors are independent.
-        const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 8192, .seed = fixed_seed + glowing_face});
+        const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 2048, .seed = fixed_seed + glowing_face});
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i].mean += found.terms[i].mean;
             sums[i].standard_error = glm::sqrt(sums[i].standard_error * sums[i].standard_error +
@@ -121,7 +121,7 @@ TEST(Superposition, SixGlowingFacesAddUpToTheFurnace) {
         }
     }
     for (int i = 1; i <= 8; ++i)
-        expect_matches(sums[static_cast<std::size_t>(i)], std::pow(rho, i), "sum of K^" + std::to_string(i) + " Le", power, i);
+        expect_matches(sums[static_cast<std::size_t>(i)], std::pow(rho, i), "sum of K^" + std::to_string(i) + " Le");
 }
 
 // BSDF sampling does not know of lights, so the same numbers make the same walks whatever emits, and light adds up within each walk.

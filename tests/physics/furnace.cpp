@@ -1,7 +1,7 @@
 // The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for lights carries
 // exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
-#include "operators/pictures/picture_sampler.h"
 #include "tests/physics/enclosures.h"
+#include "tests/physics/pictures.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>
@@ -45,25 +45,21 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
                 settings.sampler = sampler;
                 settings.walk = {10, DirectLight::bsdf, 0.0};
                 settings.seed = fixed_seed;
-                const PictureSampler pictures(scene, settings);
-                Tally tally(pictures.quantities());
-                SeriesMoments moments(pictures.width(), pictures.height(), pictures.quantities());
-                moments.add(*pictures.run(0, 4, tally));
-                const SeriesMoments::Result result = moments.result();
+                const Pictures pictures = render(scene, settings, 4);
                 for (int i = 0; i <= 10; ++i) {
-                    const Estimate term = result.term(static_cast<std::size_t>(i));
+                    const Estimate term = pictures.result.term(static_cast<std::size_t>(i));
                     double error = 0.0, spread = 0.0;
                     for (const Rgb& x : term.mean.pixels) error = std::max(error, max_component(glm::abs(x - power_of(colour, i))));
                     for (const Rgb& x : term.standard_error.pixels) spread = std::max(spread, max_component(x));
                     EXPECT_LE(error, 8.0 * i * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le";
                     EXPECT_EQ(spread, 0.0) << "K^" << i << " Le";
                 }
-                EXPECT_EQ(tally.non_finite_count, 0u);
+                EXPECT_EQ(pictures.tally.non_finite_count, 0u);
             }
     }
 }
 
-// 7 enclosures × 8 bounces × 2 albedos: 112 comparisons.
+// 7 enclosures × 9 terms × 2 albedos: 126 comparisons.
 TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
     for (const double rho : {0.5, 0.9})
         for (const Enclosure& enclosure : enclosures(glowing(rho, 1.0))) {
@@ -71,7 +67,7 @@ TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
             const Scene scene = enclosure.maker.make();
             std::vector<double> exact;
             for (int i = 0; i <= 8; ++i) exact.push_back(std::pow(rho, i));
-            expect_matches(probe(scene, anywhere(scene), Way::mis, {.samples = 2048}), exact);
+            expect_matches(probe(scene, anywhere(scene), Way::mis, {.samples = 1024}), exact);
         }
 }
 
@@ -102,7 +98,7 @@ TEST(Furnace, TheRestIsTheTailOfTheGeometricSeries) {
     for (const double go_on : {1.0, 0.5})
         for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
             SCOPED_TRACE(name(way));
-            const Estimates found = probe(scene, anywhere(scene), way, {.samples = 16384, .bounces = 3, .rest_probability = go_on});
+            const Estimates found = probe(scene, anywhere(scene), way, {.samples = 8192, .bounces = 3, .rest_probability = go_on});
             expect_matches(found.rest, std::pow(0.8, 4) / 0.2, "rest");
         }
 }

@@ -38,6 +38,8 @@ StartPicker anywhere(const Scene& scene);
 // directions or over surfaces.
 enum class Way { mis, bsdf, light, pointwise, surfaces };
 std::string name(Way way);
+// The others find a light by chance, with a probability that is its form factor, and need many more samples.
+inline bool looks_for_lights(Way way) { return way == Way::mis || way == Way::light; }
 
 inline constexpr std::uint64_t fixed_seed = 20240229;
 inline constexpr int batch_count = 64;
@@ -60,6 +62,7 @@ struct Estimates {
     Statistic rest;                       // Σ_{i>N}
     Statistic reflected;                  // Σ_{i≥1}, with the rest
     std::vector<Statistic> variance;      // of one sample of each term; unbiased with independent samples only
+    Statistic rest_variance;              // likewise
     std::vector<double> rays;             // a sample: for each term and the rest
     double rays_mean = 0.0, rays_error = 0.0;  // of all of them together, with the standard error
     std::vector<LargestSamples> largest;  // of each term and the rest
@@ -72,8 +75,9 @@ Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Eff
 constexpr double z_limit = 4.5;
 constexpr double power = 0.002;  // the largest standard error, relative to the reference
 
-// A value that is exactly zero has to be found as exactly zero, everything else as said above. Rounding may add 8 (i + 1) ε.
-void expect_matches(const Statistic& found, double exact, const std::string& what, double largest_error = power, int bounce = 0);
+// A value that is exactly zero has to be found as exactly zero, everything else as said above. Rounding may add n ε, for a mean of n samples is
+// rounded n times; no batch has more than 2^17.
+void expect_matches(const Statistic& found, double exact, const std::string& what, double largest_error = power);
 // `exact[k]` belongs to K^{first+k} Le. First channel.
 void expect_matches(const Estimates& found, std::span<const double> exact, int first = 0, double largest_error = power);
 

@@ -37,7 +37,7 @@ Effort effort(Way way, std::uint32_t samples) {
     return way == Way::pointwise || way == Way::surfaces ? Effort{.samples = samples, .bounces = 4} : Effort{.samples = samples, .bounces = 8};
 }
 
-// ρ = 0.5 + 0.4 z, Le = 1 + z²: <ρ> = 1/2, <Le> = 4/3. 3 points × (3 ways × 9 + 2 × 5): 111 comparisons.
+// ρ = 0.5 + 0.4 z, Le = 1 + z²: <ρ> = 1/2, <Le> = 4/3. 3 points × (3 ways × 9 + 2 × 5): to 0.4%: 111 comparisons.
 TEST(Sphere, AlbedoAndEmissionThatVaryEnterByTheirMeans) {
     const Scene scene = sphere({[](const SurfacePoint& p) { return grey(0.5 + 0.4 * on_unit_sphere(p).z); }, grey(0.9)},
                                {[](const SurfacePoint& p, const Vec3&) { return grey(1.0 + std::pow(on_unit_sphere(p).z, 2)); }, grey(2.0)});
@@ -45,10 +45,10 @@ TEST(Sphere, AlbedoAndEmissionThatVaryEnterByTheirMeans) {
         const Vec3 n(std::sqrt(1.0 - z * z), 0, z);
         for (const Way way : all_ways) {
             SCOPED_TRACE(name(way));
-            const Effort work = effort(way, 16384);
+            const Effort work = effort(way, 4096);
             std::vector<double> exact = geometric((0.5 + 0.4 * z) * 4.0 / 3.0, 0.5, work.bounces);
             exact.insert(exact.begin(), 1.0 + z * z);
-            expect_matches(probe(scene, at_pole(scene, n), way, work), exact);
+            expect_matches(probe(scene, at_pole(scene, n), way, work), exact, 0, 0.004);
         }
     }
 }
@@ -62,8 +62,8 @@ TEST(Sphere, AGlowingCapLightsAllPlacesAlike) {
     for (const Vec3& n : {Vec3(0, 0, -1), Vec3(0.6, 0, 0.8), Vec3(0, 0, 1)})
         for (const Way way : all_ways) {
             SCOPED_TRACE(name(way));
-            const Effort work = effort(way, 65536);
-            expect_matches(probe(scene, at_pole(scene, n), way, work), geometric(10.0 * f * 0.9, 0.9, work.bounces), 1, 0.003);
+            const Effort work = effort(way, 16384);
+            expect_matches(probe(scene, at_pole(scene, n), way, work), geometric(10.0 * f * 0.9, 0.9, work.bounces), 1, looks_for_lights(way) ? 0.004 : 0.01);
         }
 }
 
@@ -77,9 +77,9 @@ TEST(Sphere, AnAlbedoAboveOneMayStillConverge) {
     for (const double z : {0.5, -0.5})
         for (const Way way : all_ways) {
             SCOPED_TRACE(name(way));
-            Effort work = effort(way, 32768);
+            Effort work = effort(way, 16384);
             work.bounces = std::min(work.bounces, 6);
-            expect_matches(probe(scene, at_pole(scene, {std::sqrt(0.75), 0, z}), way, work), geometric(z > 0.0 ? 1.6 : 0.2, 0.9, work.bounces), 1);
+            expect_matches(probe(scene, at_pole(scene, {std::sqrt(0.75), 0, z}), way, work), geometric(z > 0.0 ? 1.6 : 0.2, 0.9, work.bounces), 1, 0.006);
         }
 }
 
@@ -102,8 +102,8 @@ TEST(Sphere, EmissionThatDependsOnTheAngleEntersByItsCosineMean) {
         const Scene scene = sphere(grey(0.8), {[Le = Le](const SurfacePoint& p, const Vec3& w) { return grey(Le(glm::dot(p.normal, w))); }, grey(1.0)});
         for (const Way way : all_ways) {
             SCOPED_TRACE(name(way));
-            const Effort work = effort(way, 8192);
-            expect_matches(probe(scene, at_pole(scene, {0.36, 0.48, 0.8}), way, work), geometric(mean * 0.8, 0.8, work.bounces), 1);
+            const Effort work = effort(way, 4096);
+            expect_matches(probe(scene, at_pole(scene, {0.36, 0.48, 0.8}), way, work), geometric(mean * 0.8, 0.8, work.bounces), 1, 0.004);
         }
     }
 }

@@ -1,0 +1,170 @@
+// Scenes that light leaves. The environment is a far sphere seen from inside that emits and is black, so what reaches it is gone.
+#include "core/geometry/area_sampler.h"
+#include "tests/physics/probe.h"
+#include "tests/physics/scene_maker.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace neumann::physics {
+namespace {
+
+constexpr Way walks[] = {Way::mis, Way::bsdf, Way::light};
+
+Surface sky(const AreaLight& radiance) { return {std::nullopt, radiance}; }
+
+struct Body {
+    std::string name;
+    Shape shape;
+};
+
+std::vector<Body> convex_bodies() {
+    const auto moved = [](const TriangleMesh& mesh, const Vec3& to, double scale) {
+        return transformed(mesh, glm::scale(glm::translate(Mat4(1.0), to), Vec3(scale)));
+    };
+    const Mat4 skew = glm::rotate(Mat4(1.0), 0.7, glm::normalize(Vec3(3, -1, 2)));
+    return {
+        {"cube", make_cube(Mat4(1.0))},
+        {"cube in a skew position", make_cube(skew)},
+        {"tetrahedron", tetrahedron(1.0)},
+        {"sphere", Sphere{{0.1, 0.2, 0.3}, 1.0, false}},
+        {"icosphere of 20480 triangles", icosphere(5)},
+        {"prism with 4000 needles, 600 times as long as wide", transformed(prism(2000), skew)},
+        {"rod, a million times as long as thick", transformed(make_cube(glm::scale(Mat4(1.0), Vec3(1e-6, 1e-6, 1.0))), skew)},
+        {"plate, a million times as wide as thick", transformed(make_cube(glm::scale(Mat4(1.0), Vec3(1.0, 1.0, 1e-6))), skew)},
+        {"small icosphere far from the middle of the scene", moved(icosphere(3), {5.1, -4.3, 3.7}, 1e-3)},
+        {"small cube far from the middle of the scene", moved(transformed(make_cube(Mat4(1.0)), skew), {5.1, -4.3, 3.7}, 1e-3)},
+        {"flat floor of 200 strips", strips({-1, -1, 0.3}, {2, 0, 0}, {0, 2, 0}, 200)},
+        {"disc", Disk{{0.1, 0.2, 0.3}, {1, 0, 0}, {0.3, 1, 0}, {0, 0, 1}}},
+    };
+}
+
+Shape placed(Shape shape, const Vec3& to, double scale) {
+    if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+        for (Vec3& v : mesh->vertices) v = v * scale + to;
+    } else if (auto* sphere = std::get_if<Sphere>(&shape)) {
+        sphere->center = sphere->center * scale + to;
+        sphere->radius *= scale;
+    } else {
+        auto& disk = std::get<Disk>(shape);
+        disk = {disk.center * scale + to, disk.u * scale, disk.v * scale, disk.normal};
+    }
+    return shape;
+}
+
+// A convex body sees only the sky: K^1 Le = ρ and K^i Le = 0 for i ≥ 2, exactly. Anything else is a ray that hits the surface it starts on. 12 bodies at 4 places
+// and scales, 65536 starts each and as many rays by light sampling: 6 million rays, none of which may find the body again.
+TEST(OpenScene, AConvexBodyNeverSeesItself) {
+    const double rho = 0.5;
+    struct {
+        const char* what;
+        Vec3 to;
+        double scale;
+    } const places[] = {{"here", Vec3(0.0), 1.0},
+                        {"1e5 times its size away", {1.1e5, -0.7e5, 0.3e5}, 1.0},
+                        {"1e-6 times as large", {0.123, 4.56, -7.89}, 1e-6},
+                        {"1e6 times as large", {-12.3, 4.56, 7.89}, 1e6}};
+    for (const auto& [what, to, scale] : places)
+        for (const Body& body : convex_bodies()) {
+            SCOPED_TRACE(body.name + ", " + what);
+            SceneMaker maker;
+            const std::uint32_t shape = maker.add(placed(body.shape, to, scale), matte(rho));
+            maker.add(Sphere{to, 10.0 * scale, true}, sky(grey(1.0)));
+            const Scene scene = maker.make();
+            const Estimates found = probe(scene, anywhere_on(scene, shape), Way::bsdf, {.samples = 1024, .bounces = 3, .rest_probability = 1.0});
+            expect_exact(found, [&](int i) { return grey(i == 1 ? rho : 0.0); });
+            EXPECT_EQ(found.rays[2] + found.rays[3] + found.rays[4], 0.0);
+            const Estimates lit = probe(scene, anywhere_on(scene, shape), Way::mis, {.samples = 1024, .bounces = 3, .rest_probability = 1.0});
+            for (std::size_t i = 2; i <= 3; ++i) expect_matches(lit.terms[i], 0.0, "K^" + std::to_string(i) + " Le");
+            EXPECT_EQ(lit.rays[2] + lit.rays[3] + lit.rays[4], 0.0);
+        }
+}
+
+// Direct light by points on the sky: half of them are behind the surface, none may be hidden by it. 12 bodies × 2 ways: 24 comparisons.
+TEST(OpenScene, AConvexBodyDoesNotHideTheSky) {
+    const double rho = 0.5;
+    for (const Body& body : convex_bodies()) {
+        SceneMaker maker;
+        const std::uint32_t shape = maker.add(body.shape, matte(rho));
+        maker.add(Sphere{{0, 0, 0}, 10.0, true}, sky(grey(1.0)));
+        const Scene scene = maker.make();
+        for (const Way way : {Way::mis, Way::light}) {
+            SCOPED_TRACE(body.name + ", " + name(way));
+            expect_matches(probe(scene, anywhere_on(scene, shape), way, {.samples = 2048, .bounces = 1}), std::vector{0.0, rho},
+                           way == Way::mis ? power : 0.006);
+        }
+    }
+}
+
+// Lenv(ω) = 1 + b·ω + (q·ω)²: K^1 Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²]. The sphere that stands for the sky emits by direction alone, so it may be
+// near. 3 normals × 3 ways, and the mean over a cube, where b and the directions of q average out: 12 comparisons.
+TEST(OpenScene, ASkyThatVariesLightsByItsMoments) {
+    const double rho = 0.6;
+    const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
+    const AreaLight radiance(
+        [=](const SurfacePoint&, const Vec3& w) { return grey(1.0 - glm::dot(b, w) + std::pow(glm::dot(q, w), 2)); },
+        grey(1.0 + glm::length(b) + glm::dot(q, q)));
+    SceneMaker maker;
+    const std::uint32_t cube = maker.add(make_cube(Mat4(1.0)), matte(rho));
+    maker.add(Sphere{{0, 0, 0}, 4.0, true}, sky(radiance));
+    const Scene scene = maker.make();
+    for (const Way way : walks) {
+        SCOPED_TRACE(name(way));
+        for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
+            const double exact = rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) + 0.25 * std::pow(glm::dot(q, n), 2));
+            expect_matches(probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way, {.samples = 8192, .bounces = 1}),
+                           std::vector{0.0, exact});
+        }
+        expect_matches(probe(scene, anywhere_on(scene, cube), way, {.samples = 8192, .bounces = 1}),
+                       std::vector{0.0, rho * (1.0 + glm::dot(q, q) / 3.0)});
+    }
+}
+
+// A sphere with an opening of the fraction f of its area, a sky of 1 outside: K^i Le = ρ f (ρ (1 − f))^(i−1), everywhere inside. The disc that closes the
+// opening emits 1 and is black. 3 openings × 2 ways × 2 places × 4 bounces, to 0.5%: 48 comparisons.
+TEST(OpenScene, ASphericalCavityWithAnOpening) {
+    const double rho = 0.8;
+    for (const double f : {0.5, 0.25, 0.1}) {
+        const double height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
+        SceneMaker maker;
+        maker.add(Sphere{{0, 0, 0}, 1.0, true}, matte(rho));
+        maker.add(Disk{{0, 0, height}, {rim, 0, 0}, {0, rim, 0}, {0, 0, -1}}, lamp(1.0));
+        const Scene scene = maker.make();
+        std::vector<double> exact;
+        for (int i = 1; i <= 4; ++i) exact.push_back(rho * f * std::pow(rho * (1.0 - f), i - 1));
+        for (const Way way : {Way::mis, Way::bsdf})
+            for (const double z : {-1.0, height - 0.01}) {
+                SCOPED_TRACE(name(way) + ", f = " + std::to_string(f));
+                const Vec3 n(std::sqrt(1.0 - z * z), 0, z);
+                expect_matches(probe(scene, at(scene, n, -n), way, {.samples = 8192, .bounces = 4}), exact, 1, 0.005);
+            }
+    }
+}
+
+// A groove of 90° with sides of length 1, infinitely long, under a sky of 1; at 0.25, 0.5, 0.75 from the apex. g_1(x) = 1 − ½ [1 + (cos a − x)/√(1 + x² − 2x cos a)],
+// g_2 and g_3 by collocation, refined until they stand still. Here it is 100 long: the ends are seen under (1/50)³ of the cosine-weighted hemisphere,
+// which is below 1e-5. 3 places × 3 ways × 3 bounces, to 0.6%: 27 comparisons.
+TEST(OpenScene, AGrooveUnderTheSky) {
+    const double rho = 0.9, half = 50.0;
+    constexpr double g[3][3] = {{0.6212678125181664, 0.2510345548884595, 0.08430301090477688},
+                                {0.7236067977499789, 0.19621633067369174, 0.0548462711986844},
+                                {0.7999999999999999, 0.14637808534965377, 0.03721891914872671}};
+    SceneMaker maker;
+    maker.add(parallelogram({0, -half, 0}, {1, 0, 0}, {0, 2.0 * half, 0}), matte(rho));
+    maker.add(parallelogram({0, -half, 0}, {0, 2.0 * half, 0}, {0, 0, 1}), matte(rho));
+    maker.add(Sphere{{0, 0, 0}, 60.0, true}, sky(grey(1.0)));
+    const Scene scene = maker.make();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double x = 0.25 * static_cast<double>(k + 1);
+        EXPECT_NEAR(g[k][0], 1.0 - 0.5 * (1.0 - x / std::sqrt(1.0 + x * x)), 1e-13);
+        std::vector<double> exact;
+        for (const double value : g[k]) exact.push_back(value * std::pow(rho, static_cast<double>(exact.size() + 1)));
+        for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
+            SCOPED_TRACE(name(way) + ", " + std::to_string(x) + " from the apex");
+            expect_matches(probe(scene, at(scene, {x, 0.3, 0}, {0, 0, 1}), way, {.samples = 8192, .bounces = 3}), exact, 1, 0.006);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace neumann::physics

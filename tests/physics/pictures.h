@@ -1,0 +1,22 @@
+// Whole pictures, for what can only be seen there.
+#pragma once
+
+#include "operators/pictures/picture_sampler.h"
+
+namespace neumann::physics {
+
+struct Pictures {
+    SeriesMoments::Result result;
+    Tally tally;
+};
+
+// `replicates`: a power of two.
+inline Pictures render(const Scene& scene, const PictureSampler::Settings& settings, std::uint64_t replicates) {
+    const PictureSampler sampler(scene, settings);
+    Tally tally(sampler.quantities());
+    SeriesMoments moments(sampler.width(), sampler.height(), sampler.quantities());
+    moments.add(*sampler.run(0, replicates, tally));
+    return {moments.result(), std::move(tally)};
+}
+
+}  // namespace neumann::physics

@@ -1,0 +1,123 @@
+// How often Hill's estimate says that the variance is infinite, for samples whose tail is known. Its promise is one-sided: α ≤ 2 is asserted with about 99.9%
+// confidence, so tails with α ≥ 2 raise the alarm in about one case in a thousand at most, and heavy tails are found where there are samples enough.
+#include "operators/statistics/tail_index.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+namespace neumann {
+namespace {
+
+double uniform(std::mt19937_64& random) { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; }
+
+// The largest of `count` numbers with P(X > x) = x^−α. The order statistics are those of a Poisson process (Rényi), so the others need not be drawn.
+LargestSamples pareto(double alpha, std::uint64_t count, std::mt19937_64& random) {
+    LargestSamples largest;
+    double arrival = 0.0;
+    for (std::size_t i = 0; i < LargestSamples::capacity; ++i) {
+        arrival -= std::log(uniform(random));
+        largest.add(std::pow(arrival / static_cast<double>(count), -1.0 / alpha));
+    }
+    largest.add_count(count);
+    return largest;
+}
+
+double alarm_rate(double alpha, std::uint64_t count, int trials, std::uint64_t seed = 1) {
+    std::mt19937_64 random(seed);
+    int alarms = 0;
+    for (int i = 0; i < trials; ++i) alarms += tail_index(pareto(alpha, count, random))->variance_is_infinite();
+    return static_cast<double>(alarms) / trials;
+}
+
+TEST(TailIndex, OfParetosDistribution) {
+    std::mt19937_64 random(1);
+    for (const double alpha : {0.5, 1.5, 2.0, 3.0, 10.0}) {
+        const auto tail = tail_index(pareto(alpha, 1'000'000, random));
+        ASSERT_TRUE(tail);
+        EXPECT_NEAR(tail->alpha, alpha, 4.5 * alpha / std::sqrt(999.0));
+        EXPECT_NEAR(tail->upper / tail->alpha, 1.0 + 3.1 / std::sqrt(999.0), 1e-12);
+    }
+}
+
+// 2000 trials each: false alarms are allowed in 0.5%, where 0.1% is promised (a Poisson count of 2 beyond 10: 8e-6).
+TEST(TailIndex, AlarmRates) {
+    std::printf("alarms for Pareto tails, n = 20,000 (k = 100), 65,536 (327), 200,000 (1000)\n");
+    for (const double alpha : {1.5, 1.8, 2.0, 2.2, 3.0, 5.0}) {
+        std::printf("  alpha %.1f:", alpha);
+        for (const std::uint64_t count : {20'000, 65'536, 200'000}) {
+            const double rate = alarm_rate(alpha, count, 2000);
+            std::printf("  %6.2f%%", 100 * rate);
+            if (alpha >= 2.0) { EXPECT_LE(rate, 0.005) << alpha << ' ' << count; }
+            if (alpha >= 3.0) { EXPECT_EQ(rate, 0.0) << alpha << ' ' << count; }
+        }
+        std::printf("\n");
+    }
+    EXPECT_EQ(alarm_rate(1.5, 200'000, 2000), 1.0);
+    EXPECT_GE(alarm_rate(1.5, 65'536, 2000), 0.99);
+    EXPECT_GE(alarm_rate(1.8, 200'000, 2000), 0.5);
+}
+
+// All moments finite: never an alarm. 200 trials each.
+TEST(TailIndex, LightTailsAreSilent) {
+    std::mt19937_64 random(1);
+    const auto draw = [&](auto&& sample) {
+        double smallest = 1e300;
+        for (int trial = 0; trial < 200; ++trial) {
+            LargestSamples largest;
+            for (int i = 0; i < 50'000; ++i) largest.add(sample());
+            largest.add_count(50'000);
+            if (const auto tail = tail_index(largest)) {
+                EXPECT_FALSE(tail->variance_is_infinite()) << tail->alpha;
+                smallest = std::min(smallest, tail->upper);
+            }
+        }
+        return smallest;
+    };
+    const double exponential = draw([&] { return -std::log(uniform(random)); });
+    const double bounded = draw([&] { return uniform(random); });
+    const double lognormal = draw([&] { return std::exp(std::sqrt(-2.0 * std::log(uniform(random))) * std::cos(6.283185307179586 * uniform(random))); });
+    const double two_values = draw([&] { return uniform(random) < 0.01 ? 100.0 : uniform(random); });
+    std::printf("smallest upper end: exponential %.2f, uniform %.2f, lognormal %.2f, rare 100 among uniform %.2f\n", exponential, bounded, lognormal, two_values);
+}
+
+TEST(TailIndex, NeedsTwentyThousandSamplesAndAHundredThatAreNotZero) {
+    std::mt19937_64 random(1);
+    EXPECT_FALSE(tail_index(pareto(1.5, 19'999, random)));
+    EXPECT_TRUE(tail_index(pareto(1.5, 20'000, random)));
+    LargestSamples few;
+    for (int i = 0; i < 99; ++i) few.add(1.0 + i);
+    few.add_count(1'000'000);
+    EXPECT_FALSE(tail_index(few));
+    few.add(1e9);
+    EXPECT_TRUE(tail_index(few));
+    EXPECT_FALSE(tail_index({}));
+    LargestSamples equal;
+    for (int i = 0; i < 5000; ++i) equal.add(3.0);
+    equal.add_count(5000 * 200);
+    EXPECT_FALSE(tail_index(equal)) << "bounded";
+}
+
+TEST(TailIndex, TheLargestSamplesAreTheSameHoweverTheyWereCut) {
+    std::mt19937_64 random(1);
+    std::vector<double> values(20'000);
+    for (double& v : values) v = uniform(random) < 0.3 ? 0.0 : std::floor(1e4 * uniform(random));  // with ties
+    LargestSamples whole, forth[7], joined;
+    for (const double v : values) whole.add(v);
+    whole.add_count(values.size());
+    for (std::size_t i = values.size(); i-- > 0;) {
+        forth[i % 7].add(values[i]);
+        forth[i % 7].add_count(1);
+    }
+    for (const LargestSamples& part : forth) joined.merge(part);
+    EXPECT_EQ(joined.count(), whole.count());
+    EXPECT_EQ(joined.sorted(), whole.sorted());
+    std::sort(values.begin(), values.end(), std::greater<>());
+    values.resize(LargestSamples::capacity);
+    EXPECT_EQ(whole.sorted(), values);
+}
+
+}  // namespace
+}  // namespace neumann
