@@ -17,6 +17,7 @@ nlohmann-json3-dev  | JSON for Modern C++ 3.11 or later       | nlohmann/json.hp
 libfmt-dev          | {fmt}                                   | fmt/format.h
 libboost-dev        | Boost 1.74 or later, headers only       | boost/version.hpp
 librandom123-dev    | Random123                               | Random123/philox.h
+libxxhash-dev       | xxHash                                  | xxhash.h
 fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
 '
 

@@ -4,7 +4,11 @@
 #include "core/base/error.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <new>
@@ -24,42 +28,73 @@ std::map<std::string, std::string> parse_definitions(const std::vector<std::stri
     return definitions;
 }
 
+// Not fmt::print, which throws where stderr cannot be written.
+void complain(const std::string& what) { std::fputs((what + "\n").c_str(), stderr); }
+
+// What was printed must have arrived.
+int finish(int code) {
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    throw neumann::RunError(std::string("standard output cannot be written: ") + std::strerror(errno));
+}
+
 std::string join(int argc, char** argv) {
     std::string line = "neumann";
     for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
     return line;
 }
 
-void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std::string>& definitions) {
+// Validators without a description of their own, which CLI11 would put into the help.
+CLI::Validator above_zero() {
+    return CLI::Validator(
+        [](std::string& text) {
+            double value = 0.0;
+            const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+            return good ? std::string() : "'" + text + "' is not a number above 0";
+        },
+        "", "above_zero");
+}
+CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            std::uint64_t value = 0;
+            const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+            const bool good = digits && CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return good ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+        },
+        "", "whole");
+}
+
+void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std::string>& definitions, std::string& direct) {
     auto* render = app.add_subcommand("render", "Render the bounces K^i Le of a scene, their sums, and what is left out");
     render->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
     render->add_option("-o", request.output, "Folder for the pictures and tables; out/NAME without it")->type_name("DIR");
     auto* bounces = render->add_option("-n", request.bounces, "The last bounce with a picture of its own")
                         ->type_name("BOUNCES")
-                        ->check(CLI::Range(0, 100000));
+                        ->check(whole_from(0, 100000));
     render->add_option("--tail", request.tail, "As many bounces as it takes until the rest is below this part of the sum")
         ->type_name("EPS")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->excludes(bounces);
-    render->add_option("--spp", request.samples, "Samples a pixel")->type_name("N")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
-    render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(CLI::PositiveNumber);
+    render->add_option("--spp", request.samples, "Samples a pixel")->type_name("N")->check(whole_from(1, std::uint64_t{1} << 40));
+    render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(above_zero());
     render->add_option("--error", request.relative_error, "Sample until the relative standard error of every bounce is at most this")
         ->type_name("REL")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     render->add_option("--method", request.method, "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "pointwise"}))
+        ->check(CLI::IsMember({"walk", "pointwise"}).description(""))
         ->capture_default_str();
-    const std::map<std::string, neumann::DirectLight> direct{
-        {"light", neumann::DirectLight::light}, {"bsdf", neumann::DirectLight::bsdf}, {"mis", neumann::DirectLight::mis}};
-    render->add_option("--direct", request.direct, "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis)")
-        ->transform(CLI::CheckedTransformer(direct).description("{light,bsdf,mis}"))
-        ->type_name("")
-        ->default_str("mis");
+    render->add_option("--direct", direct, "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis)")
+        ->type_name("HOW")
+        ->check(CLI::IsMember({"light", "bsdf", "mis"}).description(""))
+        ->capture_default_str();
     render->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")->type_name("DIR");
-    render->add_option("--seed", request.seed, "Seed of the random numbers")->capture_default_str();
-    render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(CLI::Range(1, 4096));
-    render->add_option("-D", definitions, "Define $name in the scene file")->type_name("name=value")->take_all();
+    render->add_option("--seed", request.seed, "Seed of the random numbers")
+        ->type_name("N")
+        ->check(whole_from(0, ~std::uint64_t{0}))
+        ->capture_default_str();
+    render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    render->add_option("-D", definitions, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
     render->add_flag("--quiet", request.quiet, "Print nothing but errors");
     render->add_flag("--json", request.json, "Print run.json");
 }
@@ -67,6 +102,7 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
 }  // namespace
 
 int main(int argc, char** argv) try {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
     CLI::App app("neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
     app.name("neumann");
     app.require_subcommand(1);
@@ -74,7 +110,8 @@ int main(int argc, char** argv) try {
 
     neumann::RenderRequest request;
     std::vector<std::string> definitions;
-    add_render(app, request, definitions);
+    std::string direct = "mis";
+    add_render(app, request, definitions, direct);
     std::string a, b;
     bool json = false;
     auto* compare = app.add_subcommand("compare", "Print error metrics between two pictures or two output folders; the second is the reference");
@@ -85,34 +122,38 @@ int main(int argc, char** argv) try {
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
 
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; }).empty())
+        throw neumann::InputError(fmt::format("no command is called '{}'; there are render, compare, help", argv[1]));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         const int code = app.exit(e);
-        return code == 0 ? 0 : wrong_input;
+        return code == 0 ? finish(0) : wrong_input;
     }
     if (*help) {
         for (const CLI::App* about : app.get_subcommands([&](const CLI::App* command) { return command->get_name() == topic; })) {
-            fmt::print("{}", about->help());
-            return 0;
+            fmt::print("{}", about->help("neumann"));
+            return finish(0);
         }
         if (!topic.empty()) throw neumann::InputError("no command is called '" + topic + "'; there are render, compare, help");
+        app.clear();
         fmt::print("{}", app.help());
-        return 0;
+        return finish(0);
     }
-    if (*compare) return neumann::compare_command(a, b, json);
+    if (*compare) return finish(neumann::compare_command(a, b, json));
 
     request.definitions = parse_definitions(definitions);
     request.command_line = join(argc, argv);
     if (request.output.empty()) request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
-    return neumann::render_command(request);
+    request.direct = direct == "light" ? neumann::DirectLight::light : direct == "bsdf" ? neumann::DirectLight::bsdf : neumann::DirectLight::mis;
+    return finish(neumann::render_command(request));
 } catch (const neumann::InputError& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    complain(e.what());
     return wrong_input;
 } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "neumann: not enough memory\n");
+    complain("neumann: not enough memory");
     return failed_while_running;
 } catch (const std::exception& e) {
-    fmt::print(stderr, "neumann: {}\n", e.what());
+    complain(std::string("neumann: ") + e.what());
     return failed_while_running;
 }

@@ -128,6 +128,8 @@ int render_command(const RenderRequest& request) {
     if (!goal.samples && !goal.seconds && !goal.relative_error) goal = {std::nullopt, default_seconds, default_error};
     if (goal.samples) {
         settings.replicate_size = replicate_size(*goal.samples);
+    } else if (request.relative_error) {
+        settings.replicate_size = 8;
     } else {
         // Where time allows few samples, single ones: a run can then end after any of them.
         const double pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;

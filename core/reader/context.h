@@ -11,6 +11,7 @@ struct Context {
     const Document& document;
     const Objects& objects;
     Warnings& warnings;
+    std::vector<std::string>& mesh_files;  // that were read, in their order
 };
 
 }  // namespace neumann::reader

@@ -49,6 +49,7 @@ private:
 
 Element Loader::read_file(const std::string& path) {
     const SourceText source(path);
+    document_.files.push_back(path);
     open_files_.push_back(path);
     pugi::xml_document xml;
     const pugi::xml_parse_result result =

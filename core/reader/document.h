@@ -9,6 +9,7 @@ namespace neumann::reader {
 
 struct Document {
     Element root;                      // <scene>
+    std::vector<std::string> files;    // the XML files that were read, in their order
     std::vector<std::string> folders;  // where files are looked for: the main scene's folder, and those of <path>
 
     // The file that an attribute names: in the folders, or beside the file that the attribute stands in. Throws InputError if there

@@ -64,9 +64,13 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
     const bool flip_normals = p.boolean("flip_normals").value_or(false), face_normals = p.boolean("face_normals").value_or(false);
 
     const std::string path = context.document.find_file(filename);
+    context.mesh_files.push_back(path);
     MeshFile file = type == "obj" ? read_obj(path) : read_ply(path);
     TriangleMesh mesh = std::move(file.mesh);
-    for (Vec3& v : mesh.vertices) v = Vec3(to_world * glm::dvec4(v, 1.0));
+    for (Vec3& v : mesh.vertices) {
+        v = Vec3(to_world * glm::dvec4(v, 1.0));
+        if (!is_finite(v)) p.fail("to_world", "moves a vertex out of the range of numbers");
+    }
 
     if (!face_normals && !file.normals.empty()) {
         const glm::dmat3 to_world_normal = glm::transpose(glm::inverse(glm::dmat3(to_world)));

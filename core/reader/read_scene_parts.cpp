@@ -1,5 +1,6 @@
 #include "core/reader/area_lights.h"
 #include "core/reader/bsdfs.h"
+#include "core/reader/file_hash.h"
 #include "core/reader/properties.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/sensor.h"
@@ -29,7 +30,7 @@ const Element* only(const Element& root, const std::string& tag) {
 // What stands at the top level and nothing refers to is checked and dropped.
 void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
     Warnings dropped;
-    const Context aside{context.document, context.objects, dropped};
+    const Context aside{context.document, context.objects, dropped, context.mesh_files};
     Bsdfs other_bsdfs(aside);
     AreaLights other_lights(aside);
     for (const Element& e : root.children) {
@@ -50,7 +51,8 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     const Document document = read_document(path, definitions);
     const Objects objects(document.root);
     SceneParts parts;
-    const Context context{document, objects, parts.warnings};
+    std::vector<std::string> mesh_files;
+    const Context context{document, objects, parts.warnings, mesh_files};
 
     if (const Element* e = only(document.root, "integrator")) parts.bounces = read_integrator(*e, context);
     const Element* sensor = only(document.root, "sensor");
@@ -72,6 +74,9 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();
     parts.lights = lights.take();
+    std::vector<std::string> files = document.files;
+    files.insert(files.end(), mesh_files.begin(), mesh_files.end());
+    parts.hash = hash_files(files);
     return parts;
 }
 

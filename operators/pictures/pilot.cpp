@@ -2,6 +2,7 @@
 
 #include "core/sampling/independent_sampler.h"
 
+#include <algorithm>
 #include <chrono>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -91,8 +92,14 @@ int Pilot::bounces_for_tail(double fraction) const {
 }
 
 double Pilot::rest_probability(int N) const {
+    // The pilot's walks play no roulette before its own rest; the render's do beyond N, and survive about as the terms fall.
+    const auto term = [&](std::size_t q) { return rest_[q - 1].mean - (q < rest_.size() ? rest_[q].mean : 0.0); };
+    const auto first = static_cast<std::size_t>(N) + 1;
     double terms = 0.0, beyond = 0.0;
-    for (std::size_t q = 0; q < rays_.size(); ++q) (static_cast<int>(q) <= N ? terms : beyond) += rays_[q];
+    for (std::size_t q = 0; q < rays_.size(); ++q) {
+        if (q < first) terms += rays_[q];
+        else beyond += rays_[q] * (q < rays_.size() - 1 && term(first) > 0.0 ? std::clamp(term(q) / term(first), 0.0, 1.0) : 1.0);
+    }
     return beyond > terms ? terms / beyond : 1.0;
 }
 

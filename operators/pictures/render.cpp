@@ -12,6 +12,9 @@ namespace neumann {
 
 namespace {
 
+// An interrupted render goes on to a number of samples that can be repeated only if it has not run for longer, seconds.
+constexpr double patience = 3.0;
+
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -59,6 +62,8 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         observer.progress(progress);
     };
 
+    // Whether --spp finds the same replicates again.
+    const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
     std::vector<double> memory;
     for (std::uint64_t done = 0;;) {
         // Blocks of at most a sixteenth of what is done: few nodes are kept, and little is lost when one is dropped.
@@ -68,7 +73,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (goal.seconds && done > 0) {
             const double each = watch.seconds() / static_cast<double>(done), left = *goal.seconds - watch.seconds();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
-            if (each > left && replicate_size(done * size) == size) {
+            if (each > left && repeatable(done)) {
                 series.outcome = Outcome::time_reached;
                 break;
             }
@@ -78,7 +83,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         const auto work = [&] {
             return sampler.run(done, block, tally, [&](std::uint64_t pixels_done) {
                 report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
-                return done > 0 && observer.interrupted();
+                return done > 0 && repeatable(done) && observer.interrupted();
             }, std::move(memory));
         };
         auto node = work();
@@ -93,11 +98,11 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         series.seconds = watch.seconds();
 
         const bool last = goal.samples && series.samples >= *goal.samples;
-        const bool stop = observer.interrupted();
+        const bool stop = observer.interrupted() && (repeatable(done) || series.seconds > patience);
         if (std::has_single_bit(series.samples) && !last) {
             series.convergence.push_back(make_checkpoint(series, observer));
             const auto& errors = series.convergence.back().term_error;
-            if (goal.relative_error && done >= 4 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error) {
+            if (goal.relative_error && done > 1 && repeatable(done) && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error) {
                 series.outcome = Outcome::error_reached;
                 break;
             }

@@ -56,8 +56,8 @@ struct RenderedSeries {
 // Samples a pixel in one replicate: the largest power of two up to 8 that divides the samples into at least 4 replicates.
 std::uint32_t replicate_size(std::uint64_t samples);
 
-// An interrupted render drops the samples that are not yet in all pixels, unless there are no others; a render that is stopped by time
-// ends at a number of samples from which replicate_size() finds the same replicates again.
+// A render that is stopped by time or error ends at a number of samples from which replicate_size() finds the same replicates again, and so
+// does one that is interrupted, unless that would take long. An interrupted one drops the samples that are not yet in all pixels.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const RenderObserver& observer = {});
 

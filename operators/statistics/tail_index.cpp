@@ -31,12 +31,17 @@ std::vector<double> LargestSamples::sorted() const {
 std::optional<TailIndex> tail_index(const LargestSamples& samples) {
     const std::vector<double> largest = samples.sorted();
     const std::size_t k = std::min<std::size_t>({LargestSamples::capacity, largest.size(), samples.count() / 200});
-    if (k < 100) return std::nullopt;
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 1 < k; ++i) sum += std::log(largest[i] / largest[k - 1]);
-    if (sum == 0.0) return std::nullopt;  // all equal: bounded
-    const double n = static_cast<double>(k - 1), alpha = n / sum;
-    return TailIndex{alpha, alpha * (1.0 + 3.1 / std::sqrt(n))};
+    if (k < 400) return std::nullopt;
+    const auto hill = [&](std::size_t of) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i + 1 < of; ++i) sum += std::log(largest[i] / largest[of - 1]);
+        const auto n = static_cast<double>(of - 1);
+        const double alpha = n / sum;  // infinite where all are equal
+        return TailIndex{alpha, alpha * (1.0 + 3.1 / std::sqrt(n))};
+    };
+    const TailIndex near = hill(k), far = hill(k / 4);
+    if (!std::isfinite(near.alpha)) return std::nullopt;
+    return TailIndex{near.alpha, std::max(near.upper, far.upper)};
 }
 
 }  // namespace neumann

@@ -35,11 +35,12 @@ private:
 
 struct TailIndex {
     double alpha;  // Hill's estimate
-    double upper;  // α is below this with about 99.9% confidence
+    double upper;  // α is below this with about 99.9% confidence: the larger of two such bounds
     bool variance_is_infinite() const { return upper < 2.0; }
 };
 
-// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200); none where k < 100 samples are left.
+// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power law has the same
+// index at both, while the tail of a bounded sample that looks like one for a while falls off faster further out. None where k < 400.
 std::optional<TailIndex> tail_index(const LargestSamples& samples);
 
 }  // namespace neumann

@@ -67,7 +67,7 @@ TEST(Cube, TheFiguresKeepTheFlux) {
     for (const auto& row : g) EXPECT_NEAR(4.0 * row[wall_mean] + row[floor_mean] + row[ceiling_mean], 1.0, 1e-8);
 }
 
-// 6 places × 2 ways × 10 bounces: 120 comparisons. BSDF sampling to 0.6%.
+// 6 places × 2 ways × 10 bounces, of which 4 are exactly 0: 120 comparisons, MIS to 0.3%, BSDF sampling to 0.6%.
 TEST(CubeSlow, TenBouncesAtTheCentresAndOnAverage) {
     const double rho = 0.8;
     const Scene scene = cube(grey(rho));
@@ -75,7 +75,7 @@ TEST(CubeSlow, TenBouncesAtTheCentresAndOnAverage) {
         for (const Way way : {Way::mis, Way::bsdf}) {
             SCOPED_TRACE(std::string(column_names[column]) + ", " + name(way));
             expect_matches(probe(scene, place(scene, column), way, {.samples = 8192, .bounces = 10}), terms(column, rho), 1,
-                           way == Way::mis ? power : 0.006);
+                           way == Way::mis ? 0.003 : 0.006);
         }
 }
 
@@ -93,9 +93,9 @@ TEST(CubeSlow, TheSameLargerTurnedAndElsewhere) {
             // that the ceiling throws on itself.
             EXPECT_LE(found.terms[1].mean.r, 1e-25);
             exact.erase(exact.begin());
-            expect_matches(found, exact, 2);
+            expect_matches(found, exact, 2, 0.003);
         } else {
-            expect_matches(found, exact, 1);
+            expect_matches(found, exact, 1, 0.003);
         }
     }
 }

@@ -113,7 +113,7 @@ TEST(Superposition, SixGlowingFacesAddUpToTheFurnace) {
         for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == glowing_face ? glowing(rho, 1.0) : matte(rho));
         const Scene scene = maker.make();
         // Seeds of their own, so that the six errors are independent.
-        const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 2048, .seed = fixed_seed + glowing_face});
+        const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 4096, .seed = fixed_seed + glowing_face});
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i].mean += found.terms[i].mean;
             sums[i].standard_error = glm::sqrt(sums[i].standard_error * sums[i].standard_error +

@@ -37,17 +37,24 @@ struct Welford {
     Statistic statistic() const { return {mean, glm::sqrt(variance() / n)}; }
 };
 
-// T of a walk whose first point is given instead of looked for.
+// T of walks whose first points are given instead of looked for: the k-th ray hits starts[k].
 struct TransportFrom {
     const Geometry* geometry;
-    SurfacePoint start;
+    std::span<const CameraRay> rays;
+    std::span<const Start> starts;
 
-    bool first_hit(const Vec3&, const Vec3&, double, SurfacePoint& hit) const {
-        hit = start;
-        return true;
+    template <class HitAt>
+    std::uint32_t first_hits(std::span<const CameraRay> some, const HitAt& hit) const {
+        const auto first = static_cast<std::size_t>(some.data() - rays.data());
+        for (std::size_t i = 0; i < some.size(); ++i) hit(i) = starts[first + i].point;
+        return (1u << some.size()) - 1u;
     }
     bool first_hit(const SurfacePoint& from, const Vec3& w, SurfacePoint& hit) const { return geometry->first_hit(from, w, hit); }
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const { return geometry->visible(x, y); }
+    template <class PairAt>
+    std::uint32_t visible(std::size_t n, const PairAt& pair) const {
+        return geometry->visible(n, pair);
+    }
 };
 
 template <class Sampler>
@@ -89,31 +96,41 @@ struct Batch {
 };
 
 template <class Sampler>
-Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series, Sampler sampler) {
+Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series, const Sampler& sampler) {
     const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
     const WalkSettings settings{effort.bounces, direct_light(way), effort.rest_probability, effort.give_up};
     Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities), std::vector<LargestSamples>(quantities), 0};
-    std::vector<Rgb> sample(quantities);
-    TermSamples result{sample, batch.rays};
-    FromSampler<Sampler> random(sampler);
-    for (std::uint32_t i = 0; i < effort.samples; ++i) {
-        std::fill(sample.begin(), sample.end(), Rgb(0.0));
-        sampler.start(i);
-        const Start start = pick(random);
-        if (series.terms.empty()) {
-            walk(scene, TransportFrom{&scene.geometry, start.point}, settings, CameraRay{start.point.position + start.wo, -start.wo}, sampler,
+    const std::uint32_t together = std::min(effort.samples, 64u);
+    std::vector<Sampler> samplers(together, sampler);
+    std::vector<Start> starts(together);
+    std::vector<CameraRay> rays(together);
+    std::vector<Rgb> samples(together * quantities);
+    Walkers walkers;
+    TermSamples result{samples, batch.rays};
+    for (std::uint32_t first = 0; first < effort.samples; first += together) {
+        std::fill(samples.begin(), samples.end(), Rgb(0.0));
+        for (std::uint32_t i = 0; i < together; ++i) {
+            samplers[i].start(first + i);
+            FromSampler<Sampler> random(samplers[i]);
+            starts[i] = pick(random);
+            rays[i].origin = starts[i].point.position + starts[i].wo;
+            rays[i].direction = -starts[i].wo;
+            for (std::size_t k = 0; k < series.terms.size(); ++k)
+                samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
+        }
+        if (series.terms.empty())
+            walk(scene, TransportFrom{&scene.geometry, rays, starts}, settings, std::span<const CameraRay>(rays), std::span<Sampler>(samplers), walkers,
                  result);
-        } else {
-            for (std::size_t k = 0; k < series.terms.size(); ++k) sample[k] = series.terms[k](start.point, start.wo, random);
+        for (std::uint32_t i = 0; i < together; ++i) {
+            Rgb reflected(0.0);
+            for (std::size_t q = 0; q < quantities; ++q) {
+                const Rgb x = starts[i].weight * samples[i * quantities + q];
+                batch.quantities[q].add(x);
+                batch.largest[q].add(max_component(x));
+                if (q > 0) reflected += x;
+            }
+            batch.quantities[quantities].add(reflected);
         }
-        Rgb reflected(0.0);
-        for (std::size_t q = 0; q < quantities; ++q) {
-            const Rgb x = start.weight * sample[q];
-            batch.quantities[q].add(x);
-            batch.largest[q].add(max_component(x));
-            if (q > 0) reflected += x;
-        }
-        batch.quantities[quantities].add(reflected);
     }
     for (LargestSamples& largest : batch.largest) largest.add_count(effort.samples);
     batch.given_up = result.given_up;

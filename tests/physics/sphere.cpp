@@ -62,8 +62,11 @@ TEST(Sphere, AGlowingCapLightsAllPlacesAlike) {
     for (const Vec3& n : {Vec3(0, 0, -1), Vec3(0.6, 0, 0.8), Vec3(0, 0, 1)})
         for (const Way way : all_ways) {
             SCOPED_TRACE(name(way));
-            const Effort work = effort(way, 16384);
-            expect_matches(probe(scene, at_pole(scene, n), way, work), geometric(10.0 * f * 0.9, 0.9, work.bounces), 1, looks_for_lights(way) ? 0.004 : 0.01);
+            Effort work = effort(way, 16384);
+            // The map from the square to the sphere takes a square to the cap, of which nearly every net of 16384 points has exactly 494: no spread
+            // would be left to tell the error of 1 in 12000.
+            if (way == Way::surfaces || way == Way::light) work.sampler = SamplerKind::independent;
+            expect_matches(probe(scene, at_pole(scene, n), way, work), geometric(10.0 * f * 0.9, 0.9, work.bounces), 1, looks_for_lights(way) ? 0.006 : 0.015);
         }
 }
 

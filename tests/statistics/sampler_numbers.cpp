@@ -9,6 +9,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -201,7 +202,7 @@ TYPED_TEST(Sampler, MeansOfReplicatesAreUnbiased) {
 }
 
 // And their variance is that of 8 independent samples, or less where the points are spread evenly. For independent samples it is known: 5/36 / 8 for the cut.
-TEST(Sampler, SobolPointsHaveLessVarianceThanIndependentOnes) {
+TEST(SobolSampler, PointsHaveLessVarianceThanIndependentOnes) {
     for (const std::size_t dimension : {0u, 2u, 20u}) {
         const double by_independent = ReplicateMeans<Independent>(smooth, dimension).variance, by_sobol = ReplicateMeans<Sobol>(smooth, dimension).variance;
         const double cut_independent = ReplicateMeans<Independent>(cut, dimension).variance, cut_sobol = ReplicateMeans<Sobol>(cut, dimension).variance;
@@ -215,7 +216,7 @@ TEST(Sampler, SobolPointsHaveLessVarianceThanIndependentOnes) {
 
 // Of the points of a replicate, one lies in each of its equal parts, in every dimension of the table; and one in each box of the same area, of any shape, in the
 // first two dimensions together.
-TEST(Sampler, EveryReplicateOfSobolPointsIsStratified) {
+TEST(SobolSampler, EveryReplicateIsStratified) {
     for (const std::uint32_t size : {1u, 2u, 4u, 8u, 16u, 64u}) {
         const SobolPoints points(size);
         for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
@@ -241,7 +242,7 @@ TEST(Sampler, EveryReplicateOfSobolPointsIsStratified) {
 
 // Owen's scrambling: of two points that differ first in their k-th digit, the digits above are alike, the k-th differ, and all else is independent and uniform.
 // 65,536 replicates, for each pair with the first point in two dimensions.
-TEST(Sampler, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
+TEST(SobolSampler, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
     double smallest = 1.0;
     for (const std::size_t dimension : {0u, 5u})
         for (std::uint64_t other = 1; other < 8; ++other) {
