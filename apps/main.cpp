@@ -77,7 +77,7 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
         ->excludes(bounces);
     render->add_option("--spp", request.samples, "Samples a pixel")->type_name("N")->check(whole_from(1, std::uint64_t{1} << 40));
     render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(above_zero());
-    render->add_option("--error", request.relative_error, "Sample until the relative standard error of every bounce is at most this")
+    render->add_option("--error", request.relative_error, "Sample until the relative standard error of every bounce is at most this; --spp is then rounded up to a multiple of 8")
         ->type_name("REL")
         ->check(above_zero());
     render->add_option("--method", request.method, "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain")

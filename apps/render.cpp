@@ -126,10 +126,12 @@ int render_command(const RenderRequest& request) {
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
     if (!goal.samples && !goal.seconds && !goal.relative_error) goal = {std::nullopt, default_seconds, default_error};
-    if (goal.samples) {
-        settings.replicate_size = replicate_size(*goal.samples);
-    } else if (request.relative_error) {
+    if (request.relative_error) {
+        // The samples at which the error is looked at must be whole replicates, and the most samples too.
         settings.replicate_size = 8;
+        if (goal.samples) goal.samples = (*goal.samples + 7) / 8 * 8;
+    } else if (goal.samples) {
+        settings.replicate_size = replicate_size(*goal.samples);
     } else {
         // Where time allows few samples, single ones: a run can then end after any of them.
         const double pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;

@@ -38,37 +38,37 @@ TEST(TailIndex, OfParetosDistribution) {
         const auto tail = tail_index(pareto(alpha, 1'000'000, random));
         ASSERT_TRUE(tail);
         EXPECT_NEAR(tail->alpha, alpha, 4.5 * alpha / std::sqrt(999.0));
-        EXPECT_NEAR(tail->upper / tail->alpha, 1.0 + 3.1 / std::sqrt(999.0), 1e-12);
+        EXPECT_GE(tail->upper / tail->alpha, 1.0 + 3.1 / std::sqrt(999.0) - 1e-12);
     }
 }
 
-// 2000 trials each: false alarms are allowed in 0.5%, where 0.1% is promised (a Poisson count of 2 beyond 10: 8e-6).
+// 4000 trials each: where α ≥ 2, false alarms are allowed in 0.35%, and 0.1% are promised (a Poisson count of 4 beyond 14: 2e-5).
 TEST(TailIndex, AlarmRates) {
-    std::printf("alarms for Pareto tails, n = 20,000 (k = 100), 65,536 (327), 200,000 (1000)\n");
-    for (const double alpha : {1.5, 1.8, 2.0, 2.2, 3.0, 5.0}) {
+    std::printf("alarms for Pareto tails, n = 80,000 (k = 400), 120,000 (600), 200,000 and more (1000)\n");
+    for (const double alpha : {1.3, 1.5, 1.8, 2.0, 2.2, 3.0, 5.0}) {
         std::printf("  alpha %.1f:", alpha);
-        for (const std::uint64_t count : {20'000, 65'536, 200'000}) {
-            const double rate = alarm_rate(alpha, count, 2000);
+        for (const std::uint64_t count : {80'000, 120'000, 200'000}) {
+            const double rate = alarm_rate(alpha, count, 4000);
             std::printf("  %6.2f%%", 100 * rate);
-            if (alpha >= 2.0) { EXPECT_LE(rate, 0.005) << alpha << ' ' << count; }
+            if (alpha >= 2.0) { EXPECT_LE(rate, 0.0035) << alpha << ' ' << count; }
             if (alpha >= 3.0) { EXPECT_EQ(rate, 0.0) << alpha << ' ' << count; }
+            // A light that touches a wall has 1.5.
+            if (alpha == 1.5) { EXPECT_GE(rate, count == 200'000 ? 0.94 : 0.6) << count; }
+            if (alpha == 1.3) { EXPECT_GE(rate, count == 200'000 ? 0.999 : 0.9) << count; }
         }
         std::printf("\n");
     }
-    EXPECT_EQ(alarm_rate(1.5, 200'000, 2000), 1.0);
-    EXPECT_GE(alarm_rate(1.5, 65'536, 2000), 0.99);
-    EXPECT_GE(alarm_rate(1.8, 200'000, 2000), 0.5);
 }
 
-// All moments finite: never an alarm. 200 trials each.
+// All moments finite: never an alarm. 100 trials each.
 TEST(TailIndex, LightTailsAreSilent) {
     std::mt19937_64 random(1);
     const auto draw = [&](auto&& sample) {
         double smallest = 1e300;
-        for (int trial = 0; trial < 200; ++trial) {
+        for (int trial = 0; trial < 100; ++trial) {
             LargestSamples largest;
-            for (int i = 0; i < 50'000; ++i) largest.add(sample());
-            largest.add_count(50'000);
+            for (int i = 0; i < 100'000; ++i) largest.add(sample());
+            largest.add_count(100'000);
             if (const auto tail = tail_index(largest)) {
                 EXPECT_FALSE(tail->variance_is_infinite()) << tail->alpha;
                 smallest = std::min(smallest, tail->upper);
@@ -83,21 +83,32 @@ TEST(TailIndex, LightTailsAreSilent) {
     std::printf("smallest upper end: exponential %.2f, uniform %.2f, lognormal %.2f\n", exponential, bounded, lognormal);
 }
 
-TEST(TailIndex, NeedsTwentyThousandSamplesAndAHundredThatAreNotZero) {
+TEST(TailIndex, NeedsEightyThousandSamplesAndFourHundredThatAreNotZero) {
     std::mt19937_64 random(1);
-    EXPECT_FALSE(tail_index(pareto(1.5, 19'999, random)));
-    EXPECT_TRUE(tail_index(pareto(1.5, 20'000, random)));
+    EXPECT_FALSE(tail_index(pareto(1.5, 79'999, random)));
+    EXPECT_TRUE(tail_index(pareto(1.5, 80'000, random)));
     LargestSamples few;
-    for (int i = 0; i < 99; ++i) few.add(1.0 + i);
+    for (int i = 0; i < 399; ++i) few.add(1.0 + i);
     few.add_count(1'000'000);
     EXPECT_FALSE(tail_index(few));
     few.add(1e9);
     EXPECT_TRUE(tail_index(few));
     EXPECT_FALSE(tail_index({}));
+}
+
+// What is bounded ends in many equal values, or nearly so.
+TEST(TailIndex, EqualSamplesAreBounded) {
     LargestSamples equal;
     for (int i = 0; i < 5000; ++i) equal.add(3.0);
     equal.add_count(5000 * 200);
-    EXPECT_FALSE(tail_index(equal)) << "bounded";
+    EXPECT_FALSE(tail_index(equal));
+    LargestSamples top;  // a power law, cut off at a value that the largest 300 have
+    std::mt19937_64 random(1);
+    const auto heavy = pareto(1.0, 1'000'000, random).sorted();
+    for (const double x : heavy) top.add(std::min(x, heavy[300]));
+    top.add_count(1'000'000);
+    const auto tail = tail_index(top);
+    EXPECT_FALSE(tail && tail->variance_is_infinite());
 }
 
 TEST(TailIndex, TheLargestSamplesAreTheSameHoweverTheyWereCut) {

@@ -16,6 +16,7 @@ struct Case {
     const char* name;
     Method method;
     SamplerKind sampler;
+    friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 
 Scene cornell_box() { return read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "20"}}); }
