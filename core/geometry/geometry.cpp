@@ -14,9 +14,9 @@ namespace {
 // Half the spacing of floats at 1: what rounding a coordinate of unit size to float can move it by.
 constexpr double float_epsilon = 0x1p-24;
 
-// The distance that clears rounding: of the origin (a few roundings of a coordinate), and of Embree's distance along the normal of a
-// triangle, which is computed from its vertices relative to the origin.
-double hit_error(double largest_coordinate, double size) { return float_epsilon * (4.0 * largest_coordinate + 8.0 * size); }
+// The distance that clears rounding, in a scene of about unit size: of the ends and the direction of a ray, which may come from anywhere in
+// the scene, and of Embree's distance along the normal of a triangle, which is computed from its vertices relative to the origin.
+double hit_error(double size) { return float_epsilon * 8.0 * (1.0 + size); }
 
 double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -86,7 +86,6 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
     caster_ = std::make_unique<RayCaster>(shapes_, center_, scale);
     triangles_.resize(shapes_.size());
     error_.resize(shapes_.size());
-    const auto to_embree = [&](const Vec3& p) { return caster_->to_embree(p); };
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&shapes_[i])) {
             triangles_[i].reserve(mesh->triangles.size());
@@ -95,15 +94,14 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
                 const Vec3 across = glm::cross(b - a, c - a);
                 const double twice = glm::length(across);
                 const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
-                const double largest = std::max({largest_component(to_embree(a)), largest_component(to_embree(b)), largest_component(to_embree(c))});
-                const double error = hit_error(largest, longest * scale) / scale;
-                triangles_[i].push_back({a, b - a, c - a, across / twice, error, std::min(4.0 * error * longest / twice, 0.25)});
+                const double error = hit_error(longest * scale) / scale, margin = 4.0 * error * longest / twice;
+                triangles_[i].push_back({a, b - a, c - a, across / twice, error, margin < 1e-3 ? margin : 0.0});
             }
         } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[i])) {
-            error_[i] = hit_error(largest_component(to_embree(sphere->center)) + sphere->radius * scale, 0.0) / scale;
+            error_[i] = hit_error(sphere->radius * scale) / scale;
         } else if (const auto* disk = std::get_if<Disk>(&shapes_[i])) {
             const double size = (glm::length(disk->u) + glm::length(disk->v)) * scale;
-            error_[i] = hit_error(largest_component(to_embree(disk->center)) + size, 0.0) / scale;
+            error_[i] = hit_error(size) / scale;
         }
     }
 }
@@ -134,25 +132,22 @@ void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double e
 
 }  // namespace
 
-void Geometry::put_on_triangle(const TriangleRecord& t, double u, double v, SurfacePoint& p) {
-    double w = 1.0 - u - v;
-    if (u < t.margin || v < t.margin || w < t.margin) [[unlikely]] {
-        u = std::max(u, t.margin);
-        v = std::max(v, t.margin);
-        w = std::max(w, t.margin);
-        const double sum = u + v + w;
-        u /= sum;
-        v /= sum;
-    }
-    p.position = t.vertex + t.edge1 * u + t.edge2 * v;
-    p.normal = t.normal;
-    p.error = t.error;
-}
-
 void Geometry::put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    if (!triangles_[hit.shape].empty())
-        put_on_triangle(triangles_[hit.shape][hit.primitive], hit.u, hit.v, p);
-    else if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
+    if (!triangles_[hit.shape].empty()) {
+        const TriangleRecord& t = triangles_[hit.shape][hit.primitive];
+        double u = hit.u, v = hit.v, w = 1.0 - u - v;
+        if (u < t.margin || v < t.margin || w < t.margin) [[unlikely]] {
+            u = std::max(u, t.margin);
+            v = std::max(v, t.margin);
+            w = std::max(w, t.margin);
+            const double sum = u + v + w;
+            u /= sum;
+            v /= sum;
+        }
+        p.position = t.vertex + t.edge1 * u + t.edge2 * v;
+        p.normal = t.normal;
+        p.error = t.error;
+    } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
         hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
     else
         hit_disk(std::get<Disk>(shapes_[hit.shape]), origin, direction, error_[hit.shape], p);
@@ -197,7 +192,8 @@ SurfacePoint Geometry::point(std::uint32_t shape, std::uint32_t primitive, const
     SurfacePoint p;
     if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
         const Vec2 weights = uniform_triangle(uv);
-        put_on_triangle(triangles_[shape][primitive], weights.x, weights.y, p);
+        const TriangleRecord& t = triangles_[shape][primitive];
+        p = {t.vertex + t.edge1 * weights.x + t.edge2 * weights.y, t.normal, t.error, 0, 0};
     } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
         put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
     } else {

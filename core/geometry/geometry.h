@@ -83,9 +83,8 @@ private:
         Vec3 vertex, edge1, edge2, normal;
         double error;
         double margin;  // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
-                        // meets the triangle there
+                        // meets the triangle there; 0 where the triangle is too thin for that
     };
-    static void put_on_triangle(const TriangleRecord& t, double u, double v, SurfacePoint& p);
     // A hit of Embree's, back on the double geometry.
     void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
 

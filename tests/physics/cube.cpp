@@ -1,11 +1,12 @@
-// The unit cube whose ceiling emits Le = 1, albedo ρ everywhere: K^i Le = ρ^i g_i, and g_i depends on the shape only. g_1 is Lambert's formula, g_2 is exact to
-// 1e-13 by quadrature of closed forms, the others come from a Galerkin method with exact form factors, extrapolated from 16² … 256² patches a face;
-// error at most 2.4e-8. The ceiling touches the walls, so light sampling alone has infinite variance and is left out (see variance.cpp).
+// The unit cube whose ceiling emits Le = 1, albedo ρ everywhere: K^i Le = ρ^i g_i, and g_i depends on the shape only. g_1 is
+// Lambert's formula, g_2 is exact to 1e-13 by quadrature of closed forms, the others come from a Galerkin method with exact form
+// factors, extrapolated from 16² … 256² patches a face; error at most 2.4e-8. The ceiling touches the walls, so light sampling
+// alone has infinite variance and is left out (see variance.cpp).
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace neumann::physics {
 namespace {
@@ -23,8 +24,8 @@ constexpr double g[10][6] = {
     {0.16666850297559505, 0.1666028784951586, 0.16672310960248407, 0.16666675643987058, 0.16674449296470686, 0.16658848127582612},
     {0.16666568587790348, 0.1665692051951137, 0.1667680512932966, 0.1666668480617492, 0.16666701288433364, 0.1666655948686882}};
 enum Column : std::size_t { wall_mean, floor_mean, ceiling_mean, wall_center, floor_center, ceiling_center };
-constexpr const char* column_names[] = {"mean of a wall", "mean of the floor", "mean of the ceiling", "centre of a wall", "centre of the floor",
-                                        "centre of the ceiling"};
+constexpr const char* column_names[] = {"mean of a wall",   "mean of the floor",   "mean of the ceiling",
+                                        "centre of a wall", "centre of the floor", "centre of the ceiling"};
 
 // K^1 Le … K^10 Le.
 std::vector<double> terms(Column column, double rho) {
@@ -50,12 +51,18 @@ StartPicker place(const Scene& scene, Column column, const Mat4& to_world = Mat4
         return at(scene, Vec3(to_world * glm::dvec4(p, 1.0)), Vec3(to_world * glm::dvec4(n, 0.0)) / size, 1e-3 * size);
     };
     switch (column) {
-        case wall_mean: return anywhere_on(scene, left);
-        case floor_mean: return anywhere_on(scene, floor);
-        case ceiling_mean: return anywhere_on(scene, ceiling);
-        case wall_center: return point({0, 0.5, 0.5}, {1, 0, 0});
-        case floor_center: return point({0.5, 0.5, 0}, {0, 0, 1});
-        case ceiling_center: return point({0.5, 0.5, 1}, {0, 0, -1});
+        case wall_mean:
+            return anywhere_on(scene, left);
+        case floor_mean:
+            return anywhere_on(scene, floor);
+        case ceiling_mean:
+            return anywhere_on(scene, ceiling);
+        case wall_center:
+            return point({0, 0.5, 0.5}, {1, 0, 0});
+        case floor_center:
+            return point({0.5, 0.5, 0}, {0, 0, 1});
+        case ceiling_center:
+            return point({0.5, 0.5, 1}, {0, 0, -1});
     }
     return {};
 }
@@ -82,15 +89,16 @@ TEST(CubeSlow, TenBouncesAtTheCentresAndOnAverage) {
 // 37 times as large, turned about a skew axis, moved by coordinates that no float holds. 4 places × 10 bounces: 40 comparisons.
 TEST(CubeSlow, TheSameLargerTurnedAndElsewhere) {
     const double rho = 0.8;
-    const Mat4 to_world = glm::scale(glm::rotate(glm::translate(Mat4(1.0), Vec3(1234.1, -987.7, 456.3)), 1.1, glm::normalize(Vec3(1, 2, 3))), Vec3(37.0));
+    const Mat4 to_world = glm::scale(
+        glm::rotate(glm::translate(Mat4(1.0), Vec3(1234.1, -987.7, 456.3)), 1.1, glm::normalize(Vec3(1, 2, 3))), Vec3(37.0));
     const Scene scene = cube(grey(rho), to_world);
     for (const Column column : {wall_mean, ceiling_mean, floor_center, ceiling_center}) {
         SCOPED_TRACE(column_names[column]);
         const Estimates found = probe(scene, place(scene, column, to_world), Way::mis, {.samples = 8192, .bounces = 10});
         std::vector<double> exact = terms(column, rho);
         if (exact[0] == 0.0) {
-            // A plane in a skew position is flat up to the rounding of its corners only: two cosines of the order of 1e-14 are left of the light
-            // that the ceiling throws on itself.
+            // A plane in a skew position is flat up to the rounding of its corners only: two cosines of the order of 1e-14 are left
+            // of the light that the ceiling throws on itself.
             EXPECT_LE(found.terms[1].mean.r, 1e-25);
             exact.erase(exact.begin());
             expect_matches(found, exact, 2, 0.003);
@@ -121,7 +129,8 @@ TEST(Cube, LitByAWallInstead) {
     const Scene scene = maker.make();
     std::vector<double> exact;
     for (const auto& row : g)
-        exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 * (1.0 - row[floor_center] - row[ceiling_center]));
+        exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 *
+                        (1.0 - row[floor_center] - row[ceiling_center]));
     expect_matches(probe(scene, place(scene, floor_center), Way::mis, {.samples = 8192, .bounces = 10}), exact, 1);
 }
 
@@ -132,7 +141,8 @@ TEST(Cube, EveryChannelHasItsOwnPowers) {
     const Estimates found = probe(scene, place(scene, wall_center), Way::mis, {.samples = 64, .bounces = 10});
     for (int i = 1; i <= 10; ++i) {
         const Rgb& mean = found.terms[static_cast<std::size_t>(i)].mean;
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c] / power_of(rho, i)[c], mean.r / power_of(rho, i).r, 1e-14 * i) << "K^" << i << " Le";
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean[c] / power_of(rho, i)[c], mean.r / power_of(rho, i).r, 1e-14 * i) << "K^" << i << " Le";
     }
 }
 
@@ -143,8 +153,12 @@ TEST(Cube, TheRestIsWhatTheFurtherBouncesAddUpTo) {
     for (std::size_t i = 2; i < 10; ++i) exact += g[i][floor_center] * std::pow(rho, static_cast<double>(i + 1));
     const Scene scene = cube(grey(rho));
     for (const double go_on : {1.0, 0.7})
-        expect_matches(probe(scene, place(scene, floor_center), Way::mis, {.samples = 8192, .bounces = 2, .rest_probability = go_on}).rest, exact, "rest");
-    expect_matches(probe(scene, place(scene, floor_center), Way::bsdf, {.samples = 32768, .bounces = 2, .rest_probability = 1.0}).rest, exact, "rest");
+        expect_matches(
+            probe(scene, place(scene, floor_center), Way::mis, {.samples = 8192, .bounces = 2, .rest_probability = go_on}).rest,
+            exact, "rest");
+    expect_matches(
+        probe(scene, place(scene, floor_center), Way::bsdf, {.samples = 32768, .bounces = 2, .rest_probability = 1.0}).rest, exact,
+        "rest");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for lights carries
-// exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
+// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for
+// lights carries exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
 #include "tests/physics/enclosures.h"
 #include "tests/physics/pictures.h"
 #include "tests/physics/probe.h"
@@ -18,7 +18,8 @@ TEST(Furnace, EveryWalkCarriesThePowersOfTheAlbedo) {
         for (const Enclosure& enclosure : enclosures(furnace(rho))) {
             SCOPED_TRACE(enclosure.name);
             const Scene scene = enclosure.maker.make();
-            expect_exact(probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40}), [&](int i) { return power_of(rho, i); });
+            expect_exact(probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40}),
+                         [&](int i) { return power_of(rho, i); });
         }
 }
 
@@ -26,7 +27,8 @@ TEST(Furnace, EveryProductOfOperatorsIsThePowerOfTheAlbedo) {
     for (const Enclosure& enclosure : enclosures(furnace(colour))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
-        expect_exact(probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12}), [](int i) { return power_of(colour, i); });
+        expect_exact(probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12}),
+                     [](int i) { return power_of(colour, i); });
     }
 }
 
@@ -76,7 +78,8 @@ TEST(Furnace, WithoutReflectionNothingComesBack) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
         for (const Way way : {Way::mis, Way::bsdf, Way::light, Way::pointwise})
-            expect_exact(probe(scene, anywhere(scene), way, {.samples = 16, .rest_probability = 1.0}), [](int i) { return grey(i == 0 ? 1.0 : 0.0); });
+            expect_exact(probe(scene, anywhere(scene), way, {.samples = 16, .rest_probability = 1.0}),
+                         [](int i) { return grey(i == 0 ? 1.0 : 0.0); });
     }
 }
 
@@ -84,7 +87,8 @@ TEST(Furnace, WithoutAbsorptionEveryTermIsOneAndTheWalksAreGivenUp) {
     for (const Enclosure& enclosure : enclosures(glowing(1.0, 1.0))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
-        const Estimates found = probe(scene, anywhere(scene), Way::bsdf, {.samples = 16, .bounces = 30, .rest_probability = 1.0, .give_up = 100});
+        const Estimates found =
+            probe(scene, anywhere(scene), Way::bsdf, {.samples = 16, .bounces = 30, .rest_probability = 1.0, .give_up = 100});
         expect_exact(found, [](int) { return grey(1.0); });
         EXPECT_EQ(found.given_up, found.samples);
     }

@@ -1,4 +1,5 @@
-// What may not depend on the choice of units or of the origin. The same random numbers make the same walks, so whole pictures are compared, pixel by pixel.
+// What may not depend on the choice of units or of the origin. The same random numbers make the same walks, so whole pictures are
+// compared, pixel by pixel.
 #include "tests/physics/pictures.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
@@ -26,13 +27,16 @@ Scene furnished_room(const Units& units) {
     const auto coloured = [](const Rgb& rho) { return Surface{rho, std::nullopt}; };
     const auto faces = room({-1.1, -1.0, -0.9}, {1.1, 1.3, 0.9});
     for (std::size_t i = 0; i < 6; ++i)
-        maker.add(place(faces[i]), coloured(i == left ? Rgb(0.63, 0.07, 0.05) : i == right ? Rgb(0.14, 0.45, 0.09) : Rgb(0.73, 0.71, 0.68)));
+        maker.add(place(faces[i]), coloured(i == left    ? Rgb(0.63, 0.07, 0.05)
+                                            : i == right ? Rgb(0.14, 0.45, 0.09)
+                                                         : Rgb(0.73, 0.71, 0.68)));
     const double c = std::cos(0.3), s = std::sin(0.3);
     TriangleMesh turned = box({-0.3, -0.3, 0.0}, {0.3, 0.3, 1.1});
     for (Vec3& v : turned.vertices) v = Vec3(c * v.x - s * v.y - 0.4, s * v.x + c * v.y + 0.7, v.z - 0.87);
     maker.add(place(turned), coloured(Rgb(0.6)));
     maker.add(place(box({0.2, -0.1, -0.7}, {0.7, 0.4, -0.3})), coloured(Rgb(0.8, 0.5, 0.2)));
-    maker.add(place(parallelogram({-0.3, 0.1, 0.83}, {0, 0.5, 0}, {0.6, 0, 0})), {grey(0.3), Rgb(17.0, 12.0, 4.0) * units.radiance});
+    maker.add(place(parallelogram({-0.3, 0.1, 0.83}, {0, 0.5, 0}, {0.6, 0, 0})),
+              {grey(0.3), Rgb(17.0, 12.0, 4.0) * units.radiance});
 
     Perspective::Options& camera = maker.parts.camera;
     // Looks along +y, z is up.
@@ -60,7 +64,8 @@ int count_different(const Pictures& a, const Pictures& b, Same same) {
         const Estimate x = a.result.term(q), y = b.result.term(q);
         for (std::size_t i = 0; i < x.mean.pixels.size(); ++i)
             for (int c = 0; c < 3; ++c)
-                different += !same(x.mean.pixels[i][c], y.mean.pixels[i][c]) || !same(x.standard_error.pixels[i][c], y.standard_error.pixels[i][c]);
+                different += !same(x.mean.pixels[i][c], y.mean.pixels[i][c]) ||
+                             !same(x.standard_error.pixels[i][c], y.standard_error.pixels[i][c]);
     }
     return different;
 }
@@ -73,7 +78,8 @@ TEST(Invariance, RadianceTimesAPowerOfTwoGivesTheSameBits) {
     }
 }
 
-// Values are sums of 32 products of positive numbers with less than 100 factors each; standard errors are differences of such values.
+// Values are sums of 32 products of positive numbers with less than 100 factors each; standard errors are differences of such
+// values.
 TEST(Invariance, RadianceFromVerySmallToVeryLarge) {
     const Pictures one = pictures(furnished_room({}));
     for (const double factor : {1e-30, 3.0, 1e30}) {
@@ -90,7 +96,8 @@ TEST(Invariance, RadianceFromVerySmallToVeryLarge) {
                         continue;
                     }
                     largest = std::max(largest, std::abs(y.mean.pixels[p][c] / (mean * factor) - 1.0));
-                    largest_of_error = std::max(largest_of_error, std::abs(y.standard_error.pixels[p][c] / factor - x.standard_error.pixels[p][c]) / mean);
+                    largest_of_error = std::max(
+                        largest_of_error, std::abs(y.standard_error.pixels[p][c] / factor - x.standard_error.pixels[p][c]) / mean);
                 }
             EXPECT_LE(largest, 132 * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le, factor " << factor;
             EXPECT_LE(largest_of_error, 132 * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le, factor " << factor;
@@ -126,23 +133,25 @@ std::vector<bool> silhouettes(const Scene& scene) {
     return found;
 }
 
-// In other units coordinates are rounded differently, by 1e-7 of the room's size in Embree's floats. A pixel outside silhouettes changes by more than 1e-5 only where one
-// of its walks, deeper in the room, meets an edge within that distance and goes on from the other side. A ray does so with a probability of about 1e-7 times
-// the edges' length over the room's size, some 20: with 1728 pixels × 32 samples × 20 rays that is 1 to 3 walks, which show in the pictures of all later
-// bounces of their pixel.
+// In other units coordinates are rounded differently, by 1e-7 of the room's size in Embree's floats. A pixel outside silhouettes
+// changes by more than 1e-5 only where one of its walks, deeper in the room, meets an edge within that distance and goes on from
+// the other side. A ray does so with a probability of about 1e-7 times the edges' length over the room's size, some 20: with 1728
+// pixels × 32 samples × 20 rays that is at most 3 walks (a Poisson number, above 12 with a probability of 2e-5), each of which
+// shows in the pictures of all later bounces of its pixel.
 TEST(Invariance, OtherUnitsAndAnotherOriginChangeNothingButRounding) {
     const Scene scene = furnished_room({});
     const std::vector<bool> silhouette = silhouettes(scene);
     const Pictures one = pictures(scene);
-    for (const Units& units : {Units{.length = 1e-6}, Units{.length = 1e6}, Units{.origin = {1e5, -2e5, 3e4}}, Units{1e-6, {0.1, -0.2, 0.03}},
-                               Units{1e6, {1e11, 2e10, -1e11}}}) {
+    for (const Units& units : {Units{.length = 1e-6}, Units{.length = 1e6}, Units{.origin = {1e5, -2e5, 3e4}},
+                               Units{1e-6, {0.1, -0.2, 0.03}}, Units{1e6, {1e11, 2e10, -1e11}}}) {
         const Pictures other = pictures(furnished_room(units));
         int exceptions = 0;
         for (std::size_t p = 0; p < silhouette.size(); ++p) {
             if (silhouette[p]) continue;
             bool differs = false;
             for (int i = 0; i <= bounces; ++i) {
-                const Rgb x = one.result.term(static_cast<std::size_t>(i)).mean.pixels[p], y = other.result.term(static_cast<std::size_t>(i)).mean.pixels[p];
+                const Rgb x = one.result.term(static_cast<std::size_t>(i)).mean.pixels[p],
+                          y = other.result.term(static_cast<std::size_t>(i)).mean.pixels[p];
                 for (int c = 0; c < 3; ++c) differs |= std::abs(x[c] - y[c]) > 1e-5 * std::abs(x[c]);
             }
             exceptions += differs;

@@ -11,10 +11,10 @@
 #include "operators/walk/walk.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <limits>
 #include <map>
 #include <mutex>
-#include <oneapi/tbb/parallel_for.h>
 #include <optional>
 #include <sstream>
 
@@ -96,10 +96,12 @@ struct Batch {
 };
 
 template <class Sampler>
-Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series, const Sampler& sampler) {
+Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
+                const Sampler& sampler) {
     const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
     const WalkSettings settings{effort.bounces, direct_light(way), effort.rest_probability, effort.give_up};
-    Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities), std::vector<LargestSamples>(quantities), 0};
+    Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities),
+                std::vector<LargestSamples>(quantities), 0};
     const std::uint32_t together = std::min(effort.samples, 64u);
     std::vector<Sampler> samplers(together, sampler);
     std::vector<Start> starts(together);
@@ -119,8 +121,8 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
                 samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
         }
         if (series.terms.empty())
-            walk(scene, TransportFrom{&scene.geometry, rays, starts}, settings, std::span<const CameraRay>(rays), std::span<Sampler>(samplers), walkers,
-                 result);
+            walk(scene, TransportFrom{&scene.geometry, rays, starts}, settings, std::span<const CameraRay>(rays),
+                 std::span<Sampler>(samplers), walkers, result);
         for (std::uint32_t i = 0; i < together; ++i) {
             Rgb reflected(0.0);
             for (std::size_t q = 0; q < quantities; ++q) {
@@ -148,7 +150,8 @@ const SobolPoints& sobol_points(std::uint32_t size) {
 
 SurfacePoint surface_point(const Scene& scene, const Vec3& p, const Vec3& normal, double height) {
     SurfacePoint point;
-    if (!scene.geometry.first_hit(p + normal * height, -normal, 2.0 * height, point) || glm::length(point.position - p) > 0.1 * height)
+    if (!scene.geometry.first_hit(p + normal * height, -normal, 2.0 * height, point) ||
+        glm::length(point.position - p) > 0.1 * height)
         throw std::logic_error("there is no surface here");
     point.position = p;
     return point;
@@ -181,11 +184,16 @@ StartPicker anywhere(const Scene& scene) {
 
 std::string name(Way way) {
     switch (way) {
-        case Way::mis: return "walk, direct light by MIS";
-        case Way::bsdf: return "walk, direct light by BSDF sampling";
-        case Way::light: return "walk, direct light by light sampling";
-        case Way::pointwise: return "operators, R over the hemisphere";
-        case Way::surfaces: return "operators, R over surfaces";
+        case Way::mis:
+            return "walk, direct light by MIS";
+        case Way::bsdf:
+            return "walk, direct light by BSDF sampling";
+        case Way::light:
+            return "walk, direct light by light sampling";
+        case Way::pointwise:
+            return "operators, R over the hemisphere";
+        case Way::surfaces:
+            return "operators, R over surfaces";
     }
     return "";
 }
@@ -246,7 +254,8 @@ void expect_matches(const Statistic& found, double exact, const std::string& wha
 void expect_matches(const Estimates& found, std::span<const double> exact, int first, double largest_error) {
     for (std::size_t k = 0; k < exact.size(); ++k) {
         const int bounce = first + static_cast<int>(k);
-        expect_matches(found.terms.at(static_cast<std::size_t>(bounce)), exact[k], "K^" + std::to_string(bounce) + " Le", largest_error);
+        expect_matches(found.terms.at(static_cast<std::size_t>(bounce)), exact[k], "K^" + std::to_string(bounce) + " Le",
+                       largest_error);
     }
 }
 

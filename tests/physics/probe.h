@@ -1,8 +1,9 @@
 // Asks a scene for all terms K^i Le at one place and compares the answers with what is known.
 //
-// The policy of CONTRIBUTING.md: standard errors come from 64 independent batches, a value passes at |z| ≤ 4.5, and the standard error has to be
-// at most 0.2% of the reference. With the 63 degrees of freedom of 64 batches |z| > 4.5 is a false alarm in 3.0e-5 of all comparisons (Student's t;
-// 6.8e-6 for a normal z). The whole of this folder makes about 1500 of them: 4% for a new seed, and none with the fixed one.
+// The policy of CONTRIBUTING.md: standard errors come from 64 independent batches, a value passes at |z| ≤ 4.5, and the standard
+// error has to be at most 0.2% of the reference. With the 63 degrees of freedom of 64 batches |z| > 4.5 is a false alarm in 3.0e-5
+// of all comparisons (Student's t; 6.8e-6 for a normal z). The whole of this folder makes about 1500 of them: 4% for a new seed,
+// and none with the fixed one.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -34,8 +35,8 @@ StartPicker anywhere_on(const Scene& scene, std::uint32_t shape);
 // Uniform on all surfaces.
 StartPicker anywhere(const Scene& scene);
 
-// How the terms are estimated: by the walk with its three kinds of direct light, or by the series of operators, with R as an integral over
-// directions or over surfaces.
+// How the terms are estimated: by the walk with its three kinds of direct light, or by the series of operators, with R as an
+// integral over directions or over surfaces.
 enum class Way { mis, bsdf, light, pointwise, surfaces };
 std::string name(Way way);
 // The others find a light by chance, with a probability that is its form factor, and need many more samples.
@@ -45,7 +46,7 @@ inline constexpr std::uint64_t fixed_seed = 20240229;
 inline constexpr int batch_count = 64;
 
 struct Effort {
-    std::uint32_t samples = 4096;   // a batch; a power of two
+    std::uint32_t samples = 4096;  // a batch; a power of two
     int bounces = 8;
     double rest_probability = 0.0;  // 0: no rest
     int give_up = 1'000'000;
@@ -58,14 +59,14 @@ struct Statistic {
 };
 
 struct Estimates {
-    std::vector<Statistic> terms;         // K^i Le, i = 0 … N
-    Statistic rest;                       // Σ_{i>N}
-    Statistic reflected;                  // Σ_{i≥1}, with the rest
-    std::vector<Statistic> variance;      // of one sample of each term; unbiased with independent samples only
-    Statistic rest_variance;              // likewise
-    std::vector<double> rays;             // a sample: for each term and the rest
+    std::vector<Statistic> terms;              // K^i Le, i = 0 … N
+    Statistic rest;                            // Σ_{i>N}
+    Statistic reflected;                       // Σ_{i≥1}, with the rest
+    std::vector<Statistic> variance;           // of one sample of each term; unbiased with independent samples only
+    Statistic rest_variance;                   // likewise
+    std::vector<double> rays;                  // a sample: for each term and the rest
     double rays_mean = 0.0, rays_error = 0.0;  // of all of them together, with the standard error
-    std::vector<LargestSamples> largest;  // of each term and the rest
+    std::vector<LargestSamples> largest;       // of each term and the rest
     std::uint64_t given_up = 0;
     std::uint64_t samples = 0;
 };
@@ -75,8 +76,8 @@ Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Eff
 constexpr double z_limit = 4.5;
 constexpr double power = 0.002;  // the largest standard error, relative to the reference
 
-// A value that is exactly zero has to be found as exactly zero, everything else as said above. Rounding may add n ε, for a mean of n samples is
-// rounded n times; no batch has more than 2^17.
+// A value that is exactly zero has to be found as exactly zero, everything else as said above. Rounding may add n ε, for a mean of
+// n samples is rounded n times; no batch has more than 2^17.
 void expect_matches(const Statistic& found, double exact, const std::string& what, double largest_error = power);
 // `exact[k]` belongs to K^{first+k} Le. First channel.
 void expect_matches(const Estimates& found, std::span<const double> exact, int first = 0, double largest_error = power);

@@ -48,8 +48,8 @@ TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c) { return {{a,
 
 std::array<TriangleMesh, 6> room(const Vec3& low, const Vec3& high) {
     const Vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
-    return {parallelogram(low, y, z), parallelogram(low + x, z, y), parallelogram(low, z, x),
-            parallelogram(low + y, x, z), parallelogram(low, x, y), parallelogram(low + z, y, x)};
+    return {parallelogram(low, y, z),     parallelogram(low + x, z, y), parallelogram(low, z, x),
+            parallelogram(low + y, x, z), parallelogram(low, x, y),     parallelogram(low + z, y, x)};
 }
 
 TriangleMesh box(const Vec3& low, const Vec3& high) {
@@ -69,10 +69,21 @@ TriangleMesh tetrahedron(double size) {
 
 TriangleMesh icosphere(int level) {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
-    TriangleMesh mesh{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1},
-                       {-g, 0, -1}, {-g, 0, 1}},
-                      {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                       {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+    TriangleMesh mesh{
+        {{-1, g, 0},
+         {1, g, 0},
+         {-1, -g, 0},
+         {1, -g, 0},
+         {0, -1, g},
+         {0, 1, g},
+         {0, -1, -g},
+         {0, 1, -g},
+         {g, 0, -1},
+         {g, 0, 1},
+         {-g, 0, -1},
+         {-g, 0, 1}},
+        {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+         {3, 9, 4},  {3, 4, 2}, {3, 2, 6}, {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
     for (Vec3& v : mesh.vertices) v = glm::normalize(v);
     for (int l = 0; l < level; ++l) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
@@ -101,7 +112,8 @@ TriangleMesh prism(int n) {
     }
     for (std::uint32_t i = 0; i < corners; ++i) {
         const std::uint32_t low = 2 + 2 * i, next = 2 + 2 * ((i + 1) % corners);
-        mesh.triangles.insert(mesh.triangles.end(), {{0, next, low}, {1, low + 1, next + 1}, {low, next, next + 1}, {low, next + 1, low + 1}});
+        mesh.triangles.insert(mesh.triangles.end(),
+                              {{0, next, low}, {1, low + 1, next + 1}, {low, next, next + 1}, {low, next + 1, low + 1}});
     }
     return mesh;
 }

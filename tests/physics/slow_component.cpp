@@ -1,5 +1,6 @@
-// Two furnaces that do not see each other, ρ = 0.5 with Le = 1 and ρ = 0.99 with Le = 1e-6: over both, K^n Le adds up to t_n = 0.5^n + 1e-6 · 0.99^n. The
-// ratio of terms says 0.5 for a long time, and the tail that it predicts at n = 20 is 25 times too small. A measured rest is not fooled.
+// Two furnaces that do not see each other, ρ = 0.5 with Le = 1 and ρ = 0.99 with Le = 1e-6: over both, K^n Le adds up to t_n =
+// 0.5^n + 1e-6 · 0.99^n. The ratio of terms says 0.5 for a long time, and the tail that it predicts at n = 20 is 25 times too
+// small. A measured rest is not fooled.
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -35,7 +36,8 @@ TEST(SlowComponent, TheTermsAreTheSumOfBothFurnaces) {
     EXPECT_NEAR(t(20) / t(19), 0.6480958734373757, 1e-12);
 }
 
-// Σ_{n>20} t_n = 2^-20 + 1e-4 · 0.99^21. 1 comparison, with a standard error of 1%: the ratio's prediction, 25 times smaller, is far outside.
+// Σ_{n>20} t_n = 2^-20 + 1e-4 · 0.99^21. 1 comparison, with a standard error of 1%: the ratio's prediction, 25 times smaller, is
+// far outside.
 TEST(SlowComponent, TheMeasuredRestSeesWhatTheRatioHides) {
     const Scene scene = two_furnaces();
     const double exact = std::pow(0.5, 20) + 1e-4 * std::pow(0.99, 21);

@@ -56,14 +56,15 @@ void compare_blocks(const Estimate& a, const Estimate& b, int size, const std::s
         }
 }
 
-// Means over the picture, over blocks, and over the sums up to each bounce; the operators against each kind of direct light that has finite variance (here the
-// light hangs where no wall touches it, so that all three have). About 3 × 2 × 5 × 17 × 3 comparisons; the errors of the picture's mean are below 0.7%.
+// Terms and sums, means over the picture and over blocks; the operators against each kind of direct light (here no wall stands at an angle to the light where it
+// touches, so that all three have finite variance). 1278 comparisons, in which the operators' pictures take part three times each. The operators do not look for
+// the light, so the error of the picture's mean is 0.2% for bounce 0 and rises to 1% for bounce 4, in the light's weak blue to 2%.
 TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
-    const auto operators = render(scene, Method::pointwise, DirectLight::bsdf, 1, 1024);
+    const auto operators = render(scene, Method::pointwise, DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
-        const auto walk = render(scene, Method::walk, direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 1024 : 256);
+        const auto walk = render(scene, Method::walk, direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 4096 : 512);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what = "direct light " + std::to_string(static_cast<int>(direct)) + ", bounce " + std::to_string(i);
@@ -73,7 +74,7 @@ TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     }
     std::printf("largest |z| of %d: %.2f; beyond 2: %.1f%%; largest error of a picture's mean: %.2f%%\n", found.count, found.largest,
                 100.0 * found.beyond_two / found.count, 100.0 * found.worst_error);
-    EXPECT_LE(found.worst_error, 0.012);
+    EXPECT_LE(found.worst_error, 0.025);
 }
 
 }  // namespace
