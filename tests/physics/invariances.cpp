@@ -133,17 +133,16 @@ std::vector<bool> silhouettes(const Scene& scene) {
     return found;
 }
 
-// In other units coordinates are rounded differently, by 1e-7 of the room's size in Embree's floats. A pixel outside silhouettes
+// Elsewhere coordinates are rounded differently, by 1e-7 of the room's size in Embree's floats. A pixel outside silhouettes
 // changes by more than 1e-5 only where one of its walks, deeper in the room, meets an edge within that distance and goes on from
 // the other side. A ray does so with a probability of about 1e-7 times the edges' length over the room's size, some 20: with 1728
 // pixels × 32 samples × 20 rays that is at most 3 walks (a Poisson number, above 12 with a probability of 2e-5), each of which
 // shows in the pictures of all later bounces of its pixel.
-TEST(Invariance, OtherUnitsAndAnotherOriginChangeNothingButRounding) {
+TEST(Invariance, AnotherOriginChangesNothingButRounding) {
     const Scene scene = furnished_room({});
     const std::vector<bool> silhouette = silhouettes(scene);
     const Pictures one = pictures(scene);
-    for (const Units& units : {Units{.length = 1e-6}, Units{.length = 1e6}, Units{.origin = {1e5, -2e5, 3e4}},
-                               Units{1e-6, {0.1, -0.2, 0.03}}, Units{1e6, {1e11, 2e10, -1e11}}}) {
+    for (const Units& units : {Units{.origin = {1e5, -2e5, 3e4}}, Units{.origin = {0.1, -0.2, 0.03}}}) {
         const Pictures other = pictures(furnished_room(units));
         int exceptions = 0;
         for (std::size_t p = 0; p < silhouette.size(); ++p) {
