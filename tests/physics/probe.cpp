@@ -244,8 +244,7 @@ void expect_matches(const Statistic& found, double exact, const std::string& wha
         EXPECT_TRUE(mean == 0.0 && error == 0.0) << what << " is " << mean << " ± " << error << " and has to be exactly 0";
         return;
     }
-    // Rays start 8·2^-24 of the scene's size off their surfaces, because Embree's are floats: what nearly no variance would show.
-    const double rounding = 1e-6 * std::abs(exact);
+    const double rounding = float_rays * std::abs(exact);
     EXPECT_LE(std::abs(difference), z_limit * error + rounding)
         << what << " is " << mean << " ± " << error << ", exactly " << exact << ": z = " << difference / error;
     EXPECT_LE(error, largest_error * std::abs(exact))
