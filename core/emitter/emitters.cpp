@@ -31,13 +31,4 @@ Emitters::Emitters(const Geometry& geometry, std::vector<AreaLight> lights, std:
         if (d != 0.0) d /= total;
 }
 
-LightSample Emitters::sample(const Geometry& geometry, const Vec2& uv) const {
-    if (empty()) return {};
-    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, uv.x);
-    const double low = found == cumulative_.begin() ? 0.0 : found[-1];
-    const Primitive& chosen = primitives_[static_cast<std::size_t>(found - cumulative_.begin())];
-    const double left = std::min((uv.x - low) / (*found - low), 0x1.fffffffffffffp-1);
-    return {geometry.point(chosen.shape, chosen.primitive, {left, uv.y}), density_of_shape_[chosen.shape]};
-}
-
 }  // namespace neumann

@@ -3,6 +3,7 @@
 
 #include "core/geometry/geometry.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace neumann {
@@ -44,7 +45,14 @@ public:
     bool empty() const { return cumulative_.empty(); }
 
     // A point on an emitter: u picks the primitive, and what is left of it is, with v, the point there. The same density as pdf_area tells.
-    LightSample sample(const Geometry& geometry, const Vec2& uv) const;
+    LightSample sample(const Geometry& geometry, const Vec2& uv) const {
+        if (empty()) return {};
+        const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, uv.x);
+        const double low = found == cumulative_.begin() ? 0.0 : found[-1];
+        const Primitive& chosen = primitives_[static_cast<std::size_t>(found - cumulative_.begin())];
+        const double left = std::min((uv.x - low) / (*found - low), 0x1.fffffffffffffp-1);
+        return {geometry.point(chosen.shape, chosen.primitive, {left, uv.y}), density_of_shape_[chosen.shape]};
+    }
     // Density per area with which sample() finds p.
     double pdf_area(const SurfacePoint& p) const { return density_of_shape_[p.shape]; }
 

@@ -91,11 +91,8 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
             triangles_[i].reserve(mesh->triangles.size());
             for (const auto& t : mesh->triangles) {
                 const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
-                const Vec3 across = glm::cross(b - a, c - a);
-                const double twice = glm::length(across);
                 const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
-                const double error = hit_error(longest * scale) / scale, margin = 4.0 * error * longest / twice;
-                triangles_[i].push_back({a, b - a, c - a, across / twice, error, margin < 1e-3 ? margin : 0.0});
+                triangles_[i].emplace_back(a, b, c, hit_error(longest * scale) / scale);
             }
         } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[i])) {
             error_[i] = hit_error(sphere->radius * scale) / scale;
@@ -132,22 +129,8 @@ void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double e
 
 }  // namespace
 
-void Geometry::put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    if (!triangles_[hit.shape].empty()) {
-        const TriangleRecord& t = triangles_[hit.shape][hit.primitive];
-        double u = hit.u, v = hit.v, w = 1.0 - u - v;
-        if (u < t.margin || v < t.margin || w < t.margin) [[unlikely]] {
-            u = std::max(u, t.margin);
-            v = std::max(v, t.margin);
-            w = std::max(w, t.margin);
-            const double sum = u + v + w;
-            u /= sum;
-            v /= sum;
-        }
-        p.position = t.vertex + t.edge1 * u + t.edge2 * v;
-        p.normal = t.normal;
-        p.error = t.error;
-    } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
+void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
         hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
     else
         hit_disk(std::get<Disk>(shapes_[hit.shape]), origin, direction, error_[hit.shape], p);
@@ -162,6 +145,13 @@ bool Geometry::first_hit(const Vec3& origin, const Vec3& direction, double dista
     return true;
 }
 
+bool Geometry::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
+    RayCaster::Hit found;
+    if (!caster_->intersect(leave(from, glm::dot(from.normal, direction)), direction, std::numeric_limits<double>::infinity(), found)) return false;
+    put_on_surface(from.position, direction, found, hit);
+    return true;
+}
+
 bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
     const Vec3 d = y.position - x.position;
     return !caster_->occluded(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
@@ -173,10 +163,7 @@ std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
 }
 
 double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
-    if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
-        const TriangleRecord& t = triangles_[shape][primitive];
-        return 0.5 * glm::length(glm::cross(t.edge1, t.edge2));
-    }
+    if (!triangles_[shape].empty()) return triangles_[shape][primitive].area();
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
     const Disk& disk = std::get<Disk>(shapes_[shape]);
     return pi * glm::length(glm::cross(disk.u, disk.v));
@@ -188,13 +175,9 @@ double Geometry::area(std::uint32_t shape) const {
     return sum;
 }
 
-SurfacePoint Geometry::point(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
+SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& uv) const {
     SurfacePoint p;
-    if (std::holds_alternative<TriangleMesh>(shapes_[shape])) {
-        const Vec2 weights = uniform_triangle(uv);
-        const TriangleRecord& t = triangles_[shape][primitive];
-        p = {t.vertex + t.edge1 * weights.x + t.edge2 * weights.y, t.normal, t.error, 0, 0};
-    } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
+    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
         put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
     } else {
         const Disk& disk = std::get<Disk>(shapes_[shape]);
@@ -202,7 +185,6 @@ SurfacePoint Geometry::point(std::uint32_t shape, std::uint32_t primitive, const
         p = {disk.center + disk.u * d.x + disk.v * d.y, disk.normal, error_[shape], 0, 0};
     }
     p.shape = shape;
-    p.primitive = primitive;
     return p;
 }
 

@@ -2,14 +2,17 @@
 // Nothing here knows what surfaces are made of.
 //
 // Embree sees the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything outside stays
-// in scene units and double. Hits are put back onto the double geometry, and rays leave a surface from a point moved along its
-// normal by the rounding error of the hit, so scale and place of the scene do not matter.
+// in scene units and double. Embree tells which primitive is hit, by a ray that leaves a surface from a point moved along its normal by
+// the rounding error of floats; where the hit is, the ray from the point itself tells, in double. So scale and place of the scene do not
+// matter.
 #pragma once
 
 #include "core/geometry/ray.h"
 #include "core/geometry/ray_caster.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/surface_point.h"
+#include "core/geometry/triangle.h"
+#include "core/sampling/warp.h"
 
 #include <cmath>
 #include <limits>
@@ -34,32 +37,47 @@ public:
     // tr(p, ω) from a point in space, up to `distance`; ω unit length. False where nothing is hit; `hit` is then left as it was.
     bool first_hit(const Vec3& origin, const Vec3& direction, double distance, SurfacePoint& hit) const;
     // tr(p, ω) from a surface: the first surface point seen from p along ω, on the side of p that ω points to. `hit` may be `from`.
-    bool first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
-        return first_hit(leave(from, glm::dot(from.normal, direction)), direction, std::numeric_limits<double>::infinity(), hit);
-    }
+    bool first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
     // V(x, y): nothing stands between two surface points.
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const;
 
-    // The same for up to RayCaster::packet rays or pairs that are alike, such as those of one pixel: bit i answers for the i-th. `hit(i)` and
-    // `pair(i)` give references to where a hit goes and to the two points.
+    // The same for up to RayCaster::packet rays or pairs; bit i answers for the i-th. `from(i)`, `pair(i)` and `hit(i)` give references
+    // to the point and direction of departure, to the two points, and to where a hit goes.
     template <class HitAt>
     std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
+        RayCaster::Packet packet(*caster_);
+        for (const Ray& ray : rays) packet.add(ray.origin, ray.direction, ray.length);
         RayCaster::Hit hits[RayCaster::packet];
-        const std::uint32_t found = caster_->intersect(rays, hits);
+        const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::alike);
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (found >> i & 1u) put_on_surface(rays[i].origin, rays[i].direction, hits[i], hit(i));
         return found;
     }
-    template <class PairAt>
-    std::uint32_t visible(std::size_t n, const PairAt& pair) const {
-        Vec3 from[RayCaster::packet], to[RayCaster::packet];
+    template <class FromAt, class HitAt>
+    std::uint32_t first_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
+        RayCaster::Packet packet(*caster_);
         for (std::size_t i = 0; i < n; ++i) {
-            const std::pair<const SurfacePoint&, const SurfacePoint&> xy = pair(i);
-            const Vec3 d = xy.second.position - xy.first.position;
-            from[i] = leave(xy.first, glm::dot(xy.first.normal, d));
-            to[i] = leave(xy.second, -glm::dot(xy.second.normal, d));
+            const auto& [x, w] = from(i);
+            packet.add(leave(x, glm::dot(x.normal, w)), w);
         }
-        return ~caster_->occluded(std::span<const Vec3>(from, n), std::span<const Vec3>(to, n)) & ((1u << n) - 1u);
+        RayCaster::Hit hits[RayCaster::packet];
+        const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::any);
+        for (std::size_t i = 0; i < n; ++i)
+            if (found >> i & 1u) {
+                const auto& [x, w] = from(i);
+                put_on_surface(x.position, w, hits[i], hit(i));
+            }
+        return found;
+    }
+    template <class PairAt>
+    std::uint32_t visible(std::size_t n, const PairAt& pair, RayCaster::Rays kind) const {
+        RayCaster::Packet packet(*caster_);
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto& [x, y] = pair(i);
+            const Vec3 d = y.position - x.position;
+            packet.add_segment(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
+        }
+        return ~caster_->occluded(packet, kind) & ((1u << n) - 1u);
     }
 
     // Where a ray starts that leaves p to the side of its normal (side > 0) or to the other: clear of the hit's rounding error.
@@ -69,7 +87,12 @@ public:
     std::uint32_t primitive_count(std::uint32_t shape) const;
     double area(std::uint32_t shape, std::uint32_t primitive) const;
     double area(std::uint32_t shape) const;
-    SurfacePoint point(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const;
+    SurfacePoint point(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
+        if (triangles_[shape].empty()) return point_on_round_surface(shape, uv);
+        const Triangle& t = triangles_[shape][primitive];
+        const Vec2 weights = uniform_triangle(uv);
+        return {t.at(weights.x, weights.y), t.normal(), t.error(), shape, primitive};
+    }
 
     // The sphere around the bounding box, scene units; radius 0 for a scene without surfaces.
     Vec3 center() const { return center_; }
@@ -78,23 +101,24 @@ public:
     const RayCaster& caster() const { return *caster_; }
 
 private:
-    // A triangle with what a hit on it needs, scene units.
-    struct TriangleRecord {
-        Vec3 vertex, edge1, edge2, normal;
-        double error;
-        double margin;  // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
-                        // meets the triangle there; 0 where the triangle is too thin for that
-    };
-    // A hit of Embree's, back on the double geometry.
-    void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    // A hit of Embree's on the double geometry: where the ray from `origin` hits the primitive that Embree named. `origin` may be p.position.
+    void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+        if (!triangles_[hit.shape].empty()) {
+            const Triangle& t = triangles_[hit.shape][hit.primitive];
+            p = {t.hit(origin, direction, hit.u, hit.v), t.normal(), t.error(), hit.shape, hit.primitive};
+        } else
+            put_on_round_surface(origin, direction, hit, p);
+    }
+    void put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    SurfacePoint point_on_round_surface(std::uint32_t shape, const Vec2& uv) const;
 
     std::vector<Shape> shapes_;
     std::size_t degenerate_count_ = 0;
     Vec3 center_{0.0};
     double radius_ = 0.0;
     std::unique_ptr<RayCaster> caster_;
-    std::vector<std::vector<TriangleRecord>> triangles_;  // by shape; empty where the shape is no mesh
-    std::vector<double> error_;                           // by shape: spheres and discs
+    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty where the shape is no mesh
+    std::vector<double> error_;                     // by shape: spheres and discs
 };
 
 }  // namespace neumann

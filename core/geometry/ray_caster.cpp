@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -92,14 +93,28 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 }
 
 #if RTC_VERSION_MAJOR >= 4
+RTCRayQueryFlags flags(RayCaster::Rays kind) {
+    return kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+}
 void trace(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query, nullptr); }
 void trace(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
-void trace(const int* valid, RTCScene scene, RTCRayHit8& queries) { rtcIntersect8(valid, scene, &queries, nullptr); }
-void trace(const int* valid, RTCScene scene, RTCRay8& rays) { rtcOccluded8(valid, scene, &rays, nullptr); }
+void trace(const int* valid, RTCScene scene, RTCRayHit8& queries, RayCaster::Rays kind) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = flags(kind);
+    rtcIntersect8(valid, scene, &queries, &arguments);
+}
+void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = flags(kind);
+    rtcOccluded8(valid, scene, &rays, &arguments);
+}
 #else
-RTCIntersectContext make_context() {
+RTCIntersectContext make_context(RayCaster::Rays kind = RayCaster::Rays::any) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    if (kind == RayCaster::Rays::alike) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     return context;
 }
 void trace(RTCScene scene, RTCRayHit& query) {
@@ -110,14 +125,12 @@ void trace(RTCScene scene, RTCRay& ray) {
     RTCIntersectContext context = make_context();
     rtcOccluded1(scene, &context, &ray);
 }
-void trace(const int* valid, RTCScene scene, RTCRayHit8& queries) {
-    RTCIntersectContext context = make_context();
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+void trace(const int* valid, RTCScene scene, RTCRayHit8& queries, RayCaster::Rays kind) {
+    RTCIntersectContext context = make_context(kind);
     rtcIntersect8(valid, scene, &context, &queries);
 }
-void trace(const int* valid, RTCScene scene, RTCRay8& rays) {
-    RTCIntersectContext context = make_context();
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
+    RTCIntersectContext context = make_context(kind);
     rtcOccluded8(valid, scene, &context, &rays);
 }
 #endif
@@ -136,18 +149,9 @@ void set_ray(RTCRay& ray, const Vec3& org, const Vec3& dir, float tfar) {
     ray.flags = 0;
 }
 
-void set_ray(RTCRay8& rays, std::size_t i, const Vec3& org, const Vec3& dir, float tfar) {
-    rays.org_x[i] = static_cast<float>(org.x);
-    rays.org_y[i] = static_cast<float>(org.y);
-    rays.org_z[i] = static_cast<float>(org.z);
-    rays.dir_x[i] = static_cast<float>(dir.x);
-    rays.dir_y[i] = static_cast<float>(dir.y);
-    rays.dir_z[i] = static_cast<float>(dir.z);
-    rays.tnear[i] = 0.0f;
-    rays.tfar[i] = tfar;
-    rays.time[i] = 0.0f;
-    rays.mask[i] = ~0u;
-    rays.flags[i] = 0;
+template <std::size_t N>
+void copy(const float (&from)[N], float* to) {
+    std::copy(from, from + N, to);
 }
 
 // Which of 8 places are taken by n rays.
@@ -266,17 +270,28 @@ bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     return ray.tfar < 0.0f;
 }
 
-std::uint32_t RayCaster::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
-    const Valid valid(rays.size());
+void RayCaster::set_rays(const Packet& packet, RTCRay8& rays) {
+    copy(packet.origin_[0], rays.org_x);
+    copy(packet.origin_[1], rays.org_y);
+    copy(packet.origin_[2], rays.org_z);
+    copy(packet.direction_[0], rays.dir_x);
+    copy(packet.direction_[1], rays.dir_y);
+    copy(packet.direction_[2], rays.dir_z);
+    copy(packet.length_, rays.tfar);
+    std::fill_n(rays.tnear, 8, 0.0f);
+    std::fill_n(rays.time, 8, 0.0f);
+    std::fill_n(rays.mask, 8, ~0u);
+    std::fill_n(rays.flags, 8, 0u);
+}
+
+std::uint32_t RayCaster::intersect(const Packet& packet, std::span<Hit> hits, Rays kind) const {
     RTCRayHit8 queries;
-    for (std::size_t i = 0; i < packet; ++i) {
-        if (i < rays.size()) set_ray(queries.ray, i, to_embree(rays[i].origin), rays[i].direction, static_cast<float>(rays[i].length * scale_));
-        queries.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        queries.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    trace(valid.lanes, impl_->scene, queries);
+    set_rays(packet, queries.ray);
+    std::fill_n(queries.hit.geomID, 8, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(queries.hit.instID[0], 8, RTC_INVALID_GEOMETRY_ID);
+    trace(Valid(packet.size_).lanes, impl_->scene, queries, kind);
     std::uint32_t found = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t i = 0; i < packet.size_; ++i) {
         if (queries.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
         found |= 1u << i;
         hits[i] = {queries.hit.geomID[i], queries.hit.primID[i], queries.hit.u[i], queries.hit.v[i], queries.ray.tfar[i] / scale_};
@@ -284,16 +299,12 @@ std::uint32_t RayCaster::intersect(std::span<const Ray> rays, std::span<Hit> hit
     return found;
 }
 
-std::uint32_t RayCaster::occluded(std::span<const Vec3> from, std::span<const Vec3> to) const {
-    const Valid valid(from.size());
+std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
     RTCRay8 rays;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const Vec3 org = to_embree(from[i]);
-        set_ray(rays, i, org, to_embree(to[i]) - org, 1.0f);
-    }
-    trace(valid.lanes, impl_->scene, rays);
+    set_rays(packet, rays);
+    trace(Valid(packet.size_).lanes, impl_->scene, rays, kind);
     std::uint32_t found = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) found |= static_cast<std::uint32_t>(rays.tfar[i] < 0.0f) << i;
+    for (std::size_t i = 0; i < packet.size_; ++i) found |= static_cast<std::uint32_t>(rays.tfar[i] < 0.0f) << i;
     return found;
 }
 

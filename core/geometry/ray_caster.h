@@ -9,6 +9,7 @@
 #include <span>
 
 struct RTCSceneTy;
+struct RTCRay8;
 
 namespace neumann {
 
@@ -29,10 +30,13 @@ public:
     // Whether anything lies strictly between two points.
     bool occluded(const Vec3& from, const Vec3& to) const;
 
-    // The same for up to 8 rays at once, which is faster where they are alike; bit i of the answer belongs to ray i.
+    // The same for up to 8 rays at once, which is faster: bit i of the answer belongs to ray i. Rays that are alike, such as those of one
+    // pixel, stay together through the whole scene.
     static constexpr std::size_t packet = 8;
-    std::uint32_t intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
-    std::uint32_t occluded(std::span<const Vec3> from, std::span<const Vec3> to) const;
+    enum class Rays { alike, any };
+    class Packet;
+    std::uint32_t intersect(const Packet& rays, std::span<Hit> hits, Rays kind) const;
+    std::uint32_t occluded(const Packet& rays, Rays kind) const;
 
     // For benchmarks that cast the same rays without anything around them.
     RTCSceneTy* embree_scene() const;
@@ -41,9 +45,36 @@ public:
 
 private:
     struct Impl;
+    static void set_rays(const Packet& packet, RTCRay8& rays);
     Vec3 center_;
     double scale_;
     std::unique_ptr<Impl> impl_;
+};
+
+// Rays as Embree wants them.
+class RayCaster::Packet {
+public:
+    explicit Packet(const RayCaster& caster) : center_(caster.center_), scale_(caster.scale_) {}
+
+    void add(const Vec3& origin, const Vec3& direction, double length = std::numeric_limits<double>::infinity()) {
+        set((origin - center_) * scale_, direction, static_cast<float>(length * scale_));
+    }
+    void add_segment(const Vec3& from, const Vec3& to) { set((from - center_) * scale_, (to - from) * scale_, 1.0f); }
+
+private:
+    friend class RayCaster;
+    void set(const Vec3& o, const Vec3& d, float length) {
+        for (int axis = 0; axis < 3; ++axis) {
+            origin_[axis][size_] = static_cast<float>(o[axis]);
+            direction_[axis][size_] = static_cast<float>(d[axis]);
+        }
+        length_[size_++] = length;
+    }
+
+    Vec3 center_;
+    double scale_;
+    std::size_t size_ = 0;
+    float origin_[3][packet], direction_[3][packet], length_[packet];
 };
 
 // Which Embree is linked, such as "Embree 3.13.5".

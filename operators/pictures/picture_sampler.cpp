@@ -15,17 +15,24 @@ namespace {
 
 constexpr std::size_t non_finite_kept = 16;
 
-// One thread's work space: the walk's samples, and one node of the tree of replicates for each level.
+// Walks that advance together: enough that those that are still on their way fill the packets of rays.
+constexpr std::uint32_t walks_at_once = 64;
+
+// One thread's work space for some pixels at once: the walks' samples, and one node of the tree of replicates for each level and pixel.
 struct Workspace {
-    Workspace(std::size_t quantities, std::size_t size, std::size_t levels)
-        : rays(size), samples(size * quantities), sum(quantities), carry(quantities * PixelMoments::doubles_per_quantity),
-          waiting(levels, carry), tally(quantities) {}
+    Workspace(std::size_t pixels, std::size_t replicate_size, std::size_t quantities, std::size_t levels)
+        : rays(pixels * replicate_size), samples(rays.size() * quantities), sum(quantities), carry(quantities * PixelMoments::doubles_per_quantity),
+          waiting(pixels, std::vector(levels, carry)), tally(quantities) {}
     std::vector<CameraRay> rays;
     Walkers walkers;
     std::vector<Rgb> samples, sum;
     std::vector<double> carry;
-    std::vector<std::vector<double>> waiting;
+    std::vector<std::vector<std::vector<double>>> waiting;
     Tally tally;
+};
+
+struct Pixel {
+    int x, y;
 };
 
 void keep_first(std::vector<NonFiniteSample>& samples) {
@@ -34,13 +41,13 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
 }
 
 // Takes down the samples of one quantity that are not finite, makes them zero, and returns the sum of the others.
-Rgb leave_out_non_finite(Workspace& work, std::size_t size, std::size_t q, int px, int py, std::uint64_t replicate) {
+Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate, Workspace& work) {
     Rgb sum(0.0);
     for (std::size_t i = 0; i < size; ++i) {
-        Rgb& x = work.samples[i * work.sum.size() + q];
+        Rgb& x = samples[i * work.sum.size() + q];
         if (!is_finite(x)) {
             ++work.tally.non_finite_count;
-            work.tally.non_finite.push_back({px, py, static_cast<int>(q), replicate * size + i});
+            work.tally.non_finite.push_back({pixel.x, pixel.y, static_cast<int>(q), replicate * size + i});
             if (work.tally.non_finite.size() > 4 * non_finite_kept) keep_first(work.tally.non_finite);
             x = Rgb(0.0);
         }
@@ -49,33 +56,52 @@ Rgb leave_out_non_finite(Workspace& work, std::size_t size, std::size_t q, int p
     return sum;
 }
 
-// The mean of one replicate of one pixel, into work.sum; there is a sampler for each of its samples.
+// Samples one replicate of some pixels, into work.samples; there is a sampler for each of their samples.
 template <class Estimator, class Sampler>
-void replicate(const Scene& scene, const Estimator& estimate, std::vector<Sampler>& samplers, int px, int py, std::uint64_t replicate,
-               Workspace& work) {
+void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels, std::uint64_t replicate,
+           Workspace& work) {
     const Film& film = scene.film;
-    const std::size_t size = samplers.size(), quantities = work.sum.size();
-    for (std::size_t i = 0; i < size; ++i) {
-        samplers[i].start(replicate * size + i);
-        work.rays[i] = scene.camera.ray(sample(film.filter, samplers[i].next2(), px, py, film.width, film.height));
+    const std::size_t size = samplers.size() / pixels.size();
+    for (std::size_t i = 0; i < samplers.size(); ++i) {
+        const Pixel& pixel = pixels[i / size];
+        samplers[i].start(replicate * size + i % size);
+        work.rays[i] = scene.camera.ray(sample(film.filter, samplers[i].next2(), pixel.x, pixel.y, film.width, film.height));
     }
     std::fill(work.samples.begin(), work.samples.end(), Rgb(0.0));
     TermSamples result{work.samples, work.tally.rays};
-    estimate(work.rays, std::span(samplers), work.walkers, result);
+    estimate(std::span<const CameraRay>(work.rays).first(samplers.size()), samplers, work.walkers, result);
     work.tally.given_up += result.given_up;
+}
 
+// The means of one pixel's samples of a replicate, into work.sum.
+void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, Workspace& work) {
+    const std::size_t quantities = work.sum.size();
+    std::copy_n(samples.begin(), quantities, work.sum.begin());
+    for (std::size_t i = 1; i < size; ++i)
+        for (std::size_t q = 0; q < quantities; ++q) work.sum[q] += samples[i * quantities + q];
     for (std::size_t q = 0; q < quantities; ++q) {
-        Rgb sum(0.0);
-        for (std::size_t i = 0; i < size; ++i) sum += work.samples[i * quantities + q];
+        Rgb& sum = work.sum[q];
         LargestSamples& largest = work.tally.largest[q];
         largest.add_count(size);
         if (!is_finite(sum)) [[unlikely]]
-            sum = leave_out_non_finite(work, size, q, px, py, replicate);
+            sum = leave_out_non_finite(samples, size, q, pixel, replicate, work);
         // Samples are not negative, so none exceeds the sum.
         if (max_component(sum) > largest.threshold())
-            for (std::size_t i = 0; i < size; ++i) largest.add(max_component(work.samples[i * quantities + q]));
-        work.sum[q] = sum * (1.0 / static_cast<double>(size));
+            for (std::size_t i = 0; i < size; ++i) largest.add(max_component(samples[i * quantities + q]));
+        sum *= 1.0 / static_cast<double>(size);
     }
+}
+
+// Appends work.sum as the r-th replicate: nodes of equal size are joined as digits carry in adding 1 to a binary number.
+void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace& work) {
+    PixelMoments::set(work.carry, work.sum);
+    std::size_t level = 0;
+    for (; r >> level & 1; ++level) {
+        const auto n = static_cast<double>(std::uint64_t{1} << level);
+        PixelMoments::merge(waiting[level], n, work.carry, n);
+        std::swap(waiting[level], work.carry);
+    }
+    std::swap(waiting[level], work.carry);
 }
 
 std::variant<WalkEstimator, PointwiseEstimator> make_estimator(const Scene& scene, const PictureSampler::Settings& settings) {
@@ -109,42 +135,52 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
     MomentsNode node{first, count, std::move(memory)};
     node.data.resize(pixels * stride);
-    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces(
-        [&] { return Workspace(quantities(), settings_.replicate_size, levels); });
+    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(walks_at_once / size, 1u);
+    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
+        Workspace work(pixels_at_once, size, quantities(), levels);
+        for (std::size_t q = 0; q < quantities(); ++q) work.tally.largest[q].outdo(tally.largest[q]);
+        return work;
+    });
 
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
-    const auto run_pixel = [&](const auto& estimator, const auto& sampler, std::uint32_t pixel, Workspace& work) {
-        std::vector samplers(settings_.replicate_size, sampler);
-        const int px = scene_.film.crop_x + static_cast<int>(pixel) % width(), py = scene_.film.crop_y + static_cast<int>(pixel) / width();
-        for (std::uint64_t r = 0; r < count; ++r) {
-            replicate(scene_, estimator, samplers, px, py, first + r, work);
-            PixelMoments::set(work.carry, work.sum);
-            // Nodes of equal size are joined as digits carry in adding 1 to a binary number.
-            std::size_t level = 0;
-            for (; r >> level & 1; ++level) {
-                const auto n = static_cast<double>(std::uint64_t{1} << level);
-                PixelMoments::merge(work.waiting[level], n, work.carry, n);
-                std::swap(work.waiting[level], work.carry);
-            }
-            std::swap(work.waiting[level], work.carry);
+    // Some consecutive pixels, from `begin`.
+    const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end, Workspace& work) {
+        std::vector<Pixel> some;
+        std::vector<std::decay_t<decltype(sampler_of(begin))>> samplers;
+        for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+            some.push_back({scene_.film.crop_x + static_cast<int>(pixel) % width(), scene_.film.crop_y + static_cast<int>(pixel) / width()});
+            samplers.resize(samplers.size() + size, sampler_of(pixel));
         }
-        std::copy(work.waiting.back().begin(), work.waiting.back().end(), node.data.begin() + static_cast<std::ptrdiff_t>(pixel * stride));
+        for (std::uint64_t r = 0; r < count; ++r) {
+            trace(scene_, estimate, std::span(samplers), some, first + r, work);
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                average(std::span(work.samples).subspan(i * size * quantities(), size * quantities()), size, some[i], first + r, work);
+                append(r, work.waiting[i], work);
+            }
+        }
+        for (std::size_t i = 0; i < some.size(); ++i)
+            std::copy(work.waiting[i].back().begin(), work.waiting[i].back().end(), node.data.begin() + static_cast<std::ptrdiff_t>((begin + i) * stride));
     };
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, pixels, 16), [&](const auto& range) {
+    // Groups of pixels are the same however the work is divided.
+    const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
         if (dropped) return;
         Workspace& work = workspaces.local();
-        for (std::uint32_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+        std::uint32_t done = 0;
+        for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
+            const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
             std::visit(
-                [&](const auto& estimator) {
+                [&](const auto& estimate) {
                     if (settings_.sampler == SamplerKind::sobol)
-                        run_pixel(estimator, SobolSampler(sobol_, settings_.seed, pixel), pixel, work);
+                        run_pixels(estimate, [&](std::uint32_t pixel) { return SobolSampler(sobol_, settings_.seed, pixel); }, begin, end, work);
                     else
-                        run_pixel(estimator, IndependentSampler(settings_.seed, pixel), pixel, work);
+                        run_pixels(estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end, work);
                 },
                 estimator_);
+            done += end - begin;
         }
-        pixels_done += range.size();
+        pixels_done += done;
         if (watch && watch(pixels_done)) dropped = true;
     });
     if (dropped) return std::nullopt;

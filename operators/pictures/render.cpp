@@ -79,20 +79,15 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             }
         }
 
-        Tally tally(sampler.quantities());
-        const auto work = [&] {
-            return sampler.run(done, block, tally, [&](std::uint64_t pixels_done) {
-                report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
-                return done > 0 && repeatable(done) && observer.interrupted();
-            }, std::move(memory));
-        };
-        auto node = work();
+        auto node = sampler.run(done, block, series.tally, [&](std::uint64_t pixels_done) {
+            report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
+            return done > 0 && repeatable(done) && observer.interrupted();
+        }, std::move(memory));
         if (!node) {
             series.outcome = Outcome::interrupted;
             break;
         }
         memory = series.moments.add(std::move(*node));
-        series.tally.merge(tally);
         done += block;
         series.samples = done * size;
         series.seconds = watch.seconds();

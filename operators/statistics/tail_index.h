@@ -2,6 +2,7 @@
 // variance is to be trusted.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,6 +20,8 @@ public:
     }
     void add_count(std::uint64_t n) { count_ += n; }
     void merge(const LargestSamples& other);
+    // Samples that `other` already outdoes need not be kept: for sets that will be merged into it.
+    void outdo(const LargestSamples& other) { threshold_ = std::max(threshold_, other.threshold_); }
     // add() does nothing for values up to this.
     double threshold() const { return threshold_; }
 

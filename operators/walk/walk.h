@@ -8,6 +8,7 @@
 #pragma once
 
 #include "core/base/frame.h"
+#include "core/base/hot.h"
 #include "core/scene/scene.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ struct Walker {
     double kept_weight = 0.0;  // largest channel of β when roulette last let the walk live
 
     // The next reflection.
-    Vec3 wi;
+    Vec3 from, wi;
     double pdf = 0.0;  // of wi, per solid angle
     SurfacePoint light;
     Rgb found;  // what arrives from `light` if it is seen
@@ -59,11 +60,11 @@ struct Walkers {
 };
 
 // Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so that the
-// processor always has several independent chains of arithmetic to work on. `T` answers first_hit(), visible() and their forms for
-// several rays as Geometry does; samplers[i] gives the numbers of walk i.
+// processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as Geometry
+// does; samplers[i] gives the numbers of walk i.
 template <class Transport, class Sampler>
-void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, std::span<const CameraRay> rays, std::span<Sampler> samplers,
-          Walkers& walkers, TermSamples& out) {
+NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, std::span<const CameraRay> rays,
+                      std::span<Sampler> samplers, Walkers& walkers, TermSamples& out) {
     const int N = settings.bounces;
     const std::size_t stride = static_cast<std::size_t>(N) + 2;
     const Emitters& emitters = scene.emitters;
@@ -80,21 +81,31 @@ void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, 
             if (f(walker[i], i)) alive[kept++] = i;
         alive.resize(kept);
     };
+    // The same after asking T for the next points of as many walks at once as make a packet.
+    constexpr std::size_t packet = RayCaster::packet;
+    const auto advance = [&](const auto& first_hits, const auto& f) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < alive.size(); k += packet) {
+            const std::size_t n = std::min(packet, alive.size() - k);
+            const std::uint32_t found = first_hits(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
+            for (std::size_t j = 0; j < n; ++j) {
+                const std::uint32_t i = alive[k + j];
+                if ((found >> j & 1u) && f(walker[i], i)) alive[kept++] = i;
+            }
+        }
+        alive.resize(kept);
+    };
     const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x; };
 
     // T: the first vertices.
     out.rays[0] += rays.size();
-    constexpr std::size_t packet = RayCaster::packet;
-    std::uint32_t found = 0;
-    filter([&](Walker& w, std::uint32_t i) {
-        if (i % packet == 0)
-            found = T.first_hits(rays.subspan(i, std::min(packet, rays.size() - i)), [&](std::size_t k) -> SurfacePoint& { return walker[i + k].x; });
-        if (!(found >> i % packet & 1u)) return false;
-        w.wo = -rays[i].direction;
-        w.beta = Rgb(1.0);
-        add(i, 0, emitters.emitted(w.x, w.wo));
-        return true;
-    });
+    advance([&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); },
+            [&](Walker& w, std::uint32_t i) {
+                w.wo = -rays[i].direction;
+                w.beta = Rgb(1.0);
+                add(i, 0, emitters.emitted(w.x, w.wo));
+                return true;
+            });
 
     for (int bounce = 1; !alive.empty(); ++bounce) {
         const bool rest = bounce > N;
@@ -143,27 +154,24 @@ void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, 
             w.beta *= sampled.weight;
             w.pdf = sampled.pdf;
             w.wi = frame.to_world(sampled.wi);
+            w.from = w.x.position;
             return true;
         });
 
-        // T: the light is seen or not. The first reflections of a pixel's walks are close together.
+        // T: the light is seen or not. The first points of a pixel's walks are close together.
         asking.clear();
         for (const std::uint32_t i : alive)
             if (!is_black(walker[i].found)) asking.push_back(i);
         out.rays[q] += asking.size();
-        if (bounce == 1) {
-            for (std::size_t k = 0; k < asking.size(); k += packet) {
-                const std::size_t n = std::min(packet, asking.size() - k);
-                const std::uint32_t seen = T.visible(n, [&](std::size_t j) {
-                    const Walker& w = walker[asking[k + j]];
-                    return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, w.light);
-                });
-                for (std::size_t j = 0; j < n; ++j)
-                    if (seen >> j & 1u) add(asking[k + j], q, walker[asking[k + j]].found);
-            }
-        } else {
-            for (const std::uint32_t i : asking)
-                if (T.visible(walker[i].x, walker[i].light)) add(i, q, walker[i].found);
+        const auto kind = bounce == 1 ? RayCaster::Rays::alike : RayCaster::Rays::any;
+        for (std::size_t k = 0; k < asking.size(); k += packet) {
+            const std::size_t n = std::min(packet, asking.size() - k);
+            const std::uint32_t seen = T.visible(n, [&](std::size_t j) {
+                const Walker& w = walker[asking[k + j]];
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, w.light);
+            }, kind);
+            for (std::size_t j = 0; j < n; ++j)
+                if (seen >> j & 1u) add(asking[k + j], q, walker[asking[k + j]].found);
         }
 
         // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
@@ -184,16 +192,20 @@ void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, 
 
         // T: the next vertices.
         out.rays[q] += alive.size();
-        filter([&](Walker& w, std::uint32_t i) {
-            const Vec3 from = w.x.position;
-            if (!T.first_hit(w.x, w.wi, w.x)) return false;
+        const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
+            return T.first_hits(n, [&](std::size_t j) {
+                const Walker& w = walker[alive[k + j]];
+                return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
+            }, hit);
+        };
+        advance(next_points, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.wi;
             if (settings.direct != DirectLight::light && emitters.is_emitter(w.x)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);
                 if (!is_black(emitted)) {
                     double weight = 1.0;
                     if (settings.direct == DirectLight::mis) {
-                        const Vec3 d = w.x.position - from;
+                        const Vec3 d = w.x.position - w.from;
                         const double pdf_light = emitters.pdf_area(w.x) * glm::dot(d, d) / glm::dot(w.x.normal, w.wo);
                         weight = w.pdf / (w.pdf + pdf_light);
                     }

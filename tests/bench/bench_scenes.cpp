@@ -16,7 +16,7 @@ Mat4 facing(const Vec3& position, const Vec3& axis, double angle, double size) {
 
 }  // namespace
 
-Scene cornell_box() { return read_scene(SCENES "/cornell-box/cornell-box.xml"); }
+Scene cornell_box() { return read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "128"}}); }
 
 Scene landscape(int n) {
     SceneParts parts;
@@ -52,7 +52,7 @@ Scene landscape(int n) {
     // From the open side, looking along +y.
     parts.camera.to_world = facing({0, -2.6, 0.2}, x, -quarter_turn, 1.0);
     parts.camera.fov = 0.75;
-    parts.film.width = parts.film.crop_width = parts.film.height = parts.film.crop_height = 256;
+    parts.film.width = parts.film.crop_width = parts.film.height = parts.film.crop_height = 128;
     parts.film.filter = BoxFilter();
     return make_scene(std::move(parts));
 }

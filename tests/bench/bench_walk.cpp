@@ -45,19 +45,24 @@ struct Setup {
             double next() { return ++*count, sampler.next(); }
             Vec2 next2() { return *count += 2, sampler.next2(); }
         };
-        const std::size_t size = settings.replicate_size;
-        std::vector<Rgb> samples(10 * size);
+        constexpr std::uint32_t pixels_at_once = 4;
+        const std::size_t size = settings.replicate_size, walks = size * pixels_at_once;
+        std::vector<Rgb> samples(10 * walks);
         std::vector<std::uint64_t> counts(10);
         TermSamples result{samples, counts};
         Walkers walkers;
-        std::vector<CameraRay> camera_rays(size);
         const Film& film = scene.film;
-        for (std::uint32_t pixel = 0; pixel < static_cast<std::uint32_t>(film.width * film.height); ++pixel) {
-            std::vector<Counting> samplers(size, Counting{make(pixel), &numbers});
-            for (std::size_t i = 0; i < size; ++i) {
-                samplers[i].sampler.start(i);
-                const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
-                camera_rays[i] = scene.camera.ray(neumann::sample(film.filter, samplers[i].next2(), x, y, film.width, film.height));
+        for (std::uint32_t first = 0; first < static_cast<std::uint32_t>(film.width * film.height); first += pixels_at_once) {
+            std::vector<Counting> samplers;
+            std::vector<CameraRay> camera_rays;
+            for (std::uint32_t pixel = first; pixel < first + pixels_at_once; ++pixel) {
+                samplers.resize(samplers.size() + size, Counting{make(pixel), &numbers});
+                for (std::size_t i = 0; i < size; ++i) {
+                    Counting& sampler = samplers[camera_rays.size()];
+                    sampler.sampler.start(i);
+                    const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
+                    camera_rays.push_back(scene.camera.ray(neumann::sample(film.filter, sampler.next2(), x, y, film.width, film.height)));
+                }
             }
             walk(scene, rays, settings.walk, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
         }
@@ -72,32 +77,39 @@ oneapi::tbb::global_control limit(const benchmark::State& state) {
     return {oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
 }
 
-template <class Body>
-void over_rays(const Setup& setup, const Body& body) {
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, setup.rays.bare.size(), 4096), body);
-}
-
 void bare(benchmark::State& state, const Setup& setup) {
     const auto control = limit(state);
     for (auto _ : state)
-        over_rays(setup, [&](const auto& range) { benchmark::DoNotOptimize(cast_bare(setup.scene.geometry, setup.rays.bare, range.begin(), range.end())); });
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, setup.rays.bare.size(), 4096), [&](const auto& range) {
+            benchmark::DoNotOptimize(cast_bare(setup.scene.geometry, setup.rays.bare, range.begin(), range.end()));
+        });
     finish(state, setup);
+}
+
+std::uint32_t cast(const Geometry& T, const RecordingTransport& recorded, const GeometryPacket& packet) {
+    const GeometryQuery* queries = recorded.queries.data() + packet.begin;
+    SurfacePoint hits[RayCaster::packet];
+    const auto hit = [&](std::size_t i) -> SurfacePoint& { return hits[i]; };
+    switch (packet.kind) {
+        case GeometryPacket::Kind::camera: {
+            Ray rays[RayCaster::packet];
+            for (std::size_t i = 0; i < packet.n; ++i) rays[i] = queries[i].ray;
+            return T.first_hits(std::span<const Ray>(rays, packet.n), hit);
+        }
+        case GeometryPacket::Kind::surface:
+            return T.first_hits(packet.n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(queries[i].from, queries[i].ray.direction); }, hit);
+        case GeometryPacket::Kind::visibility:
+            return T.visible(packet.n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const SurfacePoint&>(queries[i].from, queries[i].to); },
+                             packet.rays);
+    }
+    return 0;
 }
 
 void geometry(benchmark::State& state, const Setup& setup) {
     const auto control = limit(state);
     for (auto _ : state)
-        over_rays(setup, [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                const GeometryQuery& q = setup.rays.queries[i];
-                const Geometry& T = setup.scene.geometry;
-                SurfacePoint hit;
-                switch (q.kind) {
-                    case GeometryQuery::Kind::camera: benchmark::DoNotOptimize(T.first_hit(q.from.position, q.direction, q.length, hit)); break;
-                    case GeometryQuery::Kind::surface: benchmark::DoNotOptimize(T.first_hit(q.from, q.direction, hit)); break;
-                    case GeometryQuery::Kind::visibility: benchmark::DoNotOptimize(T.visible(q.from, q.to)); break;
-                }
-            }
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, setup.rays.packets.size(), 512), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) benchmark::DoNotOptimize(cast(setup.scene.geometry, setup.rays, setup.rays.packets[i]));
         });
     finish(state, setup);
 }
@@ -126,11 +138,13 @@ void whole_walk(benchmark::State& state, const Setup& setup) {
     const auto control = limit(state);
     const PictureSampler sampler(setup.scene, setup.settings);
     std::vector<double> memory;
+    std::uint64_t rays = 0;
     for (auto _ : state) {
         Tally tally(sampler.quantities());
-        memory = std::move(sampler.run(0, 1, tally, {}, std::move(memory))->data);
+        memory = std::move(sampler.run(0, 4, tally, {}, std::move(memory))->data);
+        rays += std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0});
     }
-    finish(state, setup);
+    state.SetItemsProcessed(static_cast<std::int64_t>(rays));
 }
 
 // Keeps rays per second by benchmark name, the best of the repetitions.
@@ -174,7 +188,7 @@ int main(int argc, char** argv) {
     benchmark::RunSpecifiedBenchmarks(&collector);
 
     fmt::print("\n{}, robust scene; compiled with {}\n", embree_version(), NEUMANN_CXX_FLAGS);
-    fmt::print("Walk: bounces 0..8, multiple importance sampling, no rest. Best of 9, million rays a second; shares of the walk's time.\n\n");
+    fmt::print("Walk: 32 samples, bounces 0..8, multiple importance sampling, no rest. Best of 9, million rays a second; shares of the walk's time.\n\n");
     fmt::print("{:<34} {:>7} {:>8} {:>8} {:>10} | {:>6} {:>9} {:>8} {:>8}\n", "scene, numbers", "threads", "bare", "walk", "walk/bare", "bare",
                "+geometry", "numbers", "shading");
     for (const auto& setup : setups)

@@ -21,17 +21,10 @@ void RecordingTransport::record(const Vec3& origin, const Vec3& direction, doubl
     bare.push_back(ray);
 }
 
-void RecordingTransport::record_camera(const Ray& ray) const {
+void RecordingTransport::record_hit(const Vec3& origin, const GeometryQuery& query) const {
     const RayCaster& caster = geometry_.caster();
-    record(caster.to_embree(ray.origin), ray.direction, ray.length * caster.scale(), false);
-    queries.push_back({{ray.origin, ray.direction}, {}, ray.direction, ray.length, GeometryQuery::Kind::camera});
-}
-
-bool RecordingTransport::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
-    record(geometry_.caster().to_embree(Geometry::leave(from, glm::dot(from.normal, direction))), direction,
-           std::numeric_limits<double>::infinity(), false);
-    queries.push_back({from, {}, direction, 0.0, GeometryQuery::Kind::surface});
-    return geometry_.first_hit(from, direction, hit);
+    record(caster.to_embree(origin), query.ray.direction, query.ray.length * caster.scale(), false);
+    queries.push_back(query);
 }
 
 void RecordingTransport::record_visibility(const SurfacePoint& x, const SurfacePoint& y) const {
@@ -39,12 +32,7 @@ void RecordingTransport::record_visibility(const SurfacePoint& x, const SurfaceP
     const Vec3 d = y.position - x.position;
     const Vec3 from = caster.to_embree(Geometry::leave(x, glm::dot(x.normal, d)));
     record(from, caster.to_embree(Geometry::leave(y, -glm::dot(y.normal, d))) - from, 1.0, true);
-    queries.push_back({x, y, d, 0.0, GeometryQuery::Kind::visibility});
-}
-
-bool RecordingTransport::visible(const SurfacePoint& x, const SurfacePoint& y) const {
-    record_visibility(x, y);
-    return geometry_.visible(x, y);
+    queries.push_back({x, y, {}});
 }
 
 std::size_t cast_bare(const Geometry& geometry, const std::vector<BareRay>& rays, std::size_t begin, std::size_t end) {

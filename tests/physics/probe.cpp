@@ -49,11 +49,13 @@ struct TransportFrom {
         for (std::size_t i = 0; i < some.size(); ++i) hit(i) = starts[first + i].point;
         return (1u << some.size()) - 1u;
     }
-    bool first_hit(const SurfacePoint& from, const Vec3& w, SurfacePoint& hit) const { return geometry->first_hit(from, w, hit); }
-    bool visible(const SurfacePoint& x, const SurfacePoint& y) const { return geometry->visible(x, y); }
+    template <class FromAt, class HitAt>
+    std::uint32_t first_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
+        return geometry->first_hits(n, from, hit);
+    }
     template <class PairAt>
-    std::uint32_t visible(std::size_t n, const PairAt& pair) const {
-        return geometry->visible(n, pair);
+    std::uint32_t visible(std::size_t n, const PairAt& pair, RayCaster::Rays kind) const {
+        return geometry->visible(n, pair, kind);
     }
 };
 

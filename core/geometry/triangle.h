@@ -1,0 +1,41 @@
+// A triangle as hits and samples on it need it. Scene units.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+class Triangle {
+public:
+    // `error`: how far rounding to float moves a hit. The triangle must have an area.
+    Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error);
+
+    // The point with barycentric weights u of the second vertex and v of the third.
+    Vec3 at(double u, double v) const { return vertex_ + edge1_ * u + edge2_ * v; }
+    const Vec3& normal() const { return normal_; }
+    double error() const { return error_; }
+    double area() const { return area_; }
+
+    // Where a ray hits that Embree says hits at (u, v): in double, unless the two do not agree on the triangle.
+    Vec3 hit(const Vec3& origin, const Vec3& direction, float u, float v) const {
+        const double distance = glm::dot(vertex_ - origin, normal_) / glm::dot(direction, normal_);
+        const Vec3 p = origin + direction * distance, x = p - vertex_;
+        const Vec2 weights(glm::dot(x, dual1_), glm::dot(x, dual2_));
+        const bool inside = std::min({weights.x, weights.y, 1.0 - weights.x - weights.y}) >= margin_ && distance > 0.0 && rounding_ < 1.0;
+        return inside ? p : hit_at_edge(weights, distance, u, v);
+    }
+
+private:
+    Vec3 hit_at_edge(const Vec2& weights, double distance, float u, float v) const;
+
+    Vec3 vertex_, edge1_, edge2_, normal_;
+    Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
+    double area_, error_;
+    double rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
+    double margin_;    // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that meets the
+                       // triangle there; 0 where the triangle is too thin for that
+};
+
+}  // namespace neumann
