@@ -8,6 +8,8 @@
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -40,6 +42,14 @@ int choose_bounces(const RenderRequest& request, const Scene& scene, const Pilot
     if (scene.bounces) return *scene.bounces;
     const int n = pilot.bounces_for_tail(default_tail);
     return n < 0 || !pilot.converges() ? default_bounces_without_end : std::min(n, default_most_bounces);
+}
+
+// Samples a pixel in one replicate: as many as still give several replicates.
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const Pilot& pilot) {
+    if (goal.samples) return replicate_size(*goal.samples);
+    if (!goal.seconds) return largest_replicate;
+    const double pixels = static_cast<double>(film.crop_width) * film.crop_height, affordable = *goal.seconds / (pixels * pilot.seconds_per_walk());
+    return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 8.0, 1.0, static_cast<double>(largest_replicate))));
 }
 
 // Eight numbers a pixel at once in the deepest corner of the run: refused before the machine starts to swap.
@@ -126,18 +136,7 @@ int render_command(const RenderRequest& request) {
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
     if (!goal.samples && !goal.seconds && !goal.relative_error) goal = {std::nullopt, default_seconds, default_error};
-    if (request.relative_error) {
-        // The samples at which the error is looked at must be whole replicates, and the most samples too.
-        settings.replicate_size = 8;
-        if (goal.samples) goal.samples = (*goal.samples + 7) / 8 * 8;
-    } else if (goal.samples) {
-        settings.replicate_size = replicate_size(*goal.samples);
-    } else {
-        // Where time allows few samples, single ones: a run can then end after any of them.
-        const double pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
-        const bool few = goal.seconds && *goal.seconds < 64.0 * pixels * pilot.seconds_per_walk();
-        settings.replicate_size = few ? 1 : 8;
-    }
+    settings.replicate_size = choose_replicate_size(goal, scene.film, pilot);
 
     RenderedSeries series{SeriesMoments(0, 0, 0), Tally(0), {}};
     SeriesReport report;

@@ -1,12 +1,14 @@
 // Sobol' points with Owen's nested scrambling, in replicates: each run of `replicate_size` samples of a pixel is one scrambled net,
 // replicates and pixels are independent of each other. So the mean of a replicate is an unbiased estimate, and the spread of the
 // replicates' means its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing: Laine and Karras 2011 in
-// the form of Vegdahl 2021.
+// the form of Vegdahl 2021. Only the first four dimensions, the best, are used: each further four are the same points in another order
+// (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
 #pragma once
 
 #include "core/base/vec.h"
 #include "core/sampling/counter_based.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -15,7 +17,7 @@ namespace neumann {
 // The first points of the sequence, bits reversed, by dimension; shared by all pixels.
 class SobolPoints {
 public:
-    static constexpr std::uint32_t dimensions = 128;
+    static constexpr std::uint32_t dimensions = 4;
 
     // `size`: a power of two.
     explicit SobolPoints(std::uint32_t size);
@@ -35,8 +37,10 @@ public:
         : points_(&points), random_(seed, pixel), scrambles_(std::make_shared<Scrambles>()) {}
 
     void start(std::uint64_t sample) {
-        const std::uint64_t replicate = sample / points_->size();
-        index_ = static_cast<std::uint32_t>(sample % points_->size());
+        const std::uint32_t size = points_->size();
+        const std::uint64_t replicate = sample / size;
+        // The index as a fraction of the size, bits reversed.
+        reversed_index_ = reverse(static_cast<std::uint32_t>((sample % size << 32) / size));
         if (replicate != scrambles_->replicate) scrambles_->known = 0;
         scrambles_->replicate = replicate;
         sample_ = sample;
@@ -45,9 +49,9 @@ public:
 
     double next() {
         const std::uint32_t d = dimension_++;
-        if (d >= SobolPoints::dimensions) return beyond(d);
-        if (d >= scrambles_->known) learn_scrambles();
-        return to_unit_interval(scramble(points_->reversed(d, index_), scrambles_->seed[d]));
+        if (d >= scrambled_dimensions) return beyond(d);
+        if (d % SobolPoints::dimensions == 0) start_group(d / SobolPoints::dimensions);
+        return to_unit_interval(scramble(points_->reversed(d % SobolPoints::dimensions, index_), scrambles_->seed[d]));
     }
     Vec2 next2() {
         const double x = next();
@@ -55,12 +59,15 @@ public:
     }
 
 private:
+    // Further dimensions, deep in long walks, are independent numbers.
+    static constexpr std::uint32_t scrambled_dimensions = 128, groups = scrambled_dimensions / SobolPoints::dimensions;
     struct Scrambles {
         std::uint64_t replicate = ~std::uint64_t{0};
-        std::uint32_t known = 0;  // dimensions
-        std::array<std::uint32_t, SobolPoints::dimensions> seed;
+        std::uint32_t known = 0;  // groups of dimensions
+        std::array<std::uint32_t, scrambled_dimensions> seed;
+        std::array<std::uint32_t, groups> order;
     };
-    static constexpr std::uint32_t no_scramble_block = 0x80000000u;  // keeps the two uses of the counter apart
+    static constexpr std::uint32_t order_block = 0x40000000u, beyond_block = 0x80000000u;  // keep the uses of the counter apart
 
     static std::uint32_t reverse(std::uint32_t x) {
         x = __builtin_bswap32(x);
@@ -78,14 +85,18 @@ private:
         x ^= x * 0x53a22864u;
         return reverse(x);
     }
-    void learn_scrambles() {
-        const auto bits = random_(scrambles_->replicate, scrambles_->known / 4);
-        for (const std::uint32_t b : bits) scrambles_->seed[scrambles_->known++] = b;
+    void start_group(std::uint32_t group) {
+        if (group >= scrambles_->known) {
+            const auto seeds = random_(scrambles_->replicate, group);
+            std::copy(seeds.begin(), seeds.end(), scrambles_->seed.begin() + group * SobolPoints::dimensions);
+            scrambles_->order[group] = random_(scrambles_->replicate, order_block | group)[0];
+            scrambles_->known = group + 1;
+        }
+        index_ = static_cast<std::uint32_t>(std::uint64_t{scramble(reversed_index_, scrambles_->order[group])} * points_->size() >> 32);
     }
-    // Dimensions that the table does not have, deep in long walks: independent numbers.
     double beyond(std::uint32_t d) {
         const std::uint32_t lane = d % 4;
-        if (lane == 0) bits_ = random_(sample_, no_scramble_block | d / 4);
+        if (lane == 0) bits_ = random_(sample_, beyond_block | d / 4);
         return to_unit_interval(bits_[lane]);
     }
 
@@ -93,7 +104,7 @@ private:
     CounterBased random_;
     std::shared_ptr<Scrambles> scrambles_;
     std::uint64_t sample_ = 0;
-    std::uint32_t index_ = 0, dimension_ = 0;
+    std::uint32_t reversed_index_ = 0, index_ = 0, dimension_ = 0;
     std::array<std::uint32_t, 4> bits_{};
 };
 

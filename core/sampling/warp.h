@@ -31,11 +31,22 @@ inline Vec2 direction_on_circle(double u) {
     return {sign[quadrant + odd] * sin_cos[1 - odd], sign[quadrant] * sin_cos[odd]};
 }
 
-// Uniform on the unit disc. (Polar: the concentric map distorts less, but its chain of divisions takes twice as long.)
-inline Vec2 uniform_disk(const Vec2& u) { return direction_on_circle(u.y) * std::sqrt(u.x); }
+// Uniform on the unit disc, concentric squares to circles: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997.
+inline Vec2 uniform_disk(const Vec2& u) {
+    const double a = 2.0 * u.x - 1.0, b = 2.0 * u.y - 1.0;
+    const bool flat = std::abs(a) > std::abs(b);
+    const double radius = flat ? a : b, other = flat ? b : a;
+    if (radius == 0.0) return Vec2(0.0);
+    double sine, cosine;
+    sin_cos_quarter(other / radius * (pi / 4.0), sine, cosine);
+    return (flat ? Vec2(cosine, sine) : Vec2(sine, cosine)) * radius;
+}
 
-// pdf cosθ/π per solid angle, about +z: Malley's disc. cosθ > 0.
-inline Vec3 cosine_hemisphere(const Vec2& u) { return Vec3(uniform_disk(u), std::sqrt(1.0 - u.x)); }
+// pdf cosθ/π per solid angle, about +z: Malley's disc. cosθ > 0 for 0 < u < 1.
+inline Vec3 cosine_hemisphere(const Vec2& u) {
+    const double radius = std::max(std::abs(2.0 * u.x - 1.0), std::abs(2.0 * u.y - 1.0));
+    return Vec3(uniform_disk(u), std::sqrt(1.0 - radius * radius));
+}
 
 // pdf 1/(2π) per solid angle, about +z: Archimedes' z, uniform.
 inline Vec3 uniform_hemisphere(const Vec2& u) {

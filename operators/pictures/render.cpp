@@ -39,8 +39,9 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const RenderObserver& o
 }  // namespace
 
 std::uint32_t replicate_size(std::uint64_t samples) {
-    std::uint32_t size = 8;
-    while (size > 1 && (samples % size != 0 || samples / size < 4)) size /= 2;
+    const std::uint64_t fewest = samples < 64 ? 4 : 2;
+    std::uint32_t size = largest_replicate;
+    while (size > 1 && (samples % size != 0 || samples / size < fewest)) size /= 2;
     return size;
 }
 
@@ -65,6 +66,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     // Whether --spp finds the same replicates again.
     const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
     std::vector<double> memory;
+    bool error_reached = false;
     for (std::uint64_t done = 0;;) {
         // Blocks of at most a sixteenth of what is done: few nodes are kept, and little is lost when one is dropped.
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
@@ -97,13 +99,10 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (std::has_single_bit(series.samples) && !last) {
             series.convergence.push_back(make_checkpoint(series, observer));
             const auto& errors = series.convergence.back().term_error;
-            if (goal.relative_error && done > 1 && repeatable(done) && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error) {
-                series.outcome = Outcome::error_reached;
-                break;
-            }
+            if (goal.relative_error && done > 1 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error) error_reached = true;
         }
-        if (last || stop) {
-            series.outcome = last ? Outcome::samples_reached : Outcome::interrupted;
+        if (last || stop || (error_reached && repeatable(done))) {
+            series.outcome = last ? Outcome::samples_reached : stop ? Outcome::interrupted : Outcome::error_reached;
             break;
         }
     }

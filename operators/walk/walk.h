@@ -4,7 +4,7 @@
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
 // The last reflection may instead look for a light by itself (next-event estimation); with multiple importance sampling both are used,
-// each weighted by the balance heuristic (Veach 1997, 9.2.2).
+// each weighted by the power heuristic (Veach 1997, 9.2.4).
 #pragma once
 
 #include "core/base/frame.h"
@@ -58,6 +58,12 @@ struct Walkers {
     std::vector<std::uint32_t> alive;  // those that go on, in order
     std::vector<std::uint32_t> asking;  // of them, those that ask for their light
 };
+
+// The weight of a sample with density `a`, where another technique finds it with density `b`: a² / (a² + b²).
+inline double power_heuristic(double a, double b) {
+    const double ratio = b / a;
+    return 1.0 / (1.0 + ratio * ratio);
+}
 
 // Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so that the
 // processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as Geometry
@@ -146,7 +152,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
                     const double angle_per_area = cos_light / distance2;
                     const double pdf_other = settings.direct == DirectLight::mis ? pdf(*bsdf, w.x, wo, wi) * angle_per_area : 0.0;
                     w.found = w.beta * eval(*bsdf, w.x, wo, wi) * emitters.emitted(light.point, -towards) *
-                              (std::abs(wi.z) * angle_per_area / (light.pdf_area + pdf_other));
+                              (std::abs(wi.z) * angle_per_area / light.pdf_area * power_heuristic(light.pdf_area, pdf_other));
                     w.light = light.point;
                 }
             }
@@ -207,7 +213,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
                     if (settings.direct == DirectLight::mis) {
                         const Vec3 d = w.x.position - w.from;
                         const double pdf_light = emitters.pdf_area(w.x) * glm::dot(d, d) / glm::dot(w.x.normal, w.wo);
-                        weight = w.pdf / (w.pdf + pdf_light);
+                        weight = power_heuristic(w.pdf, pdf_light);
                     }
                     add(i, q, w.beta * emitted * weight);
                 }

@@ -154,10 +154,10 @@ TEST(Cube, TheRestIsWhatTheFurtherBouncesAddUpTo) {
     const Scene scene = cube(grey(rho));
     for (const double go_on : {1.0, 0.7})
         expect_matches(
-            probe(scene, place(scene, floor_center), Way::mis, {.samples = 8192, .bounces = 2, .rest_probability = go_on}).rest,
+            probe(scene, place(scene, floor_center), Way::mis, {.samples = 16384, .bounces = 2, .rest_probability = go_on}).rest,
             exact, "rest");
     expect_matches(
-        probe(scene, place(scene, floor_center), Way::bsdf, {.samples = 32768, .bounces = 2, .rest_probability = 1.0}).rest, exact,
+        probe(scene, place(scene, floor_center), Way::bsdf, {.samples = 65536, .bounces = 2, .rest_probability = 1.0}).rest, exact,
         "rest");
 }
 

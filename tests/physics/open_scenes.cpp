@@ -122,7 +122,7 @@ TEST(OpenScene, ASkyThatVariesLightsByItsMoments) {
                                  {.samples = 8192, .bounces = 1}),
                            std::vector{0.0, exact});
         }
-        expect_matches(probe(scene, anywhere_on(scene, cube), way, {.samples = 8192, .bounces = 1}),
+        expect_matches(probe(scene, anywhere_on(scene, cube), way, {.samples = 16384, .bounces = 1}),
                        std::vector{0.0, rho * (1.0 + glm::dot(q, q) / 3.0)});
     }
 }
@@ -143,7 +143,7 @@ TEST(OpenScene, ASphericalCavityWithAnOpening) {
             for (const double z : {-1.0, height - 0.01}) {
                 SCOPED_TRACE(name(way) + ", f = " + std::to_string(f));
                 const Vec3 n(std::sqrt(1.0 - z * z), 0, z);
-                expect_matches(probe(scene, at(scene, n, -n), way, {.samples = 8192, .bounces = 4}), exact, 1, 0.005);
+                expect_matches(probe(scene, at(scene, n, -n), way, {.samples = 16384, .bounces = 4}), exact, 1, 0.005);
             }
     }
 }
@@ -169,7 +169,7 @@ TEST(OpenScene, AGrooveUnderTheSky) {
         for (const double value : g[k]) exact.push_back(value * std::pow(rho, static_cast<double>(exact.size() + 1)));
         for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
             SCOPED_TRACE(name(way) + ", " + std::to_string(x) + " from the apex");
-            expect_matches(probe(scene, at(scene, {x, 0.3, 0}, {0, 0, 1}), way, {.samples = 8192, .bounces = 3}), exact, 1, 0.006);
+            expect_matches(probe(scene, at(scene, {x, 0.3, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 3}), exact, 1, 0.006);
         }
     }
 }
