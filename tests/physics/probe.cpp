@@ -246,7 +246,7 @@ void expect_matches(const Statistic& found, double exact, const std::string& wha
         EXPECT_TRUE(mean == 0.0 && error == 0.0) << what << " is " << mean << " ± " << error << " and has to be exactly 0";
         return;
     }
-    const double rounding = float_rays * std::abs(exact);
+    const double rounding = 0x1p17 * std::numeric_limits<double>::epsilon() * std::abs(exact);
     EXPECT_LE(std::abs(difference), z_limit * error + rounding)
         << what << " is " << mean << " ± " << error << ", exactly " << exact << ": z = " << difference / error;
     EXPECT_LE(error, largest_error * std::abs(exact))

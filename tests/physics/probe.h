@@ -75,13 +75,8 @@ Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Eff
 
 constexpr double z_limit = 4.5;
 constexpr double power = 0.002;  // the largest standard error, relative to the reference
-// Embree's rays are floats and start up to 8·2^-24 (1 + size) ≈ 1e-6 of the scene off their surfaces, so what is rendered is a
-// scene that is wrong by so much. Where a sample has nearly no variance that shows: by 5e-6 at most of all values here (emission by
-// the angle in a sphere).
-constexpr double float_rays = 1e-5;
-
-// A value that is exactly zero has to be found as exactly zero; any other within z_limit standard errors and what float rays cost,
-// and with at most `largest_error`.
+// A value that is exactly zero has to be found as exactly zero, everything else as said above. Rounding may add n ε, for a mean of
+// n samples is rounded n times; no batch has more than 2^17.
 void expect_matches(const Statistic& found, double exact, const std::string& what, double largest_error = power);
 // `exact[k]` belongs to K^{first+k} Le. First channel.
 void expect_matches(const Estimates& found, std::span<const double> exact, int first = 0, double largest_error = power);

@@ -103,6 +103,23 @@ TEST(Sphere, TheRestUnderAnAlbedoAboveOneRaisesTheAlarm) {
     EXPECT_TRUE(tail->variance_is_infinite()) << "tail index " << tail->alpha;
 }
 
+// Le(μ) = μ²: <Le> = 1/2, so K^i Le = ρ^i / 2. Le(μ) = 1 − μ: 1/3. 2 × (3 ways × 8 + 2 × 4), to 0.4%: 64 comparisons.
+TEST(Sphere, EmissionThatDependsOnTheAngleEntersByItsCosineMean) {
+    struct {
+        double (*Le)(double);
+        double mean;
+    } const cases[] = {{[](double mu) { return mu * mu; }, 0.5}, {[](double mu) { return 1.0 - mu; }, 1.0 / 3.0}};
+    for (const auto& [Le, mean] : cases) {
+        const Scene scene = sphere(
+            grey(0.8), {[Le = Le](const SurfacePoint& p, const Vec3& w) { return grey(Le(glm::dot(p.normal, w))); }, grey(1.0)});
+        for (const Way way : all_ways) {
+            SCOPED_TRACE(name(way));
+            const Effort work = effort(way, 4096);
+            expect_matches(probe(scene, at_pole(scene, {0.36, 0.48, 0.8}), way, work), geometric(mean * 0.8, 0.8, work.bounces), 1,
+                           0.004);
+        }
+    }
+}
 
 }  // namespace
 }  // namespace neumann::physics
