@@ -56,6 +56,14 @@ TEST_F(RenderAccepted, ALightOfZeroArea) {
     expect_same_pictures("a", "plain");
 }
 
+// Of two lamps in one place, one covers the other: its two triangles are named.
+TEST_F(RenderAccepted, ALampThatIsThereTwice) {
+    const std::string lamp = "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.2\"/><translate z=\"1.5\"/></transform>"
+                             "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>";
+    expect_warning(with(lamp), {});
+    expect_warning(with(lamp + lamp), {{"part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice", 2}});
+}
+
 TEST_F(RenderAccepted, NoLightButOneOfZeroArea) {
     write("line.obj", "v 0 0 2\nv 1 1 2\nv 2 2 2\nf 1 2 3\n");
     expect_warning(
