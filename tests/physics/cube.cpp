@@ -147,7 +147,7 @@ TEST(Cube, EveryChannelHasItsOwnPowers) {
 }
 
 // Σ_{i>N} K^i Le with ρ = 1/2: the table's g_3 … g_10, then g_i = 1/6 to 1e-6. 3 comparisons.
-TEST(Cube, TheRestIsWhatTheFurtherBouncesAddUpTo) {
+TEST(CubeSlow, TheRestIsWhatTheFurtherBouncesAddUpTo) {
     const double rho = 0.5;
     double exact = std::pow(rho, 11) / (1.0 - rho) / 6.0;
     for (std::size_t i = 2; i < 10; ++i) exact += g[i][floor_center] * std::pow(rho, static_cast<double>(i + 1));

@@ -34,7 +34,7 @@ void expect_direct(const Shape& light, const Receiver& receiver, double F, const
 TriangleMesh unit_square_above(double height) { return parallelogram({0, 0, height}, {0, 1, 0}, {1, 0, 0}); }
 
 // 7 places × 5 ways: 35 comparisons.
-TEST(DirectLight, ARectangleLightsByLambertsFormula) {
+TEST(DirectLightSlow, ARectangleLightsByLambertsFormula) {
     struct {
         Vec3 p;
         double F;
@@ -84,7 +84,7 @@ TEST(DirectLight, ASphereLightsEvenFromPartlyBelowTheHorizon) {
 
 // Averages over the receiver: K^1 Le on average is ρ Le F12 between the two rectangles. 7 pairs × 2 or 3 ways: 19 comparisons.
 // Where they touch, light sampling has infinite variance (∫ G² diverges) and is left out.
-TEST(DirectLight, BetweenRectanglesTheMeanIsTheFormFactor) {
+TEST(DirectLightSlow, BetweenRectanglesTheMeanIsTheFormFactor) {
     const auto horizontal = [](double x0, double x1, double y0, double y1, double z, bool up) {
         const TriangleMesh mesh = parallelogram({x0, y0, z}, {x1 - x0, 0, 0}, {0, y1 - y0, 0});
         return up ? mesh : flipped(mesh);

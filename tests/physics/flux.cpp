@@ -86,7 +86,7 @@ TEST(Flux, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
 
 // The facets of a 20° cap emit: the area's mean is ρ^i times the emitting fraction, 0.018868107508640625 of 320 facets (0.030 for
 // the true cap). 2 ways × 6 bounces, BSDF sampling to 0.8%: 12 comparisons.
-TEST(Flux, AMeshedSphereIsExactOnAverage) {
+TEST(FluxSlow, AMeshedSphereIsExactOnAverage) {
     const double rho = 0.7, fraction = 0.018868107508640625;
     const TriangleMesh sphere = flipped(icosphere(2));
     const auto in_cap = [](const Vec3& p) { return glm::normalize(p).z > std::cos(pi / 9.0); };
@@ -106,7 +106,7 @@ TEST(Flux, AMeshedSphereIsExactOnAverage) {
 }
 
 // Each face of a room lights it in turn. 8 comparisons.
-TEST(Superposition, SixGlowingFacesAddUpToTheFurnace) {
+TEST(SuperpositionSlow, SixGlowingFacesAddUpToTheFurnace) {
     const double rho = 0.6;
     const auto faces = room({0, 0, 0}, {1.2, 0.9, 0.7});
     std::vector<Statistic> sums(9);

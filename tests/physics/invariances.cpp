@@ -138,7 +138,7 @@ std::vector<bool> silhouettes(const Scene& scene) {
 // the other side. A ray does so with a probability of about 1e-7 times the edges' length over the room's size, some 20: with 1728
 // pixels × 32 samples × 20 rays that is at most 3 walks (a Poisson number, above 12 with a probability of 2e-5), each of which
 // shows in the pictures of all later bounces of its pixel.
-TEST(Invariance, OtherUnitsAndAnotherOriginChangeNothingButRounding) {
+TEST(InvarianceSlow, OtherUnitsAndAnotherOriginChangeNothingButRounding) {
     const Scene scene = furnished_room({});
     const std::vector<bool> silhouette = silhouettes(scene);
     const Pictures one = pictures(scene);

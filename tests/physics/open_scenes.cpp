@@ -55,7 +55,7 @@ Shape placed(Shape shape, const Vec3& to, double scale) {
 // A convex body sees only the sky: K^1 Le = ρ and K^i Le = 0 for i ≥ 2, exactly. Anything else is a ray that hits the surface it
 // starts on. 12 bodies at 4 places and scales, 65536 starts each and as many rays by light sampling: 6 million rays, none of which
 // may find the body again.
-TEST(OpenScene, AConvexBodyNeverSeesItself) {
+TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
     const double rho = 0.5;
     struct {
         const char* what;
@@ -85,7 +85,7 @@ TEST(OpenScene, AConvexBodyNeverSeesItself) {
 
 // Direct light by points on the sky: half of them are behind the surface, none may be hidden by it. 12 bodies × 2 ways: 24
 // comparisons, light sampling to 0.8%.
-TEST(OpenScene, AConvexBodyDoesNotHideTheSky) {
+TEST(OpenSceneSlow, AConvexBodyDoesNotHideTheSky) {
     const double rho = 0.5;
     for (const Body& body : convex_bodies()) {
         SceneMaker maker;
@@ -129,7 +129,7 @@ TEST(OpenScene, ASkyThatVariesLightsByItsMoments) {
 
 // A sphere with an opening of the fraction f of its area, a sky of 1 outside: K^i Le = ρ f (ρ (1 − f))^(i−1), everywhere inside.
 // The disc that closes the opening emits 1 and is black. 3 openings × 2 ways × 2 places × 4 bounces, to 0.5%: 48 comparisons.
-TEST(OpenScene, ASphericalCavityWithAnOpening) {
+TEST(OpenSceneSlow, ASphericalCavityWithAnOpening) {
     const double rho = 0.8;
     for (const double f : {0.5, 0.25, 0.1}) {
         const double height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
@@ -152,7 +152,7 @@ TEST(OpenScene, ASphericalCavityWithAnOpening) {
 // (cos a − x)/√(1 + x² − 2x cos a)], g_2 and g_3 by collocation, refined until they stand still. Here it is 100 long: the ends are
 // seen under (1/50)³ of the cosine-weighted hemisphere, which is below 1e-5. 3 places × 3 ways × 3 bounces, to 0.6%: 27
 // comparisons.
-TEST(OpenScene, AGrooveUnderTheSky) {
+TEST(OpenSceneSlow, AGrooveUnderTheSky) {
     const double rho = 0.9, half = 50.0;
     constexpr double g[3][3] = {{0.6212678125181664, 0.2510345548884595, 0.08430301090477688},
                                 {0.7236067977499789, 0.19621633067369174, 0.0548462711986844},

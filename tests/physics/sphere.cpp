@@ -39,7 +39,7 @@ Effort effort(Way way, std::uint32_t samples) {
 }
 
 // ρ = 0.5 + 0.4 z, Le = 1 + z²: <ρ> = 1/2, <Le> = 4/3. 3 points × (3 ways × 9 + 2 × 5): to 0.4%: 111 comparisons.
-TEST(Sphere, AlbedoAndEmissionThatVaryEnterByTheirMeans) {
+TEST(SphereSlow, AlbedoAndEmissionThatVaryEnterByTheirMeans) {
     const Scene scene =
         sphere({[](const SurfacePoint& p) { return grey(0.5 + 0.4 * on_unit_sphere(p).z); }, grey(0.9)},
                {[](const SurfacePoint& p, const Vec3&) { return grey(1.0 + std::pow(on_unit_sphere(p).z, 2)); }, grey(2.0)});
@@ -57,7 +57,7 @@ TEST(Sphere, AlbedoAndEmissionThatVaryEnterByTheirMeans) {
 
 // A cap of half angle 20° with Le = 10 and ρ = 0.9: K^i Le = 10 f 0.9^i with f = (1 − cos 20°)/2, everywhere, on the cap too.
 // 3 points × (3 ways × 8 + 2 × 4), to 1% by ways that look for lights, 2% by others: 96 comparisons.
-TEST(Sphere, AGlowingCapLightsAllPlacesAlike) {
+TEST(SphereSlow, AGlowingCapLightsAllPlacesAlike) {
     const double edge = std::cos(pi / 9.0), f = 0.5 * (1.0 - edge);
     EXPECT_NEAR(f, 0.03015368960704584, 1e-16);
     const Scene scene =
@@ -79,7 +79,7 @@ TEST(Sphere, AGlowingCapLightsAllPlacesAlike) {
 // 0.9^(i−1) above. The variance of a walk grows like (mean of ρ²)^i = 1.3^i, and that of its rest is infinite: P(β > x) ~ x^−α with
 // (1.6^α + 0.2)/2 = 1, α = 1.25, for roulette cuts walks where ρ < 1 and leaves β alone. ρ = 2 above would make <ρ> = 1.1 and the
 // series diverge. 2 points × (3 ways × 6 + 2 × 4), to 1%: 52 comparisons.
-TEST(Sphere, AnAlbedoAboveOneMayStillConverge) {
+TEST(SphereSlow, AnAlbedoAboveOneMayStillConverge) {
     const Scene scene =
         sphere({[](const SurfacePoint& p) { return grey(on_unit_sphere(p).z > 0.0 ? 1.6 : 0.2); }, grey(1.6)}, grey(1.0));
     EXPECT_EQ(scene.warnings.counts().count("reflectance above 1: a surface gives back more light than it receives"), 1u);
@@ -104,7 +104,7 @@ TEST(Sphere, TheRestUnderAnAlbedoAboveOneRaisesTheAlarm) {
 }
 
 // Le(μ) = μ²: <Le> = 1/2, so K^i Le = ρ^i / 2. Le(μ) = 1 − μ: 1/3. 2 × (3 ways × 8 + 2 × 4), to 0.4%: 64 comparisons.
-TEST(Sphere, EmissionThatDependsOnTheAngleEntersByItsCosineMean) {
+TEST(SphereSlow, EmissionThatDependsOnTheAngleEntersByItsCosineMean) {
     struct {
         double (*Le)(double);
         double mean;

@@ -98,7 +98,7 @@ TEST(TwoPatchSlow, ConcentricSpheresThrowTheLightToAndFro) {
 
 // Far apart they are a lamp in a room: r1/r2 = 1/3. Light sampling has finite variance here. 3 ways × 2 places × 7 terms, to 0.4%:
 // 36 comparisons and 6 zeros.
-TEST(TwoPatch, ASphereInASphereIsLitEvenly) {
+TEST(TwoPatchSlow, ASphereInASphereIsLitEvenly) {
     const double F21 = 1.0 / 9.0;
     SceneMaker maker;
     maker.add(Sphere{{1, 2, 3}, 1.0, false}, glowing(0.4, 1.0));
