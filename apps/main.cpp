@@ -3,6 +3,7 @@
 #include "apps/render.h"
 #include "core/base/error.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fmt/format.h>
 #include <new>
 
 namespace {
@@ -77,24 +77,35 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
         ->excludes(bounces);
     render->add_option("--spp", request.samples, "Samples a pixel")->type_name("N")->check(whole_from(1, std::uint64_t{1} << 40));
     render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(above_zero());
-    render->add_option("--error", request.relative_error, "Sample until the relative standard error of every bounce is at most this; --spp is then rounded up to a multiple of 8")
+    render
+        ->add_option(
+            "--error", request.relative_error,
+            "Sample until the relative standard error of every bounce is at most this, looked at when the samples are a power of two")
         ->type_name("REL")
         ->check(above_zero());
-    render->add_option("--method", request.method, "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain")
+    render
+        ->add_option("--method", request.method, "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain")
         ->type_name("NAME")
         ->check(CLI::IsMember({"walk", "pointwise"}).description(""))
         ->capture_default_str();
-    render->add_option("--direct", direct, "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis)")
+    render
+        ->add_option("--direct", direct,
+                     "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis)")
         ->type_name("HOW")
         ->check(CLI::IsMember({"light", "bsdf", "mis"}).description(""))
         ->capture_default_str();
-    render->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")->type_name("DIR");
+    render
+        ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
+        ->type_name("DIR");
     render->add_option("--seed", request.seed, "Seed of the random numbers")
         ->type_name("N")
         ->check(whole_from(0, ~std::uint64_t{0}))
         ->capture_default_str();
     render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
-    render->add_option("-D", definitions, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
+    render->add_option("-D", definitions, "Define $name in the scene file")
+        ->type_name("name=value")
+        ->allow_extra_args(false)
+        ->take_all();
     render->add_flag("--quiet", request.quiet, "Print nothing but errors");
     render->add_flag("--json", request.json, "Print run.json");
 }
@@ -103,7 +114,8 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
 
 int main(int argc, char** argv) try {
     std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
-    CLI::App app("neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
+    CLI::App app(
+        "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
     app.name("neumann");
     app.require_subcommand(1);
     app.set_version_flag("--version", "neumann " NEUMANN_VERSION);
@@ -114,7 +126,8 @@ int main(int argc, char** argv) try {
     add_render(app, request, definitions, direct);
     std::string a, b;
     bool json = false;
-    auto* compare = app.add_subcommand("compare", "Print error metrics between two pictures or two output folders; the second is the reference");
+    auto* compare = app.add_subcommand(
+        "compare", "Print error metrics between two pictures or two output folders; the second is the reference");
     compare->add_option("A", a, "Picture or folder")->required();
     compare->add_option("B", b, "Reference picture or folder")->required();
     compare->add_flag("--json", json, "Print JSON");
@@ -144,8 +157,11 @@ int main(int argc, char** argv) try {
 
     request.definitions = parse_definitions(definitions);
     request.command_line = join(argc, argv);
-    if (request.output.empty()) request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
-    request.direct = direct == "light" ? neumann::DirectLight::light : direct == "bsdf" ? neumann::DirectLight::bsdf : neumann::DirectLight::mis;
+    if (request.output.empty())
+        request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
+    request.direct = direct == "light"  ? neumann::DirectLight::light
+                     : direct == "bsdf" ? neumann::DirectLight::bsdf
+                                        : neumann::DirectLight::mis;
     return finish(neumann::render_command(request));
 } catch (const neumann::InputError& e) {
     complain(e.what());

@@ -1,8 +1,8 @@
 #include "apps/progress_line.h"
 
-#include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <cstdio>
 
 namespace neumann {
 
@@ -27,8 +27,10 @@ void ProgressLine::show(const RenderProgress& progress) {
     if (!lock || now - last_ < std::chrono::milliseconds(200)) return;
     last_ = now;
     shown_ = true;
-    std::string line = fmt::format("bounces 0..{} and rest   {} samples a pixel   {}", bounces_, progress.samples, duration(progress.seconds));
-    if (progress.seconds_left) line += fmt::format("   {:.0f}%   {} left", 100.0 * std::min(progress.fraction, 1.0), duration(*progress.seconds_left));
+    std::string line =
+        fmt::format("bounces 0..{} and rest   {} samples a pixel   {}", bounces_, progress.samples, duration(progress.seconds));
+    if (progress.seconds_left)
+        line += fmt::format("   {:.0f}%   {} left", 100.0 * std::min(progress.fraction, 1.0), duration(*progress.seconds_left));
     fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
 }

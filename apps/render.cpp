@@ -8,15 +8,15 @@
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
 
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <unistd.h>
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 #include <iostream>
-#include <oneapi/tbb/global_control.h>
-#include <unistd.h>
 
 namespace neumann {
 
@@ -32,11 +32,13 @@ int choose_bounces(const RenderRequest& request, const Scene& scene, const Pilot
     if (request.bounces) return *request.bounces;
     if (request.tail) {
         if (!pilot.converges())
-            throw RunError(fmt::format("--tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the bounces with -n",
-                                       *request.tail, pilot.given_up(), pilot.walks(), Pilot::bounces + Pilot::give_up));
+            throw RunError(fmt::format(
+                "--tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the bounces with -n",
+                *request.tail, pilot.given_up(), pilot.walks(), Pilot::bounces + Pilot::give_up));
         const int n = pilot.bounces_for_tail(*request.tail);
         if (n < 0)
-            throw RunError(fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", *request.tail, Pilot::bounces));
+            throw RunError(fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", *request.tail,
+                                       Pilot::bounces));
         return n;
     }
     if (scene.bounces) return *scene.bounces;
@@ -48,30 +50,35 @@ int choose_bounces(const RenderRequest& request, const Scene& scene, const Pilot
 std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const Pilot& pilot) {
     if (goal.samples) return replicate_size(*goal.samples);
     if (!goal.seconds) return largest_replicate;
-    const double pixels = static_cast<double>(film.crop_width) * film.crop_height, affordable = *goal.seconds / (pixels * pilot.seconds_per_walk());
+    const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
+                 affordable = *goal.seconds / (pixels * pilot.seconds_per_walk());
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 8.0, 1.0, static_cast<double>(largest_replicate))));
 }
 
 // Eight numbers a pixel at once in the deepest corner of the run: refused before the machine starts to swap.
 void check_memory(const Film& film, int bounces) {
     const double nodes = 6.0;  // of the tree of replicates, at most, with the result
-    const double bytes = nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
+    const double bytes =
+        nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
     const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     if (bytes > 0.8 * memory)
-        throw InputError(fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, the machine has {:.1f}; take fewer bounces or a smaller film",
-                                     bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
+        throw InputError(fmt::format(
+            "{} bounces of {}×{} pixels need about {:.1f} GiB, the machine has {:.1f}; take fewer bounces or a smaller film",
+            bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
 // The pictures of an earlier render, to judge this one by.
 class Reference {
 public:
     Reference(const std::string& folder, int bounces, const Film& film) {
-        if (!std::filesystem::is_directory(folder)) throw InputError(folder + ": is not a folder; --reference takes the folder of an earlier render");
+        if (!std::filesystem::is_directory(folder))
+            throw InputError(folder + ": is not a folder; --reference takes the folder of an earlier render");
         for (int i = 0; i <= bounces; ++i) terms_.push_back(read(folder, bounce_file(static_cast<std::size_t>(i)), film));
         sum_ = read(folder, sum_file(static_cast<std::size_t>(bounces)), film);
     }
     void judge(const SeriesMoments::Result& result, Checkpoint& checkpoint) const {
-        for (std::size_t i = 0; i < terms_.size(); ++i) checkpoint.true_term_error.push_back(relative_error(result.term(i).mean, terms_[i]));
+        for (std::size_t i = 0; i < terms_.size(); ++i)
+            checkpoint.true_term_error.push_back(relative_error(result.term(i).mean, terms_[i]));
         checkpoint.true_sum_error = relative_error(result.sum(terms_.size() - 1).mean, sum_);
     }
 
@@ -97,7 +104,8 @@ void print_summary(const SeriesReport& report, const RenderedSeries& series, con
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const BounceReport& b = report.bounces[i];
         fmt::print("{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>10}\n", i, b.mean.mean, interval(b.mean, b.infinite_variance),
-                   b.ratio ? fmt::format("{:.4f}", *b.ratio) : "", std::isfinite(b.bound) ? fmt::format("{:.3g}", b.bound) : "none");
+                   b.ratio ? fmt::format("{:.4f}", *b.ratio) : "",
+                   std::isfinite(b.bound) ? fmt::format("{:.3g}", b.bound) : "none");
     }
     fmt::print("{:>6}  {:>12.6g}  {:<18}\n", "sum", report.sum.mean, interval(report.sum, report.infinite_variance()));
     switch (report.rest_verdict) {
@@ -105,11 +113,15 @@ void print_summary(const SeriesReport& report, const RenderedSeries& series, con
             fmt::print("{:>6}  {:>12.6g}  {:<18}  measured: with its interval {:.2g} of the sum\n", "rest", report.rest.mean,
                        interval(report.rest, report.rest_infinite_variance), report.tail_fraction());
             break;
-        case RestVerdict::not_converging: fmt::print("{:>6}  not converging: walks did not end and were given up\n", "rest"); break;
-        case RestVerdict::not_sampled: break;
+        case RestVerdict::not_converging:
+            fmt::print("{:>6}  not converging: walks did not end and were given up\n", "rest");
+            break;
+        case RestVerdict::not_sampled:
+            break;
     }
     if (report.infinite_variance())
-        fmt::print("The largest samples show that the variance is infinite: no interval holds there, and more samples help little.\n");
+        fmt::print(
+            "The largest samples show that the variance is infinite: no interval holds there, and more samples help little.\n");
     if (series.outcome == Outcome::interrupted) fmt::print("Interrupted: the pictures hold what was sampled so far.\n");
     fmt::print("{} samples a pixel in {:.1f} s. The pictures are in {}\n", series.samples, series.seconds, folder);
 }
@@ -144,9 +156,12 @@ int render_command(const RenderRequest& request) {
         const int N = settings.walk.bounces;
         check_memory(scene.film, N);
         RestVerdict verdict = RestVerdict::measured;
-        if (settings.method == Method::pointwise) verdict = RestVerdict::not_sampled;
-        else if (!pilot.converges()) verdict = RestVerdict::not_converging;
-        settings.walk.rest_probability = verdict == RestVerdict::measured ? pilot.rest_probability(std::min(N, Pilot::bounces)) : 0.0;
+        if (settings.method == Method::pointwise)
+            verdict = RestVerdict::not_sampled;
+        else if (!pilot.converges())
+            verdict = RestVerdict::not_converging;
+        settings.walk.rest_probability =
+            verdict == RestVerdict::measured ? pilot.rest_probability(std::min(N, Pilot::bounces)) : 0.0;
 
         ProgressLine line(N, request.quiet);
         RenderObserver observer;
@@ -155,16 +170,20 @@ int render_command(const RenderRequest& request) {
         std::optional<Reference> reference;
         if (!request.reference.empty()) {
             reference.emplace(request.reference, N, scene.film);
-            observer.judge = [&](const SeriesMoments::Result& result, Checkpoint& checkpoint) { reference->judge(result, checkpoint); };
+            observer.judge = [&](const SeriesMoments::Result& result, Checkpoint& checkpoint) {
+                reference->judge(result, checkpoint);
+            };
         }
         series = render_series(scene, settings, goal, observer);
         report = report_series(scene, series, verdict);
         // The pilot chose the bounces, the render judges them.
-        if (!request.tail || request.bounces || interrupted() || verdict != RestVerdict::measured || report.tail_fraction() <= *request.tail) break;
+        if (!request.tail || request.bounces || interrupted() || verdict != RestVerdict::measured ||
+            report.tail_fraction() <= *request.tail)
+            break;
         settings.walk.bounces += std::max(1, N / 4);
         if (!request.quiet)
-            fmt::print(stderr, "The rest is {:.3g} of the sum, more than {}: once more with {} bounces\n", report.tail_fraction(), *request.tail,
-                       settings.walk.bounces);
+            fmt::print(stderr, "The rest is {:.3g} of the sum, more than {}: once more with {} bounces\n", report.tail_fraction(),
+                       *request.tail, settings.walk.bounces);
     }
 
     Warnings warnings = scene.warnings;
@@ -184,8 +203,10 @@ int render_command(const RenderRequest& request) {
     if (!request.quiet)
         for (const auto& [text, count] : warnings.counts())
             fmt::print(stderr, "warning: {}{}\n", text, count > 1 ? fmt::format(" ({} times)", count) : "");
-    if (request.json) fmt::print("{}\n", json.dump(2));
-    else if (!request.quiet) print_summary(report, series, request.output);
+    if (request.json)
+        fmt::print("{}\n", json.dump(2));
+    else if (!request.quiet)
+        print_summary(report, series, request.output);
     return 0;
 }
 

@@ -27,19 +27,26 @@ Json mean_json(const MeanWithError& mean, bool infinite_variance) {
 
 const char* name(Outcome outcome) {
     switch (outcome) {
-        case Outcome::samples_reached: return "samples reached";
-        case Outcome::time_reached: return "time reached";
-        case Outcome::error_reached: return "error reached";
-        case Outcome::interrupted: return "interrupted";
+        case Outcome::samples_reached:
+            return "samples reached";
+        case Outcome::time_reached:
+            return "time reached";
+        case Outcome::error_reached:
+            return "error reached";
+        case Outcome::interrupted:
+            return "interrupted";
     }
     return "";
 }
 
 const char* name(DirectLight direct) {
     switch (direct) {
-        case DirectLight::light: return "light";
-        case DirectLight::bsdf: return "bsdf";
-        case DirectLight::mis: return "mis";
+        case DirectLight::light:
+            return "light";
+        case DirectLight::bsdf:
+            return "bsdf";
+        case DirectLight::mis:
+            return "mis";
     }
     return "";
 }
@@ -58,14 +65,18 @@ Json rest_json(const Scene& scene, const PictureSampler::Settings& settings, con
             break;
         case RestVerdict::not_converging:
             json["verdict"] = "not converging";
-            json["why"] = std::to_string(pilot.given_up()) + " of " + std::to_string(pilot.walks()) + " walks had not ended after " +
-                          std::to_string(Pilot::bounces + Pilot::give_up) + " bounces and were given up";
+            json["why"] = std::to_string(pilot.given_up()) + " of " + std::to_string(pilot.walks()) +
+                          " walks had not ended after " + std::to_string(Pilot::bounces + Pilot::give_up) +
+                          " bounces and were given up";
             break;
-        case RestVerdict::not_sampled: json["verdict"] = "not sampled by this method"; break;
+        case RestVerdict::not_sampled:
+            json["verdict"] = "not sampled by this method";
+            break;
     }
     json["a_priori_bound"] = number(bound);
-    json["a_priori_bound_note"] = std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
-                                                       : "there is no bound: the largest albedo is at least 1";
+    json["a_priori_bound_note"] =
+        std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
+                             : "there is no bound: the largest albedo is at least 1";
     if (report.bounces.back().ratio) json["ratio_estimate"] = *report.bounces.back().ratio;
     const Rgb albedo = scene.materials.largest_albedo();
     json["largest_albedo"] = {albedo.r, albedo.g, albedo.b};

@@ -10,7 +10,7 @@
 namespace neumann {
 
 nlohmann::ordered_json run_json(const RenderRequest& request, const Scene& scene, const PictureSampler::Settings& settings,
-                                const Pilot& pilot, const RenderedSeries& series, const SeriesReport& report, const Warnings& warnings,
-                                double seconds_total);
+                                const Pilot& pilot, const RenderedSeries& series, const SeriesReport& report,
+                                const Warnings& warnings, double seconds_total);
 
 }  // namespace neumann

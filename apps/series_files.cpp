@@ -4,8 +4,8 @@
 #include "apps/flip_book.h"
 #include "core/image/image_io.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 
 namespace neumann {
 
@@ -41,12 +41,15 @@ std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, c
     std::vector<LabelledPicture> term_pictures, sum_pictures;
     for (std::size_t i = 0; i < terms.size(); ++i)
         term_pictures.push_back({i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N), &terms[i]});
-    for (std::size_t i = 0; i < sums.size(); ++i) sum_pictures.push_back({i == 0 ? "sum 0" : fmt::format("sum 0..{}", i), &sums[i]});
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sum_pictures.push_back({i == 0 ? "sum 0" : fmt::format("sum 0..{}", i), &sums[i]});
     const double exposure = exposure_for(sums.back(), terms.front());
     const auto font = find_label_font();
     folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
     folder.write("bounces.gif", flip_book(term_pictures, sum_pictures, exposure, font));
-    return font ? "" : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png and bounces.gif are unlabelled";
+    return font ? ""
+                : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png and bounces.gif are "
+                  "unlabelled";
 }
 
 std::string series_table(const SeriesReport& report) {
@@ -55,8 +58,8 @@ std::string series_table(const SeriesReport& report) {
         const BounceReport& b = report.bounces[i];
         const double infinity = std::numeric_limits<double>::infinity();
         csv += fmt::format("{},{:.9g},{:.4g},{},{:.9g},{},{:.4g},{:.4g}\n", i, b.mean.mean,
-                           b.infinite_variance ? infinity : b.mean.standard_error, b.ratio ? fmt::format("{:.6g}", *b.ratio) : "", b.bound,
-                           b.rays, b.seconds, b.infinite_variance ? infinity : b.mean.interval());
+                           b.infinite_variance ? infinity : b.mean.standard_error, b.ratio ? fmt::format("{:.6g}", *b.ratio) : "",
+                           b.bound, b.rays, b.seconds, b.infinite_variance ? infinity : b.mean.interval());
     }
     return csv;
 }

@@ -9,7 +9,8 @@
 
 namespace neumann {
 
-// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif. Returns a warning where labels were left out, or nothing.
+// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif. Returns a warning where labels were left out, or
+// nothing.
 std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, const SeriesReport& report);
 
 // series.csv, and convergence.csv.

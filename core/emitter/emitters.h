@@ -44,7 +44,8 @@ public:
     // No emitter has a positive area and radiance.
     bool empty() const { return cumulative_.empty(); }
 
-    // A point on an emitter: u picks the primitive, and what is left of it is, with v, the point there. The same density as pdf_area tells.
+    // A point on an emitter: u picks the primitive, and what is left of it is, with v, the point there. The same density as
+    // pdf_area tells.
     LightSample sample(const Geometry& geometry, const Vec2& uv) const {
         if (empty()) return {};
         const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, uv.x);

@@ -14,8 +14,9 @@ namespace {
 // Half the spacing of floats at 1: what rounding a coordinate of unit size to float can move it by.
 constexpr double float_epsilon = 0x1p-24;
 
-// The distance that clears rounding, in a scene of about unit size: of the ends and the direction of a ray, which may come from anywhere in
-// the scene, and of Embree's distance along the normal of a triangle, which is computed from its vertices relative to the origin.
+// The distance that clears rounding, in a scene of about unit size: of the ends and the direction of a ray, which may come from
+// anywhere in the scene, and of Embree's distance along the normal of a triangle, which is computed from its vertices relative to
+// the origin.
 double hit_error(double size) { return float_epsilon * 8.0 * (1.0 + size); }
 
 double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -147,7 +148,9 @@ bool Geometry::first_hit(const Vec3& origin, const Vec3& direction, double dista
 
 bool Geometry::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
     RayCaster::Hit found;
-    if (!caster_->intersect(leave(from, glm::dot(from.normal, direction)), direction, std::numeric_limits<double>::infinity(), found)) return false;
+    if (!caster_->intersect(leave(from, glm::dot(from.normal, direction)), direction, std::numeric_limits<double>::infinity(),
+                            found))
+        return false;
     put_on_surface(from.position, direction, found, hit);
     return true;
 }
@@ -164,7 +167,8 @@ std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
 
 double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
     if (!triangles_[shape].empty()) return triangles_[shape][primitive].area();
-    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
+    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape]))
+        return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
     const Disk& disk = std::get<Disk>(shapes_[shape]);
     return pi * glm::length(glm::cross(disk.u, disk.v));
 }

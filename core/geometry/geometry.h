@@ -2,9 +2,9 @@
 // Nothing here knows what surfaces are made of.
 //
 // Embree sees the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything outside stays
-// in scene units and double. Embree tells which primitive is hit, by a ray that leaves a surface from a point moved along its normal by
-// the rounding error of floats; where the hit is, the ray from the point itself tells, in double. So scale and place of the scene do not
-// matter.
+// in scene units and double. Embree tells which primitive is hit, by a ray that leaves a surface from a point moved along its
+// normal by the rounding error of floats; where the hit is, the ray from the point itself tells, in double. So scale and place of
+// the scene do not matter.
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -41,8 +41,8 @@ public:
     // V(x, y): nothing stands between two surface points.
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const;
 
-    // The same for up to RayCaster::packet rays or pairs; bit i answers for the i-th. `from(i)`, `pair(i)` and `hit(i)` give references
-    // to the point and direction of departure, to the two points, and to where a hit goes.
+    // The same for up to RayCaster::packet rays or pairs; bit i answers for the i-th. `from(i)`, `pair(i)` and `hit(i)` give
+    // references to the point and direction of departure, to the two points, and to where a hit goes.
     template <class HitAt>
     std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
         RayCaster::Packet packet(*caster_);
@@ -101,7 +101,8 @@ public:
     const RayCaster& caster() const { return *caster_; }
 
 private:
-    // A hit of Embree's on the double geometry: where the ray from `origin` hits the primitive that Embree named. `origin` may be p.position.
+    // A hit of Embree's on the double geometry: where the ray from `origin` hits the primitive that Embree named. `origin` may be
+    // p.position.
     void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
         if (!triangles_[hit.shape].empty()) {
             const Triangle& t = triangles_[hit.shape][hit.primitive];

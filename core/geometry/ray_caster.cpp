@@ -26,8 +26,8 @@ struct SphereData {
     double radius;
     RTCBounds bounds;
 
-    // Smallest root in (tnear, tfar), or NaN. The half chord comes from the distance of the centre to the line, which keeps its digits
-    // for rays that start on the sphere.
+    // Smallest root in (tnear, tfar), or NaN. The half chord comes from the distance of the centre to the line, which keeps its
+    // digits for rays that start on the sphere.
     double intersect(const RTCRay& ray) const {
         const Vec3 d = direction(ray), f = origin(ray) - center;
         const double a = glm::dot(d, d), middle = -glm::dot(f, d) / a;
@@ -88,7 +88,8 @@ template <class Data>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     const unsigned N = args->N;
     for (unsigned i = 0; i < N; ++i)
-        if (args->valid[i] && !std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(args->ray, N, i))))
+        if (args->valid[i] &&
+            !std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(args->ray, N, i))))
             RTCRayN_tfar(args->ray, N, i) = -infinity;
 }
 
@@ -203,8 +204,8 @@ struct RayCaster::Impl {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                      3 * sizeof(float), mesh.vertices.size()));
-        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
+        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                            3 * sizeof(std::uint32_t), mesh.triangles.size()));
         check("building the scene");
         for (const Vec3& world : mesh.vertices) {
             const Vec3 p = caster.to_embree(world);
@@ -226,8 +227,8 @@ struct RayCaster::Impl {
         const Vec3 center = caster.to_embree(disk.center), u = disk.u * caster.scale_, v = disk.v * caster.scale_;
         const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), gram = uu * vv - uv * uv;
         const Vec3 extent(std::hypot(u.x, v.x), std::hypot(u.y, v.y), std::hypot(u.z, v.z));
-        disks.push_back(std::make_unique<DiskData>(DiskData{center, disk.normal, (u * vv - v * uv) / gram, (v * uu - u * uv) / gram,
-                                                            outward_bounds(center, extent)}));
+        disks.push_back(std::make_unique<DiskData>(
+            DiskData{center, disk.normal, (u * vv - v * uv) / gram, (v * uu - u * uv) / gram, outward_bounds(center, extent)}));
         attach_user(disks.back().get(), id);
     }
 };
@@ -241,7 +242,8 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, doubl
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     for (std::uint32_t id = 0; id < shapes.size(); ++id) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[id])) impl_->attach_mesh(*mesh, id, *this);
-        if (const auto* sphere = std::get_if<Sphere>(&shapes[id]); sphere && sphere->radius > 0.0) impl_->attach_sphere(*sphere, id, *this);
+        if (const auto* sphere = std::get_if<Sphere>(&shapes[id]); sphere && sphere->radius > 0.0)
+            impl_->attach_sphere(*sphere, id, *this);
         if (const auto* disk = std::get_if<Disk>(&shapes[id]); disk && glm::length(glm::cross(disk->u, disk->v)) > 0.0)
             impl_->attach_disk(*disk, id, *this);
     }

@@ -30,8 +30,8 @@ public:
     // Whether anything lies strictly between two points.
     bool occluded(const Vec3& from, const Vec3& to) const;
 
-    // The same for up to 8 rays at once, which is faster: bit i of the answer belongs to ray i. Rays that are alike, such as those of one
-    // pixel, stay together through the whole scene.
+    // The same for up to 8 rays at once, which is faster: bit i of the answer belongs to ray i. Rays that are alike, such as those
+    // of one pixel, stay together through the whole scene.
     static constexpr std::size_t packet = 8;
     enum class Rays { alike, any };
     class Packet;

@@ -8,9 +8,9 @@
 namespace neumann {
 
 struct SurfacePoint {
-    Vec3 position;           // scene units
-    Vec3 normal;             // unit length, geometric, on the front side
-    double error = 0.0;      // rays start this far along ±normal: the rounding error of the hit, scene units
+    Vec3 position;            // scene units
+    Vec3 normal;              // unit length, geometric, on the front side
+    double error = 0.0;       // rays start this far along ±normal: the rounding error of the hit, scene units
     std::uint32_t shape = 0;  // index into Geometry::shapes()
     std::uint32_t primitive = 0;
 };

@@ -2,7 +2,8 @@
 
 namespace neumann {
 
-Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : vertex_(a), edge1_(b - a), edge2_(c - a), error_(error) {
+Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error)
+    : vertex_(a), edge1_(b - a), edge2_(c - a), error_(error) {
     const Vec3 across = glm::cross(edge1_, edge2_);
     const double twice = glm::length(across), longest = std::max({glm::length(edge1_), glm::length(edge2_), glm::length(c - b)});
     normal_ = across / twice;

@@ -23,7 +23,8 @@ public:
         const double distance = glm::dot(vertex_ - origin, normal_) / glm::dot(direction, normal_);
         const Vec3 p = origin + direction * distance, x = p - vertex_;
         const Vec2 weights(glm::dot(x, dual1_), glm::dot(x, dual2_));
-        const bool inside = std::min({weights.x, weights.y, 1.0 - weights.x - weights.y}) >= margin_ && distance > 0.0 && rounding_ < 1.0;
+        const bool inside =
+            std::min({weights.x, weights.y, 1.0 - weights.x - weights.y}) >= margin_ && distance > 0.0 && rounding_ < 1.0;
         return inside ? p : hit_at_edge(weights, distance, u, v);
     }
 
@@ -34,8 +35,8 @@ private:
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
     double area_, error_;
     double rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
-    double margin_;    // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that meets the
-                       // triangle there; 0 where the triangle is too thin for that
+    double margin_;    // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
+                     // meets the triangle there; 0 where the triangle is too thin for that
 };
 
 }  // namespace neumann

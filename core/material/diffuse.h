@@ -19,9 +19,7 @@ public:
     Rgb eval(const SurfacePoint& p, const Vec3& wo, const Vec3& wi) const {
         return wo.z > 0.0 && wi.z > 0.0 ? reflectance_(p) * inv_pi : Rgb(0.0);
     }
-    double pdf(const SurfacePoint&, const Vec3& wo, const Vec3& wi) const {
-        return wo.z > 0.0 && wi.z > 0.0 ? wi.z * inv_pi : 0.0;
-    }
+    double pdf(const SurfacePoint&, const Vec3& wo, const Vec3& wi) const { return wo.z > 0.0 && wi.z > 0.0 ? wi.z * inv_pi : 0.0; }
     // The weight is ρ itself and not a quotient: in the white furnace every path then carries ρ^i exactly.
     BsdfSample sample(const SurfacePoint& p, const Vec3& wo, const Vec2& u) const {
         if (wo.z <= 0.0) return {};

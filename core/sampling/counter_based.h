@@ -1,6 +1,6 @@
 // Counter-based random numbers: a pure function of (seed, pixel, sample, dimension), so pictures do not depend on threads or on how
-// a run was cut into pieces. Philox2x64 of Salmon et al., Parallel Random Numbers: As Easy as 1, 2, 3 (2011), from Random123, with one
-// round more than the six that pass TestU01's BigCrush.
+// a run was cut into pieces. Philox2x64 of Salmon et al., Parallel Random Numbers: As Easy as 1, 2, 3 (2011), from Random123, with
+// one round more than the six that pass TestU01's BigCrush.
 #pragma once
 
 #include <Random123/philox.h>

@@ -1,8 +1,8 @@
 // Sobol' points with Owen's nested scrambling, in replicates: each run of `replicate_size` samples of a pixel is one scrambled net,
 // replicates and pixels are independent of each other. So the mean of a replicate is an unbiased estimate, and the spread of the
-// replicates' means its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing: Laine and Karras 2011 in
-// the form of Vegdahl 2021. Only the first four dimensions, the best, are used: each further four are the same points in another order
-// (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
+// replicates' means its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing: Laine and Karras 2011
+// in the form of Vegdahl 2021. Only the first four dimensions, the best, are used: each further four are the same points in another
+// order (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
 #pragma once
 
 #include "core/base/vec.h"
@@ -92,7 +92,8 @@ private:
             scrambles_->order[group] = random_(scrambles_->replicate, order_block | group)[0];
             scrambles_->known = group + 1;
         }
-        index_ = static_cast<std::uint32_t>(std::uint64_t{scramble(reversed_index_, scrambles_->order[group])} * points_->size() >> 32);
+        index_ =
+            static_cast<std::uint32_t>(std::uint64_t{scramble(reversed_index_, scrambles_->order[group])} * points_->size() >> 32);
     }
     double beyond(std::uint32_t d) {
         const std::uint32_t lane = d % 4;

@@ -17,8 +17,8 @@ inline void sin_cos_quarter(double phi, double& sine, double& cosine) {
     const double x = phi * phi, x2 = x * x, x4 = x2 * x2;
     sine = phi * ((1.0 - x * (1.0 / 6)) + x2 * (1.0 / 120 - x * (1.0 / 5040)) +
                   x4 * ((1.0 / 362880 - x * (1.0 / 39916800)) + x2 * (1.0 / 6227020800.0)));
-    cosine = (1.0 - x * 0.5) + x2 * (1.0 / 24 - x * (1.0 / 720)) +
-             x4 * ((1.0 / 40320 - x * (1.0 / 3628800)) + x2 * (1.0 / 479001600.0));
+    cosine =
+        (1.0 - x * 0.5) + x2 * (1.0 / 24 - x * (1.0 / 720)) + x4 * ((1.0 / 40320 - x * (1.0 / 3628800)) + x2 * (1.0 / 479001600.0));
 }
 
 // (cos, sin) of 2πu, u ∈ [0, 1). Without branches, which would be mispredicted every other time.
@@ -49,16 +49,15 @@ inline Vec3 cosine_hemisphere(const Vec2& u) {
 }
 
 // pdf 1/(2π) per solid angle, about +z: Archimedes' z, uniform.
-inline Vec3 uniform_hemisphere(const Vec2& u) {
-    return Vec3(direction_on_circle(u.y) * std::sqrt(u.x * (2.0 - u.x)), 1.0 - u.x);
-}
+inline Vec3 uniform_hemisphere(const Vec2& u) { return Vec3(direction_on_circle(u.y) * std::sqrt(u.x * (2.0 - u.x)), 1.0 - u.x); }
 
 // pdf 1/(4π) per solid angle.
 inline Vec3 uniform_sphere(const Vec2& u) {
     return Vec3(direction_on_circle(u.y) * (2.0 * std::sqrt(u.x * (1.0 - u.x))), 1.0 - 2.0 * u.x);
 }
 
-// Barycentric weights of the second and third vertex, uniform by area: Heitz, A Low-Distortion Map Between Triangle and Square, 2019.
+// Barycentric weights of the second and third vertex, uniform by area: Heitz, A Low-Distortion Map Between Triangle and Square,
+// 2019.
 inline Vec2 uniform_triangle(const Vec2& u) {
     const double x = 0.5 * u.x, y = 0.5 * u.y, fold = y - x;
     return {x + std::max(-fold, 0.0), y + std::max(fold, 0.0)};

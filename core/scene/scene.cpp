@@ -4,8 +4,8 @@ namespace neumann {
 
 namespace {
 
-// Parts of lights that are not seen from right in front of them, because another shape lies in the same place: whether such a light is hit
-// or what covers it is chance, and light sampling counts both.
+// Parts of lights that are not seen from right in front of them, because another shape lies in the same place: whether such a light
+// is hit or what covers it is chance, and light sampling counts both.
 std::size_t covered_lights(const Geometry& geometry, const std::vector<int>& light_of_shape) {
     std::size_t count = 0;
     for (std::uint32_t shape = 0; shape < light_of_shape.size(); ++shape) {
@@ -27,8 +27,9 @@ Scene make_scene(SceneParts parts) {
     Geometry geometry(std::move(parts.shapes));
     Materials materials(std::move(parts.bsdfs), std::move(parts.sides_of_shape));
     Warnings warnings = std::move(parts.warnings);
-    warnings.add("part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
-                 covered_lights(geometry, parts.light_of_shape));
+    warnings.add(
+        "part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
+        covered_lights(geometry, parts.light_of_shape));
     Emitters emitters(geometry, std::move(parts.lights), std::move(parts.light_of_shape));
     warnings.add("degenerate triangle or shape without extent left out", geometry.degenerate_count());
     warnings.add("light without area gives off nothing", emitters.without_area());
@@ -37,8 +38,8 @@ Scene make_scene(SceneParts parts) {
     if (max_component(materials.largest_albedo()) > 1.0)
         warnings.add("reflectance above 1: a surface gives back more light than it receives");
     const Perspective camera(parts.camera, parts.film);
-    return {std::move(geometry), std::move(materials), std::move(emitters), camera, parts.film,
-            parts.bounces, parts.sampler, std::move(parts.hash), std::move(warnings)};
+    return {std::move(geometry), std::move(materials),  std::move(emitters), camera, parts.film, parts.bounces,
+            parts.sampler,       std::move(parts.hash), std::move(warnings)};
 }
 
 }  // namespace neumann

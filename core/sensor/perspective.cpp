@@ -10,11 +10,16 @@ namespace {
 double tan_half_width(const Perspective::Options& options, double aspect) {
     const double t = std::tan(options.fov / 2.0);
     switch (options.fov_axis) {
-        case Perspective::FovAxis::x: return t;
-        case Perspective::FovAxis::y: return t * aspect;
-        case Perspective::FovAxis::diagonal: return t * aspect / std::sqrt(1.0 + aspect * aspect);
-        case Perspective::FovAxis::smaller: return aspect > 1.0 ? t * aspect : t;
-        case Perspective::FovAxis::larger: return aspect > 1.0 ? t : t * aspect;
+        case Perspective::FovAxis::x:
+            return t;
+        case Perspective::FovAxis::y:
+            return t * aspect;
+        case Perspective::FovAxis::diagonal:
+            return t * aspect / std::sqrt(1.0 + aspect * aspect);
+        case Perspective::FovAxis::smaller:
+            return aspect > 1.0 ? t * aspect : t;
+        case Perspective::FovAxis::larger:
+            return aspect > 1.0 ? t : t * aspect;
     }
     return t;
 }

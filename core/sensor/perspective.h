@@ -7,8 +7,8 @@
 namespace neumann {
 
 struct Film {
-    int width = 768, height = 576;             // the whole film, pixels
-    int crop_x = 0, crop_y = 0;                // the part that is rendered
+    int width = 768, height = 576;  // the whole film, pixels
+    int crop_x = 0, crop_y = 0;     // the part that is rendered
     int crop_width = 768, crop_height = 576;
     PixelFilter filter = GaussianFilter();
 };
@@ -21,10 +21,10 @@ public:
     enum class FovAxis { x, y, diagonal, smaller, larger };
 
     struct Options {
-        Mat4 to_world{1.0};     // camera looks along its +z, +y up, +x left (Mitsuba's convention)
-        double fov = 0.0;       // full angle, radians
+        Mat4 to_world{1.0};  // camera looks along its +z, +y up, +x left (Mitsuba's convention)
+        double fov = 0.0;    // full angle, radians
         FovAxis fov_axis = FovAxis::x;
-        Vec2 principal_point_offset{0.0};  // relative to the film's size
+        Vec2 principal_point_offset{0.0};         // relative to the film's size
         double near_clip = 1e-2, far_clip = 1e4;  // scene units
     };
 

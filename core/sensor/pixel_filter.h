@@ -1,6 +1,6 @@
-// Reconstruction filters. A pixel's samples are drawn from the filter itself and all weigh the same, so pixels are independent of each
-// other and a mean and a variance are all there is to keep (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006). The
-// expected picture is the one that splatting gives.
+// Reconstruction filters. A pixel's samples are drawn from the filter itself and all weigh the same, so pixels are independent of
+// each other and a mean and a variance are all there is to keep (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006).
+// The expected picture is the one that splatting gives.
 #pragma once
 
 #include "core/base/vec.h"

@@ -1,11 +1,11 @@
 #include "operators/pictures/picture_sampler.h"
 
-#include <algorithm>
-#include <atomic>
-#include <bit>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <atomic>
+#include <bit>
 #include <span>
 #include <stdexcept>
 
@@ -18,11 +18,16 @@ constexpr std::size_t non_finite_kept = 16;
 // Walks that advance together: enough that those that are still on their way fill the packets of rays.
 constexpr std::uint32_t walks_at_once = 64;
 
-// One thread's work space for some pixels at once: the walks' samples, and one node of the tree of replicates for each level and pixel.
+// One thread's work space for some pixels at once: the walks' samples, and one node of the tree of replicates for each level and
+// pixel.
 struct Workspace {
     Workspace(std::size_t pixels, std::size_t replicate_size, std::size_t quantities, std::size_t levels)
-        : rays(pixels * replicate_size), samples(rays.size() * quantities), sum(quantities), carry(quantities * PixelMoments::doubles_per_quantity),
-          waiting(pixels, std::vector(levels, carry)), tally(quantities) {}
+        : rays(pixels * replicate_size),
+          samples(rays.size() * quantities),
+          sum(quantities),
+          carry(quantities * PixelMoments::doubles_per_quantity),
+          waiting(pixels, std::vector(levels, carry)),
+          tally(quantities) {}
     std::vector<CameraRay> rays;
     Walkers walkers;
     std::vector<Rgb> samples, sum;
@@ -41,7 +46,8 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
 }
 
 // Takes down the samples of one quantity that are not finite, makes them zero, and returns the sum of the others.
-Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate, Workspace& work) {
+Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate,
+                         Workspace& work) {
     Rgb sum(0.0);
     for (std::size_t i = 0; i < size; ++i) {
         Rgb& x = samples[i * work.sum.size() + q];
@@ -58,8 +64,8 @@ Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q
 
 // Samples one replicate of some pixels, into work.samples; there is a sampler for each of their samples.
 template <class Estimator, class Sampler>
-void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels, std::uint64_t replicate,
-           Workspace& work) {
+void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
+           std::uint64_t replicate, Workspace& work) {
     const Film& film = scene.film;
     const std::size_t size = samplers.size() / pixels.size();
     for (std::size_t i = 0; i < samplers.size(); ++i) {
@@ -124,12 +130,14 @@ void Tally::merge(const Tally& other) {
 
 PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
     : scene_(scene), settings_(settings), estimator_(make_estimator(scene, settings)), sobol_(settings.replicate_size) {
-    if (!std::has_single_bit(settings.replicate_size)) throw std::logic_error("PictureSampler: replicate_size is not a power of two");
+    if (!std::has_single_bit(settings.replicate_size))
+        throw std::logic_error("PictureSampler: replicate_size is not a power of two");
 }
 
 std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                                std::vector<double> memory) const {
-    if (!std::has_single_bit(count) || first % count != 0) throw std::logic_error("PictureSampler: not a node of the tree of replicates");
+    if (!std::has_single_bit(count) || first % count != 0)
+        throw std::logic_error("PictureSampler: not a node of the tree of replicates");
     const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
     const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
@@ -145,22 +153,26 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
     // Some consecutive pixels, from `begin`.
-    const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end, Workspace& work) {
+    const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end,
+                                Workspace& work) {
         std::vector<Pixel> some;
         std::vector<std::decay_t<decltype(sampler_of(begin))>> samplers;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-            some.push_back({scene_.film.crop_x + static_cast<int>(pixel) % width(), scene_.film.crop_y + static_cast<int>(pixel) / width()});
+            some.push_back(
+                {scene_.film.crop_x + static_cast<int>(pixel) % width(), scene_.film.crop_y + static_cast<int>(pixel) / width()});
             samplers.resize(samplers.size() + size, sampler_of(pixel));
         }
         for (std::uint64_t r = 0; r < count; ++r) {
             trace(scene_, estimate, std::span(samplers), some, first + r, work);
             for (std::size_t i = 0; i < some.size(); ++i) {
-                average(std::span(work.samples).subspan(i * size * quantities(), size * quantities()), size, some[i], first + r, work);
+                average(std::span(work.samples).subspan(i * size * quantities(), size * quantities()), size, some[i], first + r,
+                        work);
                 append(r, work.waiting[i], work);
             }
         }
         for (std::size_t i = 0; i < some.size(); ++i)
-            std::copy(work.waiting[i].back().begin(), work.waiting[i].back().end(), node.data.begin() + static_cast<std::ptrdiff_t>((begin + i) * stride));
+            std::copy(work.waiting[i].back().begin(), work.waiting[i].back().end(),
+                      node.data.begin() + static_cast<std::ptrdiff_t>((begin + i) * stride));
     };
     // Groups of pixels are the same however the work is divided.
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
@@ -173,9 +185,13 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             std::visit(
                 [&](const auto& estimate) {
                     if (settings_.sampler == SamplerKind::sobol)
-                        run_pixels(estimate, [&](std::uint32_t pixel) { return SobolSampler(sobol_, settings_.seed, pixel); }, begin, end, work);
+                        run_pixels(
+                            estimate, [&](std::uint32_t pixel) { return SobolSampler(sobol_, settings_.seed, pixel); }, begin, end,
+                            work);
                     else
-                        run_pixels(estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end, work);
+                        run_pixels(
+                            estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end,
+                            work);
                 },
                 estimator_);
             done += end - begin;

@@ -55,10 +55,10 @@ public:
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.walk.bounces) + 2; }
     const Settings& settings() const { return settings_; }
 
-    // Replicates first … first + count − 1 of every pixel; count is a power of two that divides first. What is counted is added to `tally`,
-    // which has the replicates before, unless the work is dropped. `watch` is told the pixels that
-    // are done as work goes on, from any thread, and drops the work by answering true. `memory` is used for the node: fresh pages for every
-    // block would cost as much as the moments themselves.
+    // Replicates first … first + count − 1 of every pixel; count is a power of two that divides first. What is counted is added to
+    // `tally`, which has the replicates before, unless the work is dropped. `watch` is told the pixels that are done as work goes
+    // on, from any thread, and drops the work by answering true. `memory` is used for the node: fresh pages for every block would
+    // cost as much as the moments themselves.
     using Watch = std::function<bool(std::uint64_t pixels_done)>;
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
                                    std::vector<double> memory = {}) const;

@@ -2,9 +2,9 @@
 
 #include "core/sampling/independent_sampler.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <chrono>
-#include <oneapi/tbb/parallel_for.h>
 
 namespace neumann {
 
@@ -39,10 +39,12 @@ Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
             std::vector<IndependentSampler> samplers;
             const Film& film = scene.film;
             for (std::uint64_t i = 0; i < batch; ++i) {
-                IndependentSampler& sampler = samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
+                IndependentSampler& sampler =
+                    samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
                 sampler.start(0);
                 const Vec2 u = sampler.next2();
-                camera_rays.push_back(scene.camera.ray({film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height}));
+                camera_rays.push_back(
+                    scene.camera.ray({film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height}));
             }
             std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
             TermSamples result{sampled, round[b].rays};
@@ -97,8 +99,10 @@ double Pilot::rest_probability(int N) const {
     const auto first = static_cast<std::size_t>(N) + 1;
     double terms = 0.0, beyond = 0.0;
     for (std::size_t q = 0; q < rays_.size(); ++q) {
-        if (q < first) terms += rays_[q];
-        else beyond += rays_[q] * (q < rays_.size() - 1 && term(first) > 0.0 ? std::clamp(term(q) / term(first), 0.0, 1.0) : 1.0);
+        if (q < first)
+            terms += rays_[q];
+        else
+            beyond += rays_[q] * (q < rays_.size() - 1 && term(first) > 0.0 ? std::clamp(term(q) / term(first), 0.0, 1.0) : 1.0);
     }
     return beyond > terms ? terms / beyond : 1.0;
 }

@@ -1,5 +1,5 @@
-// A few thousand walks before the pictures, to learn how long walks are, how fast the terms fall, and whether the series ends at all.
-// They use random numbers of their own, so that nothing chosen by looking at them is judged by them again.
+// A few thousand walks before the pictures, to learn how long walks are, how fast the terms fall, and whether the series ends at
+// all. They use random numbers of their own, so that nothing chosen by looking at them is judged by them again.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -81,10 +81,13 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             }
         }
 
-        auto node = sampler.run(done, block, series.tally, [&](std::uint64_t pixels_done) {
-            report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
-            return done > 0 && repeatable(done) && observer.interrupted();
-        }, std::move(memory));
+        auto node = sampler.run(
+            done, block, series.tally,
+            [&](std::uint64_t pixels_done) {
+                report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
+                return done > 0 && repeatable(done) && observer.interrupted();
+            },
+            std::move(memory));
         if (!node) {
             series.outcome = Outcome::interrupted;
             break;
@@ -99,7 +102,8 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (std::has_single_bit(series.samples) && !last) {
             series.convergence.push_back(make_checkpoint(series, observer));
             const auto& errors = series.convergence.back().term_error;
-            if (goal.relative_error && done > 1 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error) error_reached = true;
+            if (goal.relative_error && done > 1 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error)
+                error_reached = true;
         }
         if (last || stop || (error_reached && repeatable(done))) {
             series.outcome = last ? Outcome::samples_reached : stop ? Outcome::interrupted : Outcome::error_reached;

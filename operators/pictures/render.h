@@ -11,18 +11,18 @@ namespace neumann {
 
 // When to stop sampling; what is given holds together, whichever comes first. Nothing given: never.
 struct SamplingGoal {
-    std::optional<std::uint64_t> samples;    // a pixel
+    std::optional<std::uint64_t> samples;  // a pixel
     std::optional<double> seconds;
-    std::optional<double> relative_error;    // of every term that is not all zero, as relative_standard_error(); looked at when the
-                                             // number of samples is a power of two
+    std::optional<double> relative_error;  // of every term that is not all zero, as relative_standard_error(); looked at when the
+                                           // number of samples is a power of two
 };
 
 // The error at one number of samples.
 struct Checkpoint {
     std::uint64_t samples = 0, rays = 0;
     double seconds = 0.0;
-    std::vector<double> term_error;  // relative standard error of each term 0 … N
-    double sum_error = 0.0;          // and of Σ_{k≤N}
+    std::vector<double> term_error;       // relative standard error of each term 0 … N
+    double sum_error = 0.0;               // and of Σ_{k≤N}
     std::vector<double> true_term_error;  // relative error against a reference, if there is one
     std::optional<double> true_sum_error;
 };
@@ -30,9 +30,9 @@ struct Checkpoint {
 enum class Outcome { samples_reached, time_reached, error_reached, interrupted };
 
 struct RenderProgress {
-    std::uint64_t samples;         // a pixel, finished
-    double seconds;                // so far
-    double fraction;               // of the goal, as far as known; 0 … 1
+    std::uint64_t samples;  // a pixel, finished
+    double seconds;         // so far
+    double fraction;        // of the goal, as far as known; 0 … 1
     std::optional<double> seconds_left;
 };
 
@@ -53,13 +53,14 @@ struct RenderedSeries {
     double seconds = 0.0;
 };
 
-// Samples a pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 2 replicates, 4 where there are
-// fewer than 64 samples. Large replicates have less error, many tell it better.
+// Samples a pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 2 replicates, 4 where
+// there are fewer than 64 samples. Large replicates have less error, many tell it better.
 constexpr std::uint32_t largest_replicate = 32;
 std::uint32_t replicate_size(std::uint64_t samples);
 
-// A render that is stopped by time or error ends at a number of samples from which replicate_size() finds the same replicates again, and so
-// does one that is interrupted, unless that would take long. An interrupted one drops the samples that are not yet in all pixels.
+// A render that is stopped by time or error ends at a number of samples from which replicate_size() finds the same replicates
+// again, and so does one that is interrupted, unless that would take long. An interrupted one drops the samples that are not yet in
+// all pixels.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const RenderObserver& observer = {});
 

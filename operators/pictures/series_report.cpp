@@ -21,7 +21,8 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     report.rest_verdict = rest_verdict;
     const auto result = series.moments.result();
     const std::size_t N = result.quantities() - 2;
-    const auto all_rays = static_cast<double>(std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0}));
+    const auto all_rays =
+        static_cast<double>(std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0}));
     const auto is_infinite = [&](std::size_t q) {
         const auto tail = tail_index(series.tally.largest[q]);
         return tail && tail->variance_is_infinite();

@@ -10,13 +10,13 @@
 namespace neumann {
 
 struct BounceReport {
-    MeanWithError mean;               // radiance of K^i Le, over pixels and channels
-    std::optional<double> ratio;      // to the mean of the bounce before: an estimate, not a bound; none after a bounce that is zero
-    double bound;                     // a priori, of ‖Σ_{k>i} K^k Le‖∞; infinite: there is none
-    bool infinite_variance = false;   // then `mean` has no interval
+    MeanWithError mean;              // radiance of K^i Le, over pixels and channels
+    std::optional<double> ratio;     // to the mean of the bounce before: an estimate, not a bound; none after a bounce that is zero
+    double bound;                    // a priori, of ‖Σ_{k>i} K^k Le‖∞; infinite: there is none
+    bool infinite_variance = false;  // then `mean` has no interval
     std::optional<TailIndex> tail;
     std::uint64_t rays = 0;
-    double seconds = 0.0;             // of the sampling, shared out by rays
+    double seconds = 0.0;  // of the sampling, shared out by rays
 };
 
 enum class RestVerdict {

@@ -1,7 +1,8 @@
-// Radiance as a function that can be asked for its value. A field whose value is an integral answers with an unbiased random estimate,
-// so it takes random numbers; asked again with others, it answers otherwise, and is right on average.
+// Radiance as a function that can be asked for its value. A field whose value is an integral answers with an unbiased random
+// estimate, so it takes random numbers; asked again with others, it answers otherwise, and is right on average.
 //
-// Exitant and incident fields are different types: T turns one into the other and R turns it back, so `R * T` compiles and `T * T` does not.
+// Exitant and incident fields are different types: T turns one into the other and R turns it back, so `R * T` compiles and `T * T`
+// does not.
 #pragma once
 
 #include "core/geometry/surface_point.h"

@@ -1,5 +1,5 @@
-// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. Materials only: no ray is
-// traced here. The integral is estimated with one direction, drawn from the material's own density.
+// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. Materials only:
+// no ray is traced here. The integral is estimated with one direction, drawn from the material's own density.
 #pragma once
 
 #include "core/base/frame.h"

@@ -2,8 +2,8 @@
 //
 //     (R g)(x, ωo) = ∫_A fs(x, y → ωo) V(x, y) G(x, y) g(x, xy) dA(y),   G = |cos θx cos θy| / ‖x − y‖²,
 //
-// with xy the direction from x to y. The kernel f·V·G is the whole of it; y is drawn uniformly from all surfaces. Unlike the hemisphere form
-// this one asks for visibility, and it counts only what arrives from surfaces.
+// with xy the direction from x to y. The kernel f·V·G is the whole of it; y is drawn uniformly from all surfaces. Unlike the
+// hemisphere form this one asks for visibility, and it counts only what arrives from surfaces.
 #pragma once
 
 #include "core/base/frame.h"
@@ -23,7 +23,8 @@ public:
         : geometry_(&geometry), surfaces_(&surfaces), materials_(&materials) {}
 
     // fs V G between the points x and y, towards ωo.
-    static Rgb kernel(const Geometry& geometry, const Materials& materials, const SurfacePoint& x, const Vec3& wo, const SurfacePoint& y) {
+    static Rgb kernel(const Geometry& geometry, const Materials& materials, const SurfacePoint& x, const Vec3& wo,
+                      const SurfacePoint& y) {
         const bool front = glm::dot(x.normal, wo) > 0.0;
         const Bsdf* bsdf = materials.at(x, front);
         const Vec3 d = y.position - x.position;

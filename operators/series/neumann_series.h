@@ -7,7 +7,7 @@ namespace neumann {
 
 // Steps through the terms K^i Le and the partial sums of any operator that maps a kind of field to itself.
 template <Operator Op>
-    requires std::same_as<typename Op::Domain, typename Op::Range>
+requires std::same_as<typename Op::Domain, typename Op::Range>
 class NeumannSeries {
 public:
     using Field = typename Op::Domain;

@@ -13,7 +13,7 @@ concept Operator = requires(const A a, typename A::Domain f) {
 };
 
 template <Operator A, Operator B>
-    requires std::same_as<typename A::Domain, typename B::Range>
+requires std::same_as<typename A::Domain, typename B::Range>
 class Product {
 public:
     using Domain = typename B::Domain;
@@ -28,9 +28,7 @@ private:
 };
 
 template <Operator A, Operator B>
-    requires std::same_as<typename A::Domain, typename B::Range>
-Product<A, B> operator*(A a, B b) {
-    return {std::move(a), std::move(b)};
-}
+requires std::same_as<typename A::Domain, typename B::Range> Product<A, B>
+operator*(A a, B b) { return {std::move(a), std::move(b)}; }
 
 }  // namespace neumann

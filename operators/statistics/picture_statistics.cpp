@@ -3,9 +3,9 @@
 #include "core/base/error.h"
 #include "operators/statistics/student_t.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace neumann {
 
@@ -72,6 +72,8 @@ double relative_error(const Image& test, const Image& reference) {
     return root_of_ratio(errors, references);
 }
 
-bool is_zero(const Image& image) { return std::all_of(image.pixels.begin(), image.pixels.end(), [](const Rgb& p) { return is_black(p); }); }
+bool is_zero(const Image& image) {
+    return std::all_of(image.pixels.begin(), image.pixels.end(), [](const Rgb& p) { return is_black(p); });
+}
 
 }  // namespace neumann

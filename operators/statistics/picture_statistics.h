@@ -11,8 +11,8 @@ struct MeanWithError {
     double interval() const;
 };
 
-// Mean over pixels and channels. Pixels are independent; a pixel's channels are not, and are taken as fully correlated, which can only
-// make the error larger. Degrees of freedom by Welch and Satterthwaite.
+// Mean over pixels and channels. Pixels are independent; a pixel's channels are not, and are taken as fully correlated, which can
+// only make the error larger. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
 // √(Σ SE² / Σ mean²) over pixels and channels; 0 for a picture that is zero everywhere.

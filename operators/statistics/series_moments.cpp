@@ -1,8 +1,8 @@
 #include "operators/statistics/series_moments.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <cmath>
 #include <limits>
-#include <oneapi/tbb/parallel_for.h>
 #include <stdexcept>
 
 namespace neumann {
@@ -60,7 +60,8 @@ std::vector<double> SeriesMoments::add(MomentsNode node) {
         MomentsNode& left = nodes_[nodes_.size() - 2];
         const MomentsNode& right = nodes_.back();
         if (left.count != right.count || left.first % (2 * left.count) != 0) break;
-        merge_pictures(left.data, static_cast<double>(left.count), right.data, static_cast<double>(right.count), doubles_per_pixel());
+        merge_pictures(left.data, static_cast<double>(left.count), right.data, static_cast<double>(right.count),
+                       doubles_per_pixel());
         left.count *= 2;
         free = std::move(nodes_.back().data);
         nodes_.pop_back();
@@ -101,7 +102,8 @@ Estimate SeriesMoments::Result::estimate(std::size_t quantity, bool sum) const {
         const double* data = data_.data() + pixel * quantities_ * stride;
         for (int c = 0; c < 3; ++c) {
             double mean = 0.0;
-            for (std::size_t q = sum ? 0 : quantity; q <= quantity; ++q) mean += data[q * stride + mean_at + static_cast<std::size_t>(c)];
+            for (std::size_t q = sum ? 0 : quantity; q <= quantity; ++q)
+                mean += data[q * stride + mean_at + static_cast<std::size_t>(c)];
             const double m2 = data[quantity * stride + m2_at + static_cast<std::size_t>(c)];
             estimate.mean.pixels[pixel][c] = mean;
             estimate.standard_error.pixels[pixel][c] =

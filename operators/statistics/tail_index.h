@@ -1,5 +1,5 @@
-// Is the variance finite? The largest samples tell: where P(X > x) ~ x^−α, α ≤ 2 means that it is not, and that no interval built on a
-// variance is to be trusted.
+// Is the variance finite? The largest samples tell: where P(X > x) ~ x^−α, α ≤ 2 means that it is not, and that no interval built
+// on a variance is to be trusted.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +42,9 @@ struct TailIndex {
     bool variance_is_infinite() const { return upper < 2.0; }
 };
 
-// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power law has the same
-// index at both, while the tail of a bounded sample that looks like one for a while falls off faster further out. None where k < 400.
+// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power law has the
+// same index at both, while the tail of a bounded sample that looks like one for a while falls off faster further out. None where k
+// < 400.
 std::optional<TailIndex> tail_index(const LargestSamples& samples);
 
 }  // namespace neumann

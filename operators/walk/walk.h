@@ -1,10 +1,10 @@
-// One random walk from the camera gives a sample of every term at once: at its i-th vertex it has been reflected i times, so what it finds
-// there is a sample of K^i Le.
+// One random walk from the camera gives a sample of every term at once: at its i-th vertex it has been reflected i times, so what
+// it finds there is a sample of K^i Le.
 //
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
-// The last reflection may instead look for a light by itself (next-event estimation); with multiple importance sampling both are used,
-// each weighted by the power heuristic (Veach 1997, 9.2.4).
+// The last reflection may instead look for a light by itself (next-event estimation); with multiple importance sampling both are
+// used, each weighted by the power heuristic (Veach 1997, 9.2.4).
 #pragma once
 
 #include "core/base/frame.h"
@@ -41,7 +41,7 @@ struct TermSamples {
 // A walk on its way: the camera's side of the path is done up to x, and weighs β.
 struct Walker {
     SurfacePoint x;
-    Vec3 wo;                   // towards the vertex before
+    Vec3 wo;  // towards the vertex before
     Rgb beta{1.0};
     double kept_weight = 0.0;  // largest channel of β when roulette last let the walk live
 
@@ -54,8 +54,8 @@ struct Walker {
 
 // Work space of walk(), kept between calls.
 struct Walkers {
-    std::vector<Walker> walker;       // one for each ray
-    std::vector<std::uint32_t> alive;  // those that go on, in order
+    std::vector<Walker> walker;         // one for each ray
+    std::vector<std::uint32_t> alive;   // those that go on, in order
     std::vector<std::uint32_t> asking;  // of them, those that ask for their light
 };
 
@@ -65,9 +65,9 @@ inline double power_heuristic(double a, double b) {
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so that the
-// processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as Geometry
-// does; samplers[i] gives the numbers of walk i.
+// Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so
+// that the processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as
+// Geometry does; samplers[i] gives the numbers of walk i.
 template <class Transport, class Sampler>
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, std::span<const CameraRay> rays,
                       std::span<Sampler> samplers, Walkers& walkers, TermSamples& out) {
@@ -172,10 +172,13 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         const auto kind = bounce == 1 ? RayCaster::Rays::alike : RayCaster::Rays::any;
         for (std::size_t k = 0; k < asking.size(); k += packet) {
             const std::size_t n = std::min(packet, asking.size() - k);
-            const std::uint32_t seen = T.visible(n, [&](std::size_t j) {
-                const Walker& w = walker[asking[k + j]];
-                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, w.light);
-            }, kind);
+            const std::uint32_t seen = T.visible(
+                n,
+                [&](std::size_t j) {
+                    const Walker& w = walker[asking[k + j]];
+                    return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, w.light);
+                },
+                kind);
             for (std::size_t j = 0; j < n; ++j)
                 if (seen >> j & 1u) add(asking[k + j], q, walker[asking[k + j]].found);
         }
@@ -199,10 +202,13 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         // T: the next vertices.
         out.rays[q] += alive.size();
         const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
-            return T.first_hits(n, [&](std::size_t j) {
-                const Walker& w = walker[alive[k + j]];
-                return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
-            }, hit);
+            return T.first_hits(
+                n,
+                [&](std::size_t j) {
+                    const Walker& w = walker[alive[k + j]];
+                    return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
+                },
+                hit);
         };
         advance(next_points, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.wi;

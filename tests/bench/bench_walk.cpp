@@ -1,6 +1,6 @@
-// How much of bare Embree's speed the walk keeps: the walk of a picture, and the same rays cast again with nothing around them, in one
-// run. In between stand the parts: the rays as Geometry casts them (hits put back onto the double geometry, offsets), the random
-// numbers alone, the moments alone; what is left is shading.
+// How much of bare Embree's speed the walk keeps: the walk of a picture, and the same rays cast again with nothing around them, in
+// one run. In between stand the parts: the rays as Geometry casts them (hits put back onto the double geometry, offsets), the
+// random numbers alone, the moments alone; what is left is shading.
 #include "bench_scenes.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/pictures/picture_sampler.h"
@@ -8,11 +8,11 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <map>
-#include <numeric>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <sys/resource.h>
+#include <map>
+#include <numeric>
 
 namespace {
 
@@ -30,8 +30,10 @@ struct Setup {
         settings.sampler = kind;
         settings.walk.bounces = 8;
         settings.walk.rest_probability = 0.0;
-        if (kind == SamplerKind::sobol) record([this](std::uint32_t pixel) { return SobolSampler(points, 0, pixel); });
-        else record([](std::uint32_t pixel) { return IndependentSampler(0, pixel); });
+        if (kind == SamplerKind::sobol)
+            record([this](std::uint32_t pixel) { return SobolSampler(points, 0, pixel); });
+        else
+            record([](std::uint32_t pixel) { return IndependentSampler(0, pixel); });
     }
 
     SobolPoints points{8};
@@ -61,7 +63,8 @@ struct Setup {
                     Counting& sampler = samplers[camera_rays.size()];
                     sampler.sampler.start(i);
                     const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
-                    camera_rays.push_back(scene.camera.ray(neumann::sample(film.filter, sampler.next2(), x, y, film.width, film.height)));
+                    camera_rays.push_back(
+                        scene.camera.ray(neumann::sample(film.filter, sampler.next2(), x, y, film.width, film.height)));
                 }
             }
             walk(scene, rays, settings.walk, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
@@ -97,10 +100,17 @@ std::uint32_t cast(const Geometry& T, const RecordingTransport& recorded, const 
             return T.first_hits(std::span<const Ray>(rays, packet.n), hit);
         }
         case GeometryPacket::Kind::surface:
-            return T.first_hits(packet.n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(queries[i].from, queries[i].ray.direction); }, hit);
+            return T.first_hits(
+                packet.n,
+                [&](std::size_t i) {
+                    return std::pair<const SurfacePoint&, const Vec3&>(queries[i].from, queries[i].ray.direction);
+                },
+                hit);
         case GeometryPacket::Kind::visibility:
-            return T.visible(packet.n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const SurfacePoint&>(queries[i].from, queries[i].to); },
-                             packet.rays);
+            return T.visible(
+                packet.n,
+                [&](std::size_t i) { return std::pair<const SurfacePoint&, const SurfacePoint&>(queries[i].from, queries[i].to); },
+                packet.rays);
     }
     return 0;
 }
@@ -108,9 +118,11 @@ std::uint32_t cast(const Geometry& T, const RecordingTransport& recorded, const 
 void geometry(benchmark::State& state, const Setup& setup) {
     const auto control = limit(state);
     for (auto _ : state)
-        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, setup.rays.packets.size(), 512), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) benchmark::DoNotOptimize(cast(setup.scene.geometry, setup.rays, setup.rays.packets[i]));
-        });
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, setup.rays.packets.size(), 512),
+                                  [&](const auto& range) {
+                                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                                          benchmark::DoNotOptimize(cast(setup.scene.geometry, setup.rays, setup.rays.packets[i]));
+                                  });
     finish(state, setup);
 }
 
@@ -128,8 +140,10 @@ void numbers(benchmark::State& state, const Setup& setup) {
     const std::uint64_t each = setup.numbers / (pixels * setup.settings.replicate_size);
     for (auto _ : state)
         oneapi::tbb::parallel_for(0u, pixels, [&](std::uint32_t pixel) {
-            if (setup.sampler == SamplerKind::sobol) draw(SobolSampler(setup.points, 0, pixel), setup.settings.replicate_size, each);
-            else draw(IndependentSampler(0, pixel), setup.settings.replicate_size, each);
+            if (setup.sampler == SamplerKind::sobol)
+                draw(SobolSampler(setup.points, 0, pixel), setup.settings.replicate_size, each);
+            else
+                draw(IndependentSampler(0, pixel), setup.settings.replicate_size, each);
         });
     finish(state, setup);
 }
@@ -183,21 +197,32 @@ int main(int argc, char** argv) {
         for (const char* part : {"bare", "geometry", "numbers", "walk"})
             benchmark::RegisterBenchmark((setup->name + ": " + part).c_str(),
                                          [f = parts.at(part), s = setup.get()](benchmark::State& state) { f(state, *s); })
-                ->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond)->Repetitions(9)->MinTime(0.01);
+                ->Arg(1)
+                ->Arg(2)
+                ->UseRealTime()
+                ->Unit(benchmark::kMillisecond)
+                ->Repetitions(9)
+                ->MinTime(0.01);
     Collector collector;
     benchmark::RunSpecifiedBenchmarks(&collector);
 
     fmt::print("\n{}, robust scene; compiled with {}\n", embree_version(), NEUMANN_CXX_FLAGS);
-    fmt::print("Walk: 32 samples, bounces 0..8, multiple importance sampling, no rest. Best of 9, million rays a second; shares of the walk's time.\n\n");
-    fmt::print("{:<34} {:>7} {:>8} {:>8} {:>10} | {:>6} {:>9} {:>8} {:>8}\n", "scene, numbers", "threads", "bare", "walk", "walk/bare", "bare",
-               "+geometry", "numbers", "shading");
+    fmt::print(
+        "Walk: 32 samples, bounces 0..8, multiple importance sampling, no rest. Best of 9, million rays a second; shares of the "
+        "walk's time.\n\n");
+    fmt::print("{:<34} {:>7} {:>8} {:>8} {:>10} | {:>6} {:>9} {:>8} {:>8}\n", "scene, numbers", "threads", "bare", "walk",
+               "walk/bare", "bare", "+geometry", "numbers", "shading");
     for (const auto& setup : setups)
         for (const int threads : {1, 2}) {
-            const auto rate = [&](const char* part) { return collector.rates[fmt::format("{}: {}/{}", setup->name, part, threads)]; };
-            const double walk = rate("walk"), bare = walk / rate("bare"), geometry = walk / rate("geometry"), numbers = walk / rate("numbers");
+            const auto rate = [&](const char* part) {
+                return collector.rates[fmt::format("{}: {}/{}", setup->name, part, threads)];
+            };
+            const double walk = rate("walk"), bare = walk / rate("bare"), geometry = walk / rate("geometry"),
+                         numbers = walk / rate("numbers");
             if (walk == 0.0) continue;
-            fmt::print("{:<34} {:>7} {:>8.2f} {:>8.2f} {:>10.3f} | {:>5.0f}% {:>8.0f}% {:>7.0f}% {:>7.0f}%\n", setup->name, threads, rate("bare") / 1e6,
-                       walk / 1e6, bare, 100 * bare, 100 * (geometry - bare), 100 * numbers, 100 * (1 - geometry - numbers));
+            fmt::print("{:<34} {:>7} {:>8.2f} {:>8.2f} {:>10.3f} | {:>5.0f}% {:>8.0f}% {:>7.0f}% {:>7.0f}%\n", setup->name, threads,
+                       rate("bare") / 1e6, walk / 1e6, bare, 100 * bare, 100 * (geometry - bare), 100 * numbers,
+                       100 * (1 - geometry - numbers));
         }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -205,7 +230,8 @@ int main(int argc, char** argv) {
         const double samples = setup->scene.film.width * setup->scene.film.height * setup->settings.replicate_size;
         const double walk = collector.rates[fmt::format("{}: walk/1", setup->name)];
         if (walk > 0.0)
-            fmt::print("{}: {:.2f} rays and {:.0f} ns a camera sample on one thread\n", setup->name, static_cast<double>(setup->rays.bare.size()) / samples,
+            fmt::print("{}: {:.2f} rays and {:.0f} ns a camera sample on one thread\n", setup->name,
+                       static_cast<double>(setup->rays.bare.size()) / samples,
                        1e9 * static_cast<double>(setup->rays.bare.size()) / samples / walk);
     }
     fmt::print("peak memory {:.0f} MiB, most of it recorded rays\n", static_cast<double>(usage.ru_maxrss) / 1024.0);

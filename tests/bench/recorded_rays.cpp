@@ -45,7 +45,8 @@ std::size_t cast_bare(const Geometry& geometry, const std::vector<BareRay>& rays
     for (std::size_t i = begin; i < end; ++i) {
         const BareRay& r = rays[i];
         RTCRayHit query;
-        query.ray = {r.origin[0], r.origin[1], r.origin[2], 0.0f, r.direction[0], r.direction[1], r.direction[2], 0.0f, r.length, ~0u, 0, 0};
+        query.ray = {r.origin[0], r.origin[1], r.origin[2], 0.0f, r.direction[0], r.direction[1], r.direction[2], 0.0f,
+                     r.length,    ~0u,         0,           0};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4

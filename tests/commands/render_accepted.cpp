@@ -58,10 +58,14 @@ TEST_F(RenderAccepted, ALightOfZeroArea) {
 
 // Of two lamps in one place, one covers the other: its two triangles are named.
 TEST_F(RenderAccepted, ALampThatIsThereTwice) {
-    const std::string lamp = "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.2\"/><translate z=\"1.5\"/></transform>"
-                             "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>";
+    const std::string lamp =
+        "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.2\"/><translate z=\"1.5\"/></transform>"
+        "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>";
     expect_warning(with(lamp), {});
-    expect_warning(with(lamp + lamp), {{"part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice", 2}});
+    expect_warning(
+        with(lamp + lamp),
+        {{"part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
+          2}});
 }
 
 TEST_F(RenderAccepted, NoLightButOneOfZeroArea) {

@@ -121,8 +121,9 @@ TEST(DirectLightSlow, BetweenRectanglesTheMeanIsTheFormFactor) {
         for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
             if (pair.touching && way == Way::light) continue;
             SCOPED_TRACE(pair.what + ", " + name(way));
-            expect_matches(probe(scene, anywhere_on(scene, receiver), way, {.samples = way == Way::bsdf ? 32768u : 8192u, .bounces = 2}),
-                           std::vector{0.0, rho * radiance * pair.F, 0.0}, 0, way == Way::bsdf ? 0.0025 : 0.002);
+            expect_matches(
+                probe(scene, anywhere_on(scene, receiver), way, {.samples = way == Way::bsdf ? 32768u : 8192u, .bounces = 2}),
+                std::vector{0.0, rho * radiance * pair.F, 0.0}, 0, way == Way::bsdf ? 0.0025 : 0.002);
         }
     }
 }

@@ -1,5 +1,5 @@
-// One K, four ways to write it (Dutré): exitant or incident radiance, R as an integral over directions or over surfaces; and the walk as a fifth. All have to
-// say the same of the same places in the Cornell box.
+// One K, four ways to write it (Dutré): exitant or incident radiance, R as an integral over directions or over surfaces; and the
+// walk as a fifth. All have to say the same of the same places in the Cornell box.
 #include "core/reader/read_scene.h"
 #include "core/sampling/independent_sampler.h"
 #include "operators/pictures/picture_sampler.h"
@@ -21,7 +21,9 @@ using R_A = SurfaceReflectionOperator;
 
 // The types say which products there are.
 template <class A, class B>
-concept Multiply = requires(A a, B b) { a * b; };
+concept Multiply = requires(A a, B b) {
+    a* b;
+};
 static_assert(Multiply<R, T> && Multiply<T, R> && Multiply<R_A, T> && Multiply<T, R_A>);
 static_assert(!Multiply<T, T> && !Multiply<R, R> && !Multiply<R_A, R_A> && !Multiply<R, R_A> && !Multiply<R_A, R>);
 static_assert(Multiply<Product<R, T>, Product<R_A, T>> && Multiply<T, Product<R, T>> && Multiply<Product<R, T>, R>);
@@ -30,7 +32,9 @@ static_assert(std::same_as<Product<R, T>::Domain, ExitantField> && std::same_as<
 static_assert(std::same_as<Product<T, R>::Domain, IncidentField> && std::same_as<Product<T, R>::Range, IncidentField>);
 // A series needs a map of one kind of field to itself, and a start of that kind.
 template <class Op>
-concept HasSeries = requires { typename NeumannSeries<Op>; };
+concept HasSeries = requires {
+    typename NeumannSeries<Op>;
+};
 static_assert(HasSeries<Product<R, T>> && HasSeries<Product<T, R>> && !HasSeries<R> && !HasSeries<T>);
 static_assert(!std::constructible_from<NeumannSeries<Product<R, T>>, Product<R, T>, IncidentField>);
 
@@ -39,8 +43,12 @@ struct Place {
     const char* name;
     double x, y;
 };
-constexpr Place places[] = {{"floor", 0.25, 0.92}, {"back wall", 0.35, 0.30}, {"left wall", 0.08, 0.45}, {"right wall", 0.92, 0.50},
-                            {"top of the short block", 0.633, 0.656}, {"back wall above the short block", 0.62, 0.50}};
+constexpr Place places[] = {{"floor", 0.25, 0.92},
+                            {"back wall", 0.35, 0.30},
+                            {"left wall", 0.08, 0.45},
+                            {"right wall", 0.92, 0.50},
+                            {"top of the short block", 0.633, 0.656},
+                            {"back wall above the short block", 0.62, 0.50}};
 
 // The film is so large that 8×8 of its pixels are one place.
 constexpr int film_size = 1 << 24, crop = 8;
@@ -128,21 +136,24 @@ std::vector<Way> all_ways(const Scene& scene, int bounces, std::uint64_t seed, i
     };
     const auto incident = [&](const char* name, const auto& K) {
         const auto series = terms(K, t(Le), bounces);
-        ways.push_back(
-            {name, estimate(bounces, seed + ways.size(), samples, [&](std::size_t k, Random& random) { return series[k](eye, ray.direction, random); })});
+        ways.push_back({name, estimate(bounces, seed + ways.size(), samples,
+                                       [&](std::size_t k, Random& random) { return series[k](eye, ray.direction, random); })});
     };
     exitant("exitant, directions", r * t);
     incident("incident, directions", t * r);
     exitant("exitant, surfaces", r_a * t);
     incident("incident, surfaces", t * r_a);
 
-    const PictureSampler sampler(scene, {.walk = {.bounces = bounces, .rest_probability = 0.0}, .sampler = SamplerKind::sobol, .seed = seed + 4,
+    const PictureSampler sampler(scene, {.walk = {.bounces = bounces, .rest_probability = 0.0},
+                                         .sampler = SamplerKind::sobol,
+                                         .seed = seed + 4,
                                          .replicate_size = 64});
     Tally tally(sampler.quantities());
     SeriesMoments moments(crop, crop, sampler.quantities());
     moments.add(*sampler.run(0, 8, tally));
     Way walk{"walk", {}};
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(bounces); ++k) walk.terms.push_back(mean_of(moments.result().term(k).mean.pixels));
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(bounces); ++k)
+        walk.terms.push_back(mean_of(moments.result().term(k).mean.pixels));
     ways.push_back(std::move(walk));
     return ways;
 }
@@ -167,8 +178,9 @@ void expect_agreement(std::span<const Place> at, int bounces, std::uint64_t seed
                     for (std::size_t b = a + 1; b < ways.size(); ++b) {
                         const Mean& y = ways[b].terms[k];
                         const double z = (x.mean[c] - y.mean[c]) / std::hypot(x.error[c], y.error[c]);
-                        EXPECT_LE(std::abs(z), 4.5) << place.name << ", bounce " << k << ", channel " << c << ": " << ways[a].name << ' ' << x.mean[c] << " ± "
-                                                    << x.error[c] << ", " << ways[b].name << ' ' << y.mean[c] << " ± " << y.error[c];
+                        EXPECT_LE(std::abs(z), 4.5)
+                            << place.name << ", bounce " << k << ", channel " << c << ": " << ways[a].name << ' ' << x.mean[c]
+                            << " ± " << x.error[c] << ", " << ways[b].name << ' ' << y.mean[c] << " ± " << y.error[c];
                         largest = std::max(largest, std::abs(z));
                         ++comparisons;
                     }
@@ -181,8 +193,8 @@ void expect_agreement(std::span<const Place> at, int bounces, std::uint64_t seed
 
 // 6 places × 10 pairs × 3 channels = 180 comparisons.
 TEST(Agreement, OfTheFourFormsAndTheWalkOnDirectLight) { expect_agreement(places, 1, 1, 1024, 0.065); }
-// 4 places, two bounces: 240. (With three, the surface form has infinite variance: two random points on walls that meet.) A random point on all surfaces is on
-// the light in less than 1% of the cases, so the surface forms need many.
+// 4 places, two bounces: 240. (With three, the surface form has infinite variance: two random points on walls that meet.) A random
+// point on all surfaces is on the light in less than 1% of the cases, so the surface forms need many.
 TEST(AgreementSlow, OfTheFourFormsAndTheWalkOnTwoBounces) { expect_agreement(std::span(places).first(4), 2, 1, 32768, 0.1); }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The walk and the plain operators say the same of every bounce of the Cornell box: pictures of 32×32 pixels, their means and those of blocks of 8×8.
+// The walk and the plain operators say the same of every bounce of the Cornell box: pictures of 32×32 pixels, their means and those
+// of blocks of 8×8.
 #include "core/reader/read_scene.h"
 #include "operators/pictures/picture_sampler.h"
 
@@ -39,7 +40,8 @@ void compare_blocks(const Estimate& a, const Estimate& b, int size, const std::s
                 for (int x = x0; x < x0 + size; ++x) {
                     difference += a.mean.at(x, y) - b.mean.at(x, y);
                     mean += b.mean.at(x, y);
-                    variance += a.standard_error.at(x, y) * a.standard_error.at(x, y) + b.standard_error.at(x, y) * b.standard_error.at(x, y);
+                    variance += a.standard_error.at(x, y) * a.standard_error.at(x, y) +
+                                b.standard_error.at(x, y) * b.standard_error.at(x, y);
                 }
             for (int c = 0; c < 3; ++c) {
                 if (variance[c] == 0.0) {  // bounce 0, where no edge of the light is seen
@@ -56,24 +58,27 @@ void compare_blocks(const Estimate& a, const Estimate& b, int size, const std::s
         }
 }
 
-// Terms and sums, means over the picture and over blocks; the operators against each kind of direct light (here no wall stands at an angle to the light where it
-// touches, so that all three have finite variance). 1278 comparisons, in which the operators' pictures take part three times each. The operators do not look for
-// the light, so the error of the picture's mean is 0.2% for bounce 0 and rises to 1% for bounce 4, in the light's weak blue to 2%.
+// Terms and sums, means over the picture and over blocks; the operators against each kind of direct light (here no wall stands at
+// an angle to the light where it touches, so that all three have finite variance). 1278 comparisons, in which the operators'
+// pictures take part three times each. The operators do not look for the light, so the error of the picture's mean is 0.2% for
+// bounce 0 and rises to 1% for bounce 4, in the light's weak blue to 2%.
 TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
     const auto operators = render(scene, Method::pointwise, DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
-        const auto walk = render(scene, Method::walk, direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 4096 : 512);
+        const auto walk =
+            render(scene, Method::walk, direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 4096 : 512);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
-                const std::string what = "direct light " + std::to_string(static_cast<int>(direct)) + ", bounce " + std::to_string(i);
+                const std::string what =
+                    "direct light " + std::to_string(static_cast<int>(direct)) + ", bounce " + std::to_string(i);
                 compare_blocks(walk.term(i), operators.term(i), size, what, found);
                 compare_blocks(walk.sum(i), operators.sum(i), size, what + ", sum", found);
             }
     }
-    std::printf("largest |z| of %d: %.2f; beyond 2: %.1f%%; largest error of a picture's mean: %.2f%%\n", found.count, found.largest,
-                100.0 * found.beyond_two / found.count, 100.0 * found.worst_error);
+    std::printf("largest |z| of %d: %.2f; beyond 2: %.1f%%; largest error of a picture's mean: %.2f%%\n", found.count,
+                found.largest, 100.0 * found.beyond_two / found.count, 100.0 * found.worst_error);
     EXPECT_LE(found.worst_error, 0.025);
 }
 

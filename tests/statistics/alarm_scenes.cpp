@@ -1,6 +1,6 @@
-// The alarm for infinite variance, in pictures. In a cube whose ceiling emits, the light touches the walls: near that edge the samples of light sampling have
-// P(X > x) ~ x^−1.5. At one point that holds from K² Le on, and already for K Le in a picture, where pixels see the edge; no interval is to be trusted then.
-// BSDF sampling and MIS have samples that are bounded.
+// The alarm for infinite variance, in pictures. In a cube whose ceiling emits, the light touches the walls: near that edge the
+// samples of light sampling have P(X > x) ~ x^−1.5. At one point that holds from K² Le on, and already for K Le in a picture, where
+// pixels see the edge; no interval is to be trusted then. BSDF sampling and MIS have samples that are bounded.
 #include "core/reader/read_scene.h"
 #include "operators/pictures/picture_sampler.h"
 
@@ -13,26 +13,33 @@ namespace {
 
 constexpr int bounces = 3, resolution = 36;
 
-TriangleMesh rectangle(const Vec3& corner, const Vec3& a, const Vec3& b) { return {{corner, corner + a, corner + a + b, corner + b}, {{0, 1, 2}, {0, 2, 3}}}; }
+TriangleMesh rectangle(const Vec3& corner, const Vec3& a, const Vec3& b) {
+    return {{corner, corner + a, corner + a + b, corner + b}, {{0, 1, 2}, {0, 2, 3}}};
+}
 
 // [0,1]³ with ρ = ½, and Le = 1 on the ceiling; the camera stands at one wall and sees the five other faces.
 Scene cube() {
     const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), o(0, 0, 0);
     SceneParts p;
-    p.shapes = {rectangle(o, x, y), rectangle(z, y, x), rectangle(o, y, z), rectangle(x, z, y), rectangle(o, z, x), rectangle(y, x, z)};
+    p.shapes = {rectangle(o, x, y), rectangle(z, y, x), rectangle(o, y, z),
+                rectangle(x, z, y), rectangle(o, z, x), rectangle(y, x, z)};
     p.bsdfs = {Diffuse(Rgb(0.5))};
     p.sides_of_shape.assign(6, {.front = 0});
     p.lights = {AreaLight(Rgb(1.0))};
     p.light_of_shape.assign(6, Emitters::none);
     p.light_of_shape[1] = 0;
-    p.film = {.width = resolution, .height = resolution, .crop_width = resolution, .crop_height = resolution, .filter = BoxFilter()};
-    p.camera = {.to_world = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0.45, 0.05, 0.5, 1}), .fov = 0.5 * pi, .near_clip = 1e-3};
+    p.film = {
+        .width = resolution, .height = resolution, .crop_width = resolution, .crop_height = resolution, .filter = BoxFilter()};
+    p.camera = {
+        .to_world = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0.45, 0.05, 0.5, 1}), .fov = 0.5 * pi, .near_clip = 1e-3};
     return make_scene(std::move(p));
 }
 
 // The tail of each bounce and of the rest.
-std::vector<std::optional<TailIndex>> tails(const Scene& scene, DirectLight direct, SamplerKind kind, std::uint64_t seed, std::uint64_t replicates) {
-    const PictureSampler sampler(scene, {.walk = {.bounces = bounces, .direct = direct}, .sampler = kind, .seed = seed, .replicate_size = 8});
+std::vector<std::optional<TailIndex>> tails(const Scene& scene, DirectLight direct, SamplerKind kind, std::uint64_t seed,
+                                            std::uint64_t replicates) {
+    const PictureSampler sampler(
+        scene, {.walk = {.bounces = bounces, .direct = direct}, .sampler = kind, .seed = seed, .replicate_size = 8});
     Tally tally(sampler.quantities());
     (void)sampler.run(0, replicates, tally);
     std::vector<std::optional<TailIndex>> found;
@@ -44,8 +51,8 @@ bool alarm(const std::optional<TailIndex>& tail) { return tail && tail->variance
 
 constexpr const char* name_of(SamplerKind kind) { return kind == SamplerKind::sobol ? "Sobol" : "independent"; }
 
-// 331,776 samples a seed: the largest 1000 of them are looked at. A bounce with an index of 1.5 is found in 95% of the cases, so that at least one is found in
-// every picture.
+// 331,776 samples a seed: the largest 1000 of them are looked at. A bounce with an index of 1.5 is found in 95% of the cases, so
+// that at least one is found in every picture.
 TEST(AlarmSlow, IsRaisedForALightThatTouchesTheWalls) {
     const Scene scene = cube();
     constexpr int seeds = 20;
@@ -88,13 +95,20 @@ void expect_silent(const Scene& scene, DirectLight direct, SamplerKind kind, int
         }
         alarms += any;
     }
-    std::printf("%s, %s: %d alarms in %d seeds; smallest upper end %.3f of %d\n", name, name_of(kind), alarms, seeds, smallest_upper, looked_at);
+    std::printf("%s, %s: %d alarms in %d seeds; smallest upper end %.3f of %d\n", name, name_of(kind), alarms, seeds,
+                smallest_upper, looked_at);
     EXPECT_LE(alarms, seeds / 100) << name;
 }
 
-TEST(AlarmSlow, IsSilentWithMultipleImportanceSampling) { expect_silent(cube(), DirectLight::mis, SamplerKind::sobol, 200, "cube, MIS"); }
-TEST(AlarmSlow, IsSilentWithIndependentNumbers) { expect_silent(cube(), DirectLight::mis, SamplerKind::independent, 40, "cube, MIS"); }
-TEST(AlarmSlow, IsSilentWithBsdfSampling) { expect_silent(cube(), DirectLight::bsdf, SamplerKind::sobol, 40, "cube, BSDF sampling"); }
+TEST(AlarmSlow, IsSilentWithMultipleImportanceSampling) {
+    expect_silent(cube(), DirectLight::mis, SamplerKind::sobol, 200, "cube, MIS");
+}
+TEST(AlarmSlow, IsSilentWithIndependentNumbers) {
+    expect_silent(cube(), DirectLight::mis, SamplerKind::independent, 40, "cube, MIS");
+}
+TEST(AlarmSlow, IsSilentWithBsdfSampling) {
+    expect_silent(cube(), DirectLight::bsdf, SamplerKind::sobol, 40, "cube, BSDF sampling");
+}
 TEST(AlarmSlow, IsSilentInTheCornellBox) {
     const Scene scene = read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml", {{"res", std::to_string(resolution)}});
     expect_silent(scene, DirectLight::mis, SamplerKind::sobol, 200, "mitsuba-cornell, MIS");

@@ -1,5 +1,6 @@
-// How often Hill's estimate says that the variance is infinite, for samples whose tail is known. Its promise is one-sided: α ≤ 2 is asserted with about 99.9%
-// confidence, so tails with α ≥ 2 raise the alarm in about one case in a thousand at most, and heavy tails are found where there are samples enough.
+// How often Hill's estimate says that the variance is infinite, for samples whose tail is known. Its promise is one-sided: α ≤ 2 is
+// asserted with about 99.9% confidence, so tails with α ≥ 2 raise the alarm in about one case in a thousand at most, and heavy
+// tails are found where there are samples enough.
 #include "operators/statistics/tail_index.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,8 @@ namespace {
 
 double uniform(std::mt19937_64& random) { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; }
 
-// The largest of `count` numbers with P(X > x) = x^−α. The order statistics are those of a Poisson process (Rényi), so the others need not be drawn.
+// The largest of `count` numbers with P(X > x) = x^−α. The order statistics are those of a Poisson process (Rényi), so the others
+// need not be drawn.
 LargestSamples pareto(double alpha, std::uint64_t count, std::mt19937_64& random) {
     LargestSamples largest;
     double arrival = 0.0;
@@ -50,11 +52,19 @@ TEST(TailIndex, AlarmRates) {
         for (const std::uint64_t count : {80'000, 120'000, 200'000}) {
             const double rate = alarm_rate(alpha, count, 2000);
             std::printf("  %6.2f%%", 100 * rate);
-            if (alpha >= 2.0) { EXPECT_LE(rate, 0.005) << alpha << ' ' << count; }
-            if (alpha >= 3.0) { EXPECT_EQ(rate, 0.0) << alpha << ' ' << count; }
+            if (alpha >= 2.0) {
+                EXPECT_LE(rate, 0.005) << alpha << ' ' << count;
+            }
+            if (alpha >= 3.0) {
+                EXPECT_EQ(rate, 0.0) << alpha << ' ' << count;
+            }
             // A light that touches a wall has 1.5.
-            if (alpha == 1.5) { EXPECT_GE(rate, count == 200'000 ? 0.92 : 0.5) << count; }
-            if (alpha == 1.3) { EXPECT_GE(rate, count == 200'000 ? 0.999 : 0.88) << count; }
+            if (alpha == 1.5) {
+                EXPECT_GE(rate, count == 200'000 ? 0.92 : 0.5) << count;
+            }
+            if (alpha == 1.3) {
+                EXPECT_GE(rate, count == 200'000 ? 0.999 : 0.88) << count;
+            }
         }
         std::printf("\n");
     }
@@ -78,7 +88,8 @@ TEST(TailIndex, LightTailsAreSilent) {
     };
     const double exponential = draw([&] { return -std::log(uniform(random)); });
     const double bounded = draw([&] { return uniform(random); });
-    const double lognormal = draw([&] { return std::exp(std::sqrt(-2.0 * std::log(uniform(random))) * std::cos(6.283185307179586 * uniform(random))); });
+    const double lognormal =
+        draw([&] { return std::exp(std::sqrt(-2.0 * std::log(uniform(random))) * std::cos(6.283185307179586 * uniform(random))); });
     draw([&] { return uniform(random) < 0.01 ? 100.0 : uniform(random); });
     std::printf("smallest upper end: exponential %.2f, uniform %.2f, lognormal %.2f\n", exponential, bounded, lognormal);
 }

@@ -1,14 +1,14 @@
-// The written errors are right: 95% intervals hold the truth in 95% of the cases, counted on means of blocks of 16×16 pixels of small pictures with many
-// seeds. Both scenes have answers that are known exactly, for every pixel and every bounce. A pass is 93% … 97%, for each sampler and bounce over at least
-// 10,240 intervals of both scenes together (the count itself is uncertain by ±0.43%, 2σ), and for each scene by itself over 5120 (±0.61%): intervals that are
-// right fail with a probability below 1e-10.
+// The written errors are right: 95% intervals hold the truth in 95% of the cases, counted on means of blocks of 16×16 pixels of
+// small pictures with many seeds. Both scenes have answers that are known exactly, for every pixel and every bounce. A pass is 93%
+// … 97%, for each sampler and bounce over at least 10,240 intervals of both scenes together (the count itself is uncertain by
+// ±0.43%, 2σ), and for each scene by itself over 5120 (±0.61%): intervals that are right fail with a probability below 1e-10.
 #include "operators/pictures/picture_sampler.h"
 #include "operators/statistics/picture_statistics.h"
 #include "operators/statistics/student_t.h"
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <boost/math/quadrature/gauss.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -28,7 +28,8 @@ struct Known {
 
 SceneParts parts(const Mat4& camera) {
     SceneParts p;
-    p.film = {.width = resolution, .height = resolution, .crop_width = resolution, .crop_height = resolution, .filter = BoxFilter()};
+    p.film = {
+        .width = resolution, .height = resolution, .crop_width = resolution, .crop_height = resolution, .filter = BoxFilter()};
     p.camera = {.to_world = camera, .fov = 0.5 * pi, .near_clip = 1e-3};
     return p;
 }
@@ -39,7 +40,8 @@ Image uniform(const Rgb& value) {
     return image;
 }
 
-// Inside the unit sphere, Le = ((1 + p·a)/2)^8, a spot, seen from the centre. Its mean over the sphere is 1/9, so K^i Le = ρ^i / 9 everywhere.
+// Inside the unit sphere, Le = ((1 + p·a)/2)^8, a spot, seen from the centre. Its mean over the sphere is 1/9, so K^i Le = ρ^i / 9
+// everywhere.
 Known sphere() {
     const Vec3 spot = glm::normalize(Vec3(0.3, 0.5, 1.0));
     const auto radiance = [spot](const Vec3& p) {
@@ -58,7 +60,11 @@ Known sphere() {
     for (int y = 0; y < resolution; ++y)
         for (int x = 0; x < resolution; ++x) {
             const auto row = [&](double v) {
-                return Gauss::integrate([&](double u) { return radiance(known.scene.camera.ray({u, v}).direction).r; }, double(x), x + 1.0);
+                return Gauss::integrate(
+                    [&](double u) {
+                        return radiance(known.scene.camera.ray({u, v}).direction).r;
+                    },
+                    double(x), x + 1.0);
             };
             known.terms[0].at(x, y) = Rgb(Gauss::integrate(row, double(y), y + 1.0));
         }
@@ -66,8 +72,8 @@ Known sphere() {
     return known;
 }
 
-// A hemisphere (ρ = .5) closed by its disc (ρ = .7), which emits and touches it; the camera looks at the hemisphere. Form factors: hemisphere to itself ½, to
-// the disc ½, disc to hemisphere 1.
+// A hemisphere (ρ = .5) closed by its disc (ρ = .7), which emits and touches it; the camera looks at the hemisphere. Form factors:
+// hemisphere to itself ½, to the disc ½, disc to hemisphere 1.
 Known dome() {
     SceneParts p = parts(Mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0.3, 1}));
     p.shapes = {Sphere{{0, 0, 0}, 1.0, true}, Disk{}};
@@ -116,7 +122,8 @@ struct Count {
     double rate() const { return double(held) / of; }
 };
 
-// Of a term or a sum: blocks of one channel with Welch's degrees of freedom, the same with all pixels' degrees of freedom added up, and all channels together.
+// Of a term or a sum: blocks of one channel with Welch's degrees of freedom, the same with all pixels' degrees of freedom added up,
+// and all channels together.
 struct Coverage {
     Count welch, added, all_channels;
     void add(const Estimate& estimate, const Image& truth) {
@@ -160,8 +167,10 @@ struct Run {
         }
         std::mutex mutex;
         oneapi::tbb::parallel_for(first_seed, first_seed + 320, [&](std::uint64_t seed) {
-            const PictureSampler sampler(known.scene,
-                                         {.walk = {.bounces = last, .rest_probability = 0.0}, .sampler = kind, .seed = seed, .replicate_size = replicate_size});
+            const PictureSampler sampler(known.scene, {.walk = {.bounces = last, .rest_probability = 0.0},
+                                                       .sampler = kind,
+                                                       .seed = seed,
+                                                       .replicate_size = replicate_size});
             Tally tally(sampler.quantities());
             SeriesMoments moments(resolution, resolution, sampler.quantities());
             moments.add(*sampler.run(0, replicates, tally));
@@ -188,9 +197,10 @@ void expect_right(const Coverage& coverage, int least, const std::string& what) 
 
 void expect_coverage(SamplerKind kind, const char* name) {
     const Known in_sphere = sphere(), in_dome = dome();
-    // Four replicates, as `render --spp 16` has them, and two, the fewest, as `--spp 64` has. In the dome the light itself is not seen; it is enough to see it
-    // for bounce 0.
-    Run runs[] = {{in_sphere, bounces, first_seed, 4, 4}, {in_dome, bounces, first_seed, 4, 2}, {in_sphere, 0, first_seed + 320, 4, 2}};
+    // Four replicates, as `render --spp 16` has them, and two, the fewest, as `--spp 64` has. In the dome the light itself is not
+    // seen; it is enough to see it for bounce 0.
+    Run runs[] = {
+        {in_sphere, bounces, first_seed, 4, 4}, {in_dome, bounces, first_seed, 4, 2}, {in_sphere, 0, first_seed + 320, 4, 2}};
     std::vector<Coverage> terms(bounces + 1), sums(bounces + 1);
     for (Run& run : runs) {
         run.count(kind);
@@ -206,14 +216,17 @@ void expect_coverage(SamplerKind kind, const char* name) {
             sums[i].merge(run.sums[i]);
         }
     }
-    std::printf("%s: %% of intervals that hold the truth, by Welch's and by the pixels' degrees of freedom and of picture_mean()\n"
-                "bounce  intervals   term                  sum\n", name);
+    std::printf(
+        "%s: %% of intervals that hold the truth, by Welch's and by the pixels' degrees of freedom and of picture_mean()\n"
+        "bounce  intervals   term                  sum\n",
+        name);
     for (std::size_t i = 0; i <= bounces; ++i) {
         expect_right(terms[i], 10'240, "bounce " + std::to_string(i));
         expect_right(sums[i], 10'240, "sum to bounce " + std::to_string(i));
         const auto percent = [](const Count& c) { return 100.0 * c.rate(); };
-        std::printf("%zu       %d       %.2f  %.2f  %.2f   %.2f  %.2f  %.2f\n", i, terms[i].welch.of, percent(terms[i].welch), percent(terms[i].added),
-                    percent(terms[i].all_channels), percent(sums[i].welch), percent(sums[i].added), percent(sums[i].all_channels));
+        std::printf("%zu       %d       %.2f  %.2f  %.2f   %.2f  %.2f  %.2f\n", i, terms[i].welch.of, percent(terms[i].welch),
+                    percent(terms[i].added), percent(terms[i].all_channels), percent(sums[i].welch), percent(sums[i].added),
+                    percent(sums[i].all_channels));
     }
 }
 

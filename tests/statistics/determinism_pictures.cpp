@@ -74,7 +74,8 @@ TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
     };
     const auto with_threads = [&](int threads) {
         // More threads than cores, if need be: an arena of that size, which the control lets have its workers.
-        oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
         oneapi::tbb::task_arena arena(threads);
         Outcome outcome{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities())};
         arena.execute([&] {
@@ -84,7 +85,9 @@ TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
         return outcome;
     };
     const Outcome one = with_threads(1);
-    if (GetParam().method == Method::walk) { EXPECT_GT(one.tally.given_up, 0u); }
+    if (GetParam().method == Method::walk) {
+        EXPECT_GT(one.tally.given_up, 0u);
+    }
     for (const int threads : {2, 7, 7, 7}) {
         SCOPED_TRACE(threads);
         const Outcome other = with_threads(threads);

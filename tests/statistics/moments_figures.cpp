@@ -20,7 +20,8 @@ Image picture(std::vector<Rgb> pixels) {
     return image;
 }
 
-// Means over channels 2 and 5; errors over channels .3 and .4, so √(.3² + .4²)/2 = .25. Welch and Satterthwaite: 7 · (.09 + .16)² / (.09² + .16²).
+// Means over channels 2 and 5; errors over channels .3 and .4, so √(.3² + .4²)/2 = .25. Welch and Satterthwaite: 7 · (.09 + .16)² /
+// (.09² + .16²).
 TEST(PictureMean, ByHand) {
     const Estimate e{picture({{1, 2, 3}, {4, 5, 6}}), picture({{.1, .3, .5}, {.4, .4, .4}}), 7.0};
     const MeanWithError mean = picture_mean(e);
@@ -84,7 +85,7 @@ TEST(RelativeError, ByHand) {
 
 // Two-sided, as printed in any table (Abramowitz and Stegun 26.10).
 TEST(StudentT, IsThatOfTheTables) {
-    const double table[][3] = {{.95, 1, 12.706}, {.95, 2, 4.303}, {.95, 3, 3.182},  {.95, 7, 2.365},  {.95, 10, 2.228},
+    const double table[][3] = {{.95, 1, 12.706}, {.95, 2, 4.303},   {.95, 3, 3.182}, {.95, 7, 2.365},  {.95, 10, 2.228},
                                {.95, 31, 2.040}, {.95, 120, 1.980}, {.99, 3, 5.841}, {.99, 30, 2.750}, {.90, 5, 2.015}};
     for (const auto& [confidence, df, t] : table) EXPECT_NEAR(student_t_quantile(confidence, df), t, 5.1e-4) << df;
     EXPECT_NEAR(student_t_quantile(0.95, 1e9), 1.959964, 1e-6);

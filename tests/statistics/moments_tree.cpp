@@ -24,7 +24,8 @@ Replicates random_replicates(std::size_t count, std::uint64_t seed) {
             const Rgb common(normal(random), normal(random), normal(random));
             for (std::size_t q = 0; q < quantities; ++q)
                 replicate[p * quantities + q] =
-                    std::pow(0.1, double(q)) * (Rgb(7.0 + double(p)) + (q % 2 ? -0.8 : 1.0) * common + 0.5 * Rgb(normal(random), normal(random), normal(random)));
+                    std::pow(0.1, double(q)) * (Rgb(7.0 + double(p)) + (q % 2 ? -0.8 : 1.0) * common +
+                                                0.5 * Rgb(normal(random), normal(random), normal(random)));
         }
     return all;
 }
@@ -66,7 +67,8 @@ TEST(Moments, AreThoseOfTheTwoPassFormulas) {
                         for (const auto& replicate : all) mean += value(replicate) / n;
                         for (const auto& replicate : all) squares += (value(replicate) - mean) * (value(replicate) - mean);
                         const auto error = static_cast<double>(std::sqrt(squares / (n * (n - 1.0))));
-                        ASSERT_NEAR(found.mean.pixels[p][c], static_cast<double>(mean), 1e-14 * std::abs(static_cast<double>(mean))) << count << ' ' << q;
+                        ASSERT_NEAR(found.mean.pixels[p][c], static_cast<double>(mean), 1e-14 * std::abs(static_cast<double>(mean)))
+                            << count << ' ' << q;
                         ASSERT_NEAR(found.standard_error.pixels[p][c], error, 1e-12 * error) << count << ' ' << q;
                     }
             }
@@ -111,7 +113,8 @@ TEST(Moments, VeryBrightAndVeryDarkPicturesHaveErrorsToo) {
         const auto found = moments_of(scaled).result();
         for (std::size_t q = 0; q < quantities; ++q)
             for (std::size_t p = 0; p < pixels; ++p) {
-                EXPECT_EQ(found.term(q).standard_error.pixels[p], expected.term(q).standard_error.pixels[p] * std::ldexp(1.0, exponent));
+                EXPECT_EQ(found.term(q).standard_error.pixels[p],
+                          expected.term(q).standard_error.pixels[p] * std::ldexp(1.0, exponent));
                 EXPECT_EQ(found.sum(q).mean.pixels[p], expected.sum(q).mean.pixels[p] * std::ldexp(1.0, exponent));
             }
     }

@@ -1,13 +1,14 @@
-// The random numbers: uniform, independent of each other across pixels, replicates, dimensions and seeds; and what Sobol's points promise within a replicate.
+// The random numbers: uniform, independent of each other across pixels, replicates, dimensions and seeds; and what Sobol's points
+// promise within a replicate.
 //
-// Hypotheses are tested by p-values against 1e-5, two-sided where too good a fit is suspicious as well. There are about 250 of them in this file: for a new
-// seed one false alarm in 200 runs.
+// Hypotheses are tested by p-values against 1e-5, two-sided where too good a fit is suspicious as well. There are about 250 of them
+// in this file: for a new seed one false alarm in 200 runs.
 #include "core/sampling/independent_sampler.h"
 #include "core/sampling/sobol_sampler.h"
 
+#include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <bit>
@@ -87,7 +88,8 @@ class Sampler : public testing::Test {};
 using Kinds = testing::Types<Independent, Sobol>;
 TYPED_TEST_SUITE(Sampler, Kinds);
 
-// Dimensions around those where tables begin and end; of Sobol's replicates one point each, which is uniform by itself, at every index.
+// Dimensions around those where tables begin and end; of Sobol's replicates one point each, which is uniform by itself, at every
+// index.
 TYPED_TEST(Sampler, NumbersAreUniformInEveryDimension) {
     constexpr std::size_t bins = 256;
     std::vector<std::vector<double>> counts(136, std::vector<double>(bins));
@@ -194,7 +196,8 @@ TYPED_TEST(Sampler, MeansOfReplicatesAreUnbiased) {
         const auto check = [&](const auto& f, double exact, const char* name) {
             const ReplicateMeans<TypeParam> found(f, dimension);
             const double z = (found.mean - exact) / found.error;
-            EXPECT_LE(std::abs(z), 4.5) << name << " from dimension " << dimension << ": " << found.mean << " ± " << found.error << ", exactly " << exact;
+            EXPECT_LE(std::abs(z), 4.5) << name << " from dimension " << dimension << ": " << found.mean << " ± " << found.error
+                                        << ", exactly " << exact;
             largest = std::max(largest, std::abs(z));
         };
         check(smooth, smooth_mean, "smooth");
@@ -204,22 +207,24 @@ TYPED_TEST(Sampler, MeansOfReplicatesAreUnbiased) {
     std::printf("largest |z| of 9: %.2f\n", largest);
 }
 
-// And their variance is that of 8 independent samples, or less where the points are spread evenly: within each group of four dimensions. For independent
-// samples it is known: 5/36 / 8 for the cut.
+// And their variance is that of 8 independent samples, or less where the points are spread evenly: within each group of four
+// dimensions. For independent samples it is known: 5/36 / 8 for the cut.
 TEST(SobolSampler, PointsHaveLessVarianceThanIndependentOnes) {
     for (const std::size_t dimension : {0u, 4u, 20u}) {
-        const double by_independent = ReplicateMeans<Independent>(smooth, dimension).variance, by_sobol = ReplicateMeans<Sobol>(smooth, dimension).variance;
-        const double cut_independent = ReplicateMeans<Independent>(cut, dimension).variance, cut_sobol = ReplicateMeans<Sobol>(cut, dimension).variance;
-        std::printf("from dimension %2zu: variance of Sobol over that of independent points: smooth %.3f, cut %.3f\n", dimension, by_sobol / by_independent,
-                    cut_sobol / cut_independent);
+        const double by_independent = ReplicateMeans<Independent>(smooth, dimension).variance,
+                     by_sobol = ReplicateMeans<Sobol>(smooth, dimension).variance;
+        const double cut_independent = ReplicateMeans<Independent>(cut, dimension).variance,
+                     cut_sobol = ReplicateMeans<Sobol>(cut, dimension).variance;
+        std::printf("from dimension %2zu: variance of Sobol over that of independent points: smooth %.3f, cut %.3f\n", dimension,
+                    by_sobol / by_independent, cut_sobol / cut_independent);
         EXPECT_LT(by_sobol, 0.25 * by_independent);
         EXPECT_LT(cut_sobol, 0.8 * cut_independent);
         EXPECT_NEAR(cut_independent / (5.0 / 36.0 / 8.0), 1.0, 0.05);
     }
 }
 
-// Of the points of a replicate, one lies in each of its equal parts, in every scrambled dimension; and one in each box of the same area, of any shape, in the
-// first two dimensions of each group of four together.
+// Of the points of a replicate, one lies in each of its equal parts, in every scrambled dimension; and one in each box of the same
+// area, of any shape, in the first two dimensions of each group of four together.
 TEST(SobolSampler, EveryReplicateIsStratified) {
     constexpr std::size_t dimensions = 128, group = SobolPoints::dimensions;
     for (const std::uint32_t size : {1u, 2u, 4u, 8u, 16u, 64u}) {
@@ -237,17 +242,19 @@ TEST(SobolSampler, EveryReplicateIsStratified) {
                     for (std::size_t d = 0; d < dimensions; ++d) strata[d].insert(static_cast<std::uint32_t>(u[d] * size));
                     for (std::uint32_t d = 0; d < dimensions; d += group)
                         for (std::size_t k = 0; k < boxes.size(); ++k)
-                            boxes[k].insert({d, static_cast<std::uint32_t>(u[d] * (1u << k)), static_cast<std::uint32_t>(u[d + 1] * (size >> k))});
+                            boxes[k].insert({d, static_cast<std::uint32_t>(u[d] * (1u << k)),
+                                             static_cast<std::uint32_t>(u[d + 1] * (size >> k))});
                 }
                 for (std::size_t d = 0; d < dimensions; ++d) ASSERT_EQ(strata[d].size(), size) << "dimension " << d;
-                for (std::size_t k = 0; k < boxes.size(); ++k) ASSERT_EQ(boxes[k].size(), dimensions / group * size) << (1u << k) << " columns";
+                for (std::size_t k = 0; k < boxes.size(); ++k)
+                    ASSERT_EQ(boxes[k].size(), dimensions / group * size) << (1u << k) << " columns";
             }
         }
     }
 }
 
-// The groups' points come in orders of their own: between dimensions of different groups there is no correlation, and none of ranks. 65,536 replicates of 8
-// points, 6 pairs.
+// The groups' points come in orders of their own: between dimensions of different groups there is no correlation, and none of
+// ranks. 65,536 replicates of 8 points, 6 pairs.
 TEST(SobolSampler, GroupsOfDimensionsAreIndependent) {
     constexpr std::uint32_t size = 8;
     const std::vector<std::pair<std::size_t, std::size_t>> pairs{{0, 4}, {1, 5}, {3, 7}, {0, 8}, {4, 8}, {2, 125}};
@@ -257,14 +264,16 @@ TEST(SobolSampler, GroupsOfDimensionsAreIndependent) {
             // One point of each: those of a replicate are not independent of each other.
             const auto u = numbers<Sobol>(seed, pixel, size * replicate + pixel % size, 128);
             for (std::size_t k = 0; k < pairs.size(); ++k)
-                ++counts[k][static_cast<std::size_t>(u[pairs[k].first] * size) * size + static_cast<std::size_t>(u[pairs[k].second] * size)];
+                ++counts[k][static_cast<std::size_t>(u[pairs[k].first] * size) * size +
+                            static_cast<std::size_t>(u[pairs[k].second] * size)];
         }
     for (std::size_t k = 0; k < pairs.size(); ++k)
         EXPECT_GT(chi_squared_p(counts[k]), rejected) << "dimensions " << pairs[k].first << " and " << pairs[k].second;
 }
 
-// Owen's scrambling: of two points that differ first in their k-th digit, the digits above are alike, the k-th differ, and all else is independent and uniform.
-// 65,536 replicates, for each pair with the first point in two dimensions; which digit it is depends on the order of the points.
+// Owen's scrambling: of two points that differ first in their k-th digit, the digits above are alike, the k-th differ, and all else
+// is independent and uniform. 65,536 replicates, for each pair with the first point in two dimensions; which digit it is depends on
+// the order of the points.
 TEST(SobolSampler, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
     double smallest = 1.0;
     int tests = 0;
@@ -274,8 +283,10 @@ TEST(SobolSampler, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
             std::vector<double> counts(bins * bins);
             for (std::uint32_t pixel = 0; pixel < 256; ++pixel)
                 for (std::uint64_t replicate = 0; replicate < 256; ++replicate) {
-                    const auto x = static_cast<std::uint32_t>(numbers<Sobol>(seed, pixel, 8 * replicate, dimension + 1)[dimension] * bins);
-                    const auto y = static_cast<std::uint32_t>(numbers<Sobol>(seed, pixel, 8 * replicate + other, dimension + 1)[dimension] * bins);
+                    const auto x =
+                        static_cast<std::uint32_t>(numbers<Sobol>(seed, pixel, 8 * replicate, dimension + 1)[dimension] * bins);
+                    const auto y = static_cast<std::uint32_t>(
+                        numbers<Sobol>(seed, pixel, 8 * replicate + other, dimension + 1)[dimension] * bins);
                     ++counts[x * bins + y];
                 }
             std::map<int, std::vector<double>> by_digit;
