@@ -52,7 +52,7 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, 
     if (!goal.seconds) return largest_replicate;
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
                  affordable = *goal.seconds / (pixels * pilot.seconds_per_walk());
-    return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 8.0, 1.0, static_cast<double>(largest_replicate))));
+    return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 4.0, 1.0, static_cast<double>(largest_replicate))));
 }
 
 // Eight numbers a pixel at once in the deepest corner of the run: refused before the machine starts to swap.

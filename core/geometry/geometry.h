@@ -41,13 +41,13 @@ public:
     // V(x, y): nothing stands between two surface points.
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const;
 
-    // The same for up to RayCaster::packet rays or pairs; bit i answers for the i-th. `from(i)`, `pair(i)` and `hit(i)` give
+    // The same for up to RayCaster::packet_size rays or pairs; bit i answers for the i-th. `from(i)`, `pair(i)` and `hit(i)` give
     // references to the point and direction of departure, to the two points, and to where a hit goes.
     template <class HitAt>
     std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
         RayCaster::Packet packet(*caster_);
         for (const Ray& ray : rays) packet.add(ray.origin, ray.direction, ray.length);
-        RayCaster::Hit hits[RayCaster::packet];
+        RayCaster::Hit hits[RayCaster::packet_size];
         const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::alike);
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (found >> i & 1u) put_on_surface(rays[i].origin, rays[i].direction, hits[i], hit(i));
@@ -60,7 +60,7 @@ public:
             const auto& [x, w] = from(i);
             packet.add(leave(x, glm::dot(x.normal, w)), w);
         }
-        RayCaster::Hit hits[RayCaster::packet];
+        RayCaster::Hit hits[RayCaster::packet_size];
         const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::any);
         for (std::size_t i = 0; i < n; ++i)
             if (found >> i & 1u) {

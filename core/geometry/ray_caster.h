@@ -32,7 +32,7 @@ public:
 
     // The same for up to 8 rays at once, which is faster: bit i of the answer belongs to ray i. Rays that are alike, such as those
     // of one pixel, stay together through the whole scene.
-    static constexpr std::size_t packet = 8;
+    static constexpr std::size_t packet_size = 8;
     enum class Rays { alike, any };
     class Packet;
     std::uint32_t intersect(const Packet& rays, std::span<Hit> hits, Rays kind) const;
@@ -74,7 +74,7 @@ private:
     Vec3 center_;
     double scale_;
     std::size_t size_ = 0;
-    float origin_[3][packet], direction_[3][packet], length_[packet];
+    float origin_[3][packet_size]{}, direction_[3][packet_size]{}, length_[packet_size]{};
 };
 
 // Which Embree is linked, such as "Embree 3.13.5".

@@ -88,7 +88,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         alive.resize(kept);
     };
     // The same after asking T for the next points of as many walks at once as make a packet.
-    constexpr std::size_t packet = RayCaster::packet;
+    constexpr std::size_t packet = RayCaster::packet_size;
     const auto advance = [&](const auto& first_hits, const auto& f) {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < alive.size(); k += packet) {

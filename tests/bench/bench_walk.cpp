@@ -91,11 +91,11 @@ void bare(benchmark::State& state, const Setup& setup) {
 
 std::uint32_t cast(const Geometry& T, const RecordingTransport& recorded, const GeometryPacket& packet) {
     const GeometryQuery* queries = recorded.queries.data() + packet.begin;
-    SurfacePoint hits[RayCaster::packet];
+    SurfacePoint hits[RayCaster::packet_size];
     const auto hit = [&](std::size_t i) -> SurfacePoint& { return hits[i]; };
     switch (packet.kind) {
         case GeometryPacket::Kind::camera: {
-            Ray rays[RayCaster::packet];
+            Ray rays[RayCaster::packet_size];
             for (std::size_t i = 0; i < packet.n; ++i) rays[i] = queries[i].ray;
             return T.first_hits(std::span<const Ray>(rays, packet.n), hit);
         }

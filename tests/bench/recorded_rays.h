@@ -19,7 +19,7 @@ struct GeometryQuery {
     Ray ray;                // where a hit is asked for; its origin counts for camera rays only
 };
 
-// Up to RayCaster::packet of them, asked at once.
+// Up to RayCaster::packet_size of them, asked at once.
 struct GeometryPacket {
     enum class Kind { camera, surface, visibility } kind;
     RayCaster::Rays rays;
