@@ -98,7 +98,7 @@ Json run_json(const RenderRequest& request, const Scene& scene, const PictureSam
                        {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
                        {"seed", settings.seed}};
     json["samples"] = {{"per_pixel", series.samples},
-                       {"replicate_size", settings.replicate_size},
+                       {"replicate_size", series.replicate_size},
                        {"replicates", series.moments.replicates()},
                        {"degrees_of_freedom", series.moments.result().degrees_of_freedom()},
                        {"outcome", name(series.outcome)}};

@@ -12,7 +12,8 @@ namespace neumann {
 
 namespace {
 
-// An interrupted render goes on to a number of samples that can be repeated only if it has not run for longer, seconds.
+// An interrupted render goes on to a number of samples that can be repeated, and to the end of its first replicate, only if it has
+// not run for longer, seconds.
 constexpr double patience = 3.0;
 
 class Stopwatch {
@@ -51,6 +52,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     const std::uint64_t size = settings.replicate_size;
     const auto pixels = static_cast<double>(sampler.width()) * sampler.height();
     RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
+    series.replicate_size = settings.replicate_size;
     const Stopwatch watch;
 
     const auto report = [&](double replicates_done) {
@@ -85,9 +87,15 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             done, block, series.tally,
             [&](std::uint64_t pixels_done) {
                 report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
-                return done > 0 && repeatable(done) && observer.interrupted();
+                const bool may_drop = watch.seconds() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
+                return may_drop && observer.interrupted();
             },
             std::move(memory));
+        if (!node && done == 0) {
+            PictureSampler::Settings single = settings;
+            single.replicate_size = 1;
+            return render_series(scene, single, goal, observer);
+        }
         if (!node) {
             series.outcome = Outcome::interrupted;
             break;

@@ -71,6 +71,19 @@ TEST_F(RenderInterrupt, WithinTheFirstMoments) {
         }
 }
 
+// In the first of many samples of a large picture, of which even one replicate would take long: a single sample is taken.
+using RenderInterruptSlow = RenderInterrupt;
+TEST_F(RenderInterruptSlow, LongBeforeTheFirstReplicateEnds) {
+    RunningCommand command = start(
+        {"render", SCENES "/cornell-box/cornell-box.xml", "-o", "a", "-n", "2", "--spp", "4096", "-t", "1", "-D", "res=1024"});
+    wait_for_folder();
+    std::this_thread::sleep_for(milliseconds(4500));
+    command.signal(SIGINT);
+    expect_interrupted(command.wait());
+    EXPECT_EQ(run_json("a").at("samples").at("per_pixel"), 1);
+    EXPECT_EQ(run_json("a").at("samples").at("replicate_size"), 1);
+}
+
 // A second one ends the program at once, and what an earlier run left stays as it was.
 TEST_F(RenderInterrupt, TwiceLeavesAnEarlierRunAlone) {
     render("scene.xml", "a", {"-n", "1", "--spp", "4", "--quiet"});
