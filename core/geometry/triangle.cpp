@@ -15,19 +15,19 @@ Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error)
     margin_ = rounding < 1e-3 ? rounding : 0.0;
 }
 
-Vec3 Triangle::hit_at_edge(const Vec2& weights, double distance, float embree_u, float embree_v) const {
-    double u = weights.x, v = weights.y, w = 1.0 - u - v;
-    // Near an edge doubles may find the hit a little outside; along a grazing ray, anywhere.
-    if (!(std::min({u, v, w}) >= -rounding_ && distance > 0.0 && rounding_ < 1.0)) {
-        u = embree_u;
-        v = embree_v;
-        w = 1.0 - u - v;
-    }
+Vec3 Triangle::at_edge(double u, double v) const {
+    const double w = std::max(1.0 - u - v, margin_);
     u = std::max(u, margin_);
     v = std::max(v, margin_);
-    w = std::max(w, margin_);
     const double sum = u + v + w;
-    return at(u / sum, v / sum);
+    return vertex_ + edge1_ * (u / sum) + edge2_ * (v / sum);
+}
+
+Vec3 Triangle::hit_at_edge(const Vec2& weights, double distance, float embree_u, float embree_v) const {
+    const double u = weights.x, v = weights.y;
+    // Near an edge doubles may find the hit a little outside; along a grazing ray, anywhere.
+    if (std::min({u, v, 1.0 - u - v}) >= -rounding_ && distance > 0.0 && rounding_ < 1.0) return at_edge(u, v);
+    return at(embree_u, embree_v);
 }
 
 }  // namespace neumann

@@ -12,8 +12,10 @@ public:
     // `error`: how far rounding to float moves a hit. The triangle must have an area.
     Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error);
 
-    // The point with barycentric weights u of the second vertex and v of the third.
-    Vec3 at(double u, double v) const { return vertex_ + edge1_ * u + edge2_ * v; }
+    // The point with barycentric weights u of the second vertex and v of the third, or beside it where that is too near an edge.
+    Vec3 at(double u, double v) const {
+        return std::min({u, v, 1.0 - u - v}) >= margin_ ? vertex_ + edge1_ * u + edge2_ * v : at_edge(u, v);
+    }
     const Vec3& normal() const { return normal_; }
     double error() const { return error_; }
     double area() const { return area_; }
@@ -29,6 +31,7 @@ public:
     }
 
 private:
+    Vec3 at_edge(double u, double v) const;
     Vec3 hit_at_edge(const Vec2& weights, double distance, float u, float v) const;
 
     Vec3 vertex_, edge1_, edge2_, normal_;
@@ -36,7 +39,7 @@ private:
     double area_, error_;
     double rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
     double margin_;    // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
-                     // meets the triangle there; 0 where the triangle is too thin for that
+                       // meets the triangle there; 0 where the triangle is too thin for that
 };
 
 }  // namespace neumann

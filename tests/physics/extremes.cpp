@@ -33,7 +33,7 @@ TEST(Extremes, ALampCutIntoPiecesGivesTheSameLight) {
             const double exact = 0.5 * 2.0 * rectangle_overhead(glm::length(along), glm::length(across), 1.0);
             for (const Way way : {Way::mis, Way::light}) {
                 SCOPED_TRACE(name(way) + ", " + std::to_string(pieces) + " pieces, length " + std::to_string(along.x));
-                expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 8192, .bounces = 1}),
+                expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 1}),
                                std::vector{0.0, exact});
             }
         }

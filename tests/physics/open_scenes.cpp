@@ -94,7 +94,7 @@ TEST(OpenSceneSlow, AConvexBodyDoesNotHideTheSky) {
         const Scene scene = maker.make();
         for (const Way way : {Way::mis, Way::light}) {
             SCOPED_TRACE(body.name + ", " + name(way));
-            expect_matches(probe(scene, anywhere_on(scene, shape), way, {.samples = 2048, .bounces = 1}), std::vector{0.0, rho}, 0,
+            expect_matches(probe(scene, anywhere_on(scene, shape), way, {.samples = 4096, .bounces = 1}), std::vector{0.0, rho}, 0,
                            way == Way::mis ? power : 0.008);
         }
     }
