@@ -55,7 +55,7 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, 
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 4.0, 1.0, static_cast<double>(largest_replicate))));
 }
 
-// Eight numbers a pixel at once in the deepest corner of the run: refused before the machine starts to swap.
+// What the moments of all pictures need at most: refused before the machine starts to swap.
 void check_memory(const Film& film, int bounces) {
     const double nodes = 6.0;  // of the tree of replicates, at most, with the result
     const double bytes =
