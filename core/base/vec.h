@@ -16,6 +16,7 @@ using Rgb = glm::dvec3;
 
 inline double max_component(const Rgb& c) { return c.r > c.g ? (c.r > c.b ? c.r : c.b) : (c.g > c.b ? c.g : c.b); }
 inline double mean_component(const Rgb& c) { return (c.r + c.g + c.b) / 3.0; }
+inline bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
 inline bool is_black(const Rgb& c) { return c.r == 0.0 && c.g == 0.0 && c.b == 0.0; }
 inline bool is_finite(const Rgb& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
 

@@ -59,6 +59,11 @@ public:
 
     // ‖Le‖∞ for each channel.
     const Rgb& largest_radiance() const { return largest_radiance_; }
+    // All channels of all lights are known to be alike.
+    bool is_grey() const {
+        return std::all_of(lights_.begin(), lights_.end(),
+                           [](const AreaLight& light) { return !light.function && neumann::is_grey(light.largest); });
+    }
     // Shapes that are meant to emit and have no area.
     std::size_t without_area() const { return without_area_; }
 

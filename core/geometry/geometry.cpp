@@ -192,4 +192,17 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
     return p;
 }
 
+Vec2 Geometry::round_coordinates(std::uint32_t shape, const Vec3& position) const {
+    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
+        const Vec3 n = (position - sphere->center) / sphere->radius;
+        const double turn = std::atan2(n.y, n.x) * (0.5 * inv_pi);
+        return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), turn < 0.0 ? turn + 1.0 : turn};
+    }
+    const Disk& disk = std::get<Disk>(shapes_[shape]);
+    const Vec3 x = position - disk.center;
+    const double uu = glm::dot(disk.u, disk.u), uv = glm::dot(disk.u, disk.v), vv = glm::dot(disk.v, disk.v);
+    const double xu = glm::dot(x, disk.u), xv = glm::dot(x, disk.v), determinant = uu * vv - uv * uv;
+    return square_of_disk({(xu * vv - xv * uv) / determinant, (xv * uu - xu * uv) / determinant});
+}
+
 }  // namespace neumann

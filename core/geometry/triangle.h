@@ -16,6 +16,8 @@ public:
     Vec3 at(double u, double v) const {
         return std::min({u, v, 1.0 - u - v}) >= margin_ ? vertex_ + edge1_ * u + edge2_ * v : at_edge(u, v);
     }
+    // The barycentric weights of the second and third vertex for a point in the triangle's plane.
+    Vec2 weights(const Vec3& p) const { return {glm::dot(p - vertex_, dual1_), glm::dot(p - vertex_, dual2_)}; }
     const Vec3& normal() const { return normal_; }
     double error() const { return error_; }
     double area() const { return area_; }

@@ -25,4 +25,18 @@ inline Rgb largest_albedo(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);
 }
 
+// ∫ fs |cosθ| dω of a diffuse material, which is the same in all directions.
+inline Rgb diffuse_albedo(const Bsdf& bsdf, const SurfacePoint& p) {
+    return std::visit([&](const auto& b) { return b.albedo(p); }, bsdf);
+}
+
+// Known to be the same all over a surface.
+inline bool is_constant(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return b.is_constant(); }, bsdf);
+}
+// All channels are known to be alike.
+inline bool is_grey(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return b.is_grey(); }, bsdf);
+}
+
 }  // namespace neumann

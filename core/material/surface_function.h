@@ -17,6 +17,9 @@ public:
 
     Rgb operator()(const SurfacePoint& p) const { return function_ ? function_(p) : constant_; }
     const Rgb& upper_bound() const { return constant_; }
+    bool is_constant() const { return !function_; }
+    // All channels are known to be alike.
+    bool is_grey() const { return !function_ && neumann::is_grey(constant_); }
 
 private:
     Rgb constant_;

@@ -1,5 +1,5 @@
 // Maps from the unit square to directions and areas. The maps use no library functions but the square root, so they give the same
-// bits on every machine.
+// bits on every machine; the inverse ones need an arcus tangent.
 #pragma once
 
 #include "core/base/vec.h"
@@ -40,6 +40,16 @@ inline Vec2 uniform_disk(const Vec2& u) {
     double sine, cosine;
     sin_cos_quarter(other / radius * (pi / 4.0), sine, cosine);
     return (flat ? Vec2(cosine, sine) : Vec2(sine, cosine)) * radius;
+}
+
+// The inverse of uniform_disk, for points of the unit disc.
+inline Vec2 square_of_disk(const Vec2& p) {
+    const bool flat = std::abs(p.x) > std::abs(p.y);
+    const double along = flat ? p.x : p.y, across = flat ? p.y : p.x;
+    if (along == 0.0) return Vec2(0.5);
+    const double radius = std::copysign(std::sqrt(p.x * p.x + p.y * p.y), along);
+    const double other = radius * std::atan(across / along) * (4.0 * inv_pi);
+    return (flat ? Vec2(radius, other) : Vec2(other, radius)) * 0.5 + 0.5;
 }
 
 // pdf cosθ/π per solid angle, about +z: Malley's disc. cosθ > 0 for 0 < u < 1.

@@ -9,6 +9,7 @@
 
 #include "core/base/frame.h"
 #include "core/base/hot.h"
+#include "core/sampling/power_heuristic.h"
 #include "core/scene/scene.h"
 
 #include <algorithm>
@@ -58,12 +59,6 @@ struct Walkers {
     std::vector<std::uint32_t> alive;   // those that go on, in order
     std::vector<std::uint32_t> asking;  // of them, those that ask for their light
 };
-
-// The weight of a sample with density `a`, where another technique finds it with density `b`: a² / (a² + b²).
-inline double power_heuristic(double a, double b) {
-    const double ratio = b / a;
-    return 1.0 / (1.0 + ratio * ratio);
-}
 
 // Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so
 // that the processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as

@@ -1,0 +1,39 @@
+// All terms of a series on a patch space, unknown by unknown: so that a pixel reads all bounces of what it sees at once. Floats,
+// for pictures only.
+#pragma once
+
+#include "operators/matrix/patch_field.h"
+#include "operators/patches/patch_space.h"
+
+#include <vector>
+
+namespace neumann {
+
+class FieldStack {
+public:
+    // Bounces 0 … N of a space.
+    FieldStack(const PatchSpace& space, int bounces)
+        : space_(&space), stride_(3 * (static_cast<std::size_t>(bounces) + 1)), values_(stride_ * (space.size() + 1)) {}
+
+    const PatchSpace& space() const { return *space_; }
+    // Three floats for each bounce.
+    std::size_t stride() const { return stride_; }
+    const float* operator[](std::uint32_t unknown) const { return values_.data() + unknown * stride_; }
+
+    template <int C>
+    void set(int bounce, const ExitantVector<C>& term) {
+        for (std::uint32_t u = 0; u < space_->size(); ++u) {
+            const Rgb value = to_rgb<C>(term.col(u));
+            for (int c = 0; c < 3; ++c)
+                values_[u * stride_ + 3 * static_cast<std::size_t>(bounce) + static_cast<std::size_t>(c)] =
+                    static_cast<float>(value[c]);
+        }
+    }
+
+private:
+    const PatchSpace* space_;
+    std::size_t stride_;
+    std::vector<float> values_;
+};
+
+}  // namespace neumann

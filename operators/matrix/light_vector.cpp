@@ -1,0 +1,122 @@
+#include "operators/matrix/light_vector.h"
+
+#include "core/base/hot.h"
+#include "core/sampling/sobol_sampler.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <array>
+
+namespace neumann {
+
+namespace {
+
+// Numbers of their own for each use of the seed.
+constexpr std::uint64_t direct_stream = 0x6469726563ull, emitted_stream = 0x656d697474ull;
+
+template <class Each>
+void for_facets(const PatchSpace& space, const Each& each) {
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 32),
+                              [&](const auto& range) {
+                                  for (std::uint32_t f = range.begin(); f < range.end(); ++f) each(f);
+                              });
+}
+
+struct Segment {
+    SurfacePoint from, to;
+};
+
+// The mean of fs Le V G / pdf over the samples of a diffuse facet.
+NEUMANN_HOT Rgb direct_light_of(const Scene& scene, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
+                                std::uint32_t number) {
+    const Facet& facet = space.facets()[number];
+    SobolSampler sampler(points, seed ^ direct_stream, number);
+    constexpr std::uint32_t packet = RayCaster::packet_size;
+    std::array<Segment, packet> segments;
+    std::array<Rgb, packet> light;
+    Rgb sum(0.0);
+    std::uint32_t waiting = 0;
+    const auto look = [&] {
+        const std::uint32_t seen = space.geometry().visible(
+            waiting,
+            [&](std::size_t i) { return std::pair<const SurfacePoint&, const SurfacePoint&>(segments[i].from, segments[i].to); },
+            RayCaster::Rays::alike);
+        for (std::uint32_t i = 0; i < waiting; ++i)
+            if (seen >> i & 1u) sum += light[i];
+        waiting = 0;
+    };
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        sampler.start(i);
+        const LightSample y = scene.emitters.sample(scene.geometry, sampler.next2());
+        const SurfacePoint x = space.patches().point(facet.patch, sampler.next2());
+        const Bsdf* bsdf = scene.materials.at(x, facet.front);
+        if (!bsdf) return Rgb(0.0);
+        const Vec3 d = y.point.position - x.position;
+        const double distance2 = glm::dot(d, d);
+        const Vec3 w = d * (1.0 / std::sqrt(distance2));
+        const Frame frame = PatchSpace::frame(facet, x);
+        const Vec3 wi = frame.to_local(w);
+        const double cos_light = -glm::dot(y.point.normal, w);
+        if (!(cos_light > 0.0) || !(wi.z > 0.0)) continue;
+        // A diffuse material looks alike from everywhere.
+        const Rgb f = eval(*bsdf, x, {0.0, 0.0, 1.0}, wi) * scene.emitters.emitted(y.point, -w);
+        if (is_black(f)) continue;
+        segments[waiting] = {x, y.point};
+        light[waiting] = f * (wi.z * cos_light / (distance2 * y.pdf_area));
+        if (++waiting == packet) look();
+    }
+    look();
+    return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+template <int C>
+ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
+    ExitantVector<C> Le = ExitantVector<C>::Zero(C, space.size() + 1);
+    const SobolPoints points(16);
+    for_facets(space, [&](std::uint32_t f) {
+        const Facet& facet = space.facets()[f];
+        if (!facet.front) return;
+        SobolSampler sampler(points, emitted_stream, f);
+        for (std::uint32_t cell = 0; cell < facet.cells.size(); ++cell) {
+            Rgb sum(0.0);
+            for (std::uint32_t i = 0; i < points.size(); ++i) {
+                sampler.start(i);
+                const Vec2 u = sampler.next2();
+                const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
+                if (!scene.emitters.is_emitter(p)) return;
+                sum += scene.emitters.emitted(p, PatchSpace::frame(facet, p).to_world(facet.cells.direction(cell, u)));
+            }
+            Le.col(facet.first + cell) = to_channels<C>(sum / static_cast<double>(points.size()));
+        }
+    });
+    return Le;
+}
+
+template <int C>
+ExitantVector<C> direct_light(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed) {
+    ExitantVector<C> b = ExitantVector<C>::Zero(C, space.size() + 1);
+    if (scene.emitters.empty()) return b;
+    const SobolPoints points(samples);
+    for_facets(space, [&](std::uint32_t f) {
+        b.col(space.facets()[f].first) = to_channels<C>(direct_light_of(scene, space, points, seed, f));
+    });
+    return b;
+}
+
+double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
+    double all = 0.0, lights = 0.0;
+    for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
+        const double area = scene.geometry.area(shape);
+        all += area;
+        if (scene.emitters.is_emitter({{}, {}, 0.0, shape, 0})) lights += area;
+    }
+    return all > 0.0 ? rays * lights / all : 0.0;
+}
+
+template ExitantVector<1> emitted_light<1>(const Scene&, const PatchSpace&);
+template ExitantVector<4> emitted_light<4>(const Scene&, const PatchSpace&);
+template ExitantVector<1> direct_light<1>(const Scene&, const PatchSpace&, std::uint32_t, std::uint64_t);
+template ExitantVector<4> direct_light<4>(const Scene&, const PatchSpace&, std::uint32_t, std::uint64_t);
+
+}  // namespace neumann

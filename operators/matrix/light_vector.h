@@ -1,0 +1,21 @@
+// Where the series on a patch space begins: Le, and b = K Le found by light sampling where T's rays would hardly meet the lights.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/matrix/patch_field.h"
+#include "operators/matrix/ray_table.h"
+
+namespace neumann {
+
+// Le: the mean over each patch and cell of directions.
+template <int C>
+ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space);
+
+// K Le from `samples` points on lights and as many on each facet: Σ fs Le V G / pdf.
+template <int C>
+ExitantVector<C> direct_light(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed);
+
+// The rays of a facet that meet a light, on average over the scene, were every point as likely.
+double rays_that_meet_lights(const Scene& scene, std::uint32_t rays);
+
+}  // namespace neumann

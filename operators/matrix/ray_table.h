@@ -1,0 +1,40 @@
+// T as what it is: a table of the unknown that each ray of each facet sees. A facet's rays start all over it, stratified, in
+// directions stratified by projected solid angle; cell by cell of its directions, as many in each. One ray stands for
+// area · π / rays of the facet. Deterministic by seed, whatever the number of threads.
+#pragma once
+
+#include "operators/patches/patch_space.h"
+
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+class RayTable {
+public:
+    // `rays`: of a facet; a power of two. Facets with more directions than that have one ray for each. The space is kept by
+    // reference. Throws InputError where the table is larger than memory.
+    RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed);
+
+    const PatchSpace& space() const { return *space_; }
+    std::uint32_t rays(const Facet& facet) const { return std::max(rays_, facet.cells.size()); }
+    // Unknowns seen by the rays of a facet; PatchSpace::nothing() where there is none.
+    std::span<const std::uint32_t> row(std::uint32_t facet) const {
+        return {seen_.data() + first_[facet], seen_.data() + first_[facet + 1]};
+    }
+    std::span<const std::uint32_t> seen() const { return seen_; }
+    // Of its rays among seen(); for the number of facets, the end.
+    std::size_t first_ray(std::uint32_t facet) const { return first_[facet]; }
+    // Area times projected solid angle that a ray of a facet stands for.
+    double measure(std::uint32_t facet) const {
+        return space_->patches().area(space_->facets()[facet].patch) * pi / static_cast<double>(row(facet).size());
+    }
+
+private:
+    const PatchSpace* space_;
+    std::uint32_t rays_;
+    std::vector<std::size_t> first_;  // of each facet, and the end
+    std::vector<std::uint32_t> seen_;
+};
+
+}  // namespace neumann

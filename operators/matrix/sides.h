@@ -1,0 +1,17 @@
+// What R needs to know of the sides of shapes: whether they reflect or emit, and in how many directions they have to be looked at.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/patches/patch_space.h"
+
+#include <vector>
+
+namespace neumann {
+
+// One direction for a side that is diffuse in all it does.
+std::vector<SideDirections> side_directions(const Scene& scene);
+
+// All colour channels are alike, in what is emitted and in what is reflected.
+bool is_grey(const Scene& scene);
+
+}  // namespace neumann

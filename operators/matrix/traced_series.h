@@ -1,0 +1,29 @@
+// The series on a patch space with a T traced once: Le, b = K Le, K b, … The light that T's rays meet too seldom is sampled
+// instead. Beside it runs the series on the coarser space, with K_c = M K P: P makes a function on the coarser patches one on the
+// finer, and M takes the means. It has the same rays, so that the difference of the two is what the patches do and not what the
+// rays do.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/matrix/field_stack.h"
+
+#include <cstdint>
+
+namespace neumann {
+
+struct TracedSeriesSettings {
+    int bounces = 8;
+    std::uint32_t rays = 32;           // of a facet; a power of two
+    std::uint32_t light_samples = 16;  // of a facet; a power of two
+    std::uint64_t seed = 0;
+};
+
+struct TracedSeries {
+    FieldStack fine, coarse;
+    std::uint64_t rays = 0;  // cast
+};
+
+TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
+                          const TracedSeriesSettings& settings);
+
+}  // namespace neumann

@@ -1,0 +1,80 @@
+// A piece of surface with coordinates (s, t) in [0, 1]²: what patches are cut from.
+#pragma once
+
+#include "core/geometry/geometry.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace neumann {
+
+// A rectangle of coordinates.
+struct Cell {
+    double s0, s1, t0, t1;
+};
+
+// The bilinear map P(s, t) = a + s (b − a) + t (d − a) + s t (a − b + c − d) of a plane convex quadrilateral a b c d. Its Jacobian
+// is linear in s and t, so areas and uniform points have closed forms.
+class QuadMap {
+public:
+    // Corners counter-clockwise about `normal`; c may coincide with d, but no three others lie on a line.
+    QuadMap(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal);
+
+    Vec3 position(const Vec2& st) const {
+        const Vec2 p = e_ * st.x + f_ * st.y + g_ * (st.x * st.y);
+        return a_ + x_ * p.x + y_ * p.y;
+    }
+    Vec2 coordinates(const Vec3& position) const {
+        const Vec2 h(glm::dot(position - a_, x_), glm::dot(position - a_, y_));
+        const double k1 = j0_ + cross(h, g_), k0 = cross(h, e_);
+        const double t = -2.0 * k0 / (k1 + std::sqrt(std::max(k1 * k1 - 4.0 * k0 * jt_, 0.0)));
+        const Vec2 across = e_ + g_ * t;
+        const double length2 = glm::dot(across, across);
+        return {length2 > 0.0 ? glm::dot(h - f_ * t, across) / length2 : 0.5, t};
+    }
+    double area(const Cell& c) const {
+        return (c.s1 - c.s0) * (c.t1 - c.t0) * (j0_ + 0.5 * (js_ * (c.s0 + c.s1) + jt_ * (c.t0 + c.t1)));
+    }
+    // Uniform by area for uniform u in [0, 1)².
+    Vec2 uniform(const Cell& cell, const Vec2& u) const;
+    // Of the lines through the middle.
+    Vec2 lengths() const { return {glm::length(e_ + 0.5 * g_), glm::length(f_ + 0.5 * g_)}; }
+
+private:
+    static double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
+    Vec3 a_, x_, y_;       // an orthonormal basis of the plane
+    Vec2 e_, f_, g_;       // b − a, d − a, a − b + c − d in it
+    double j0_, js_, jt_;  // |∂P/∂s × ∂P/∂t| = j0 + js s + jt t
+};
+
+class Chart {
+public:
+    // A sphere or a disc.
+    Chart(const Geometry& geometry, std::uint32_t shape);
+    // The quadrilateral a b c d: of the triangles `lower`, on b's side of the diagonal a c, and `upper`; they may be the same.
+    Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);
+
+    std::uint32_t shape() const { return shape_; }
+    Vec2 coordinates(const Geometry& geometry, const Vec3& position) const {
+        return quad_ ? quad_->coordinates(position) : geometry.round_coordinates(shape_, position);
+    }
+    SurfacePoint point(const Geometry& geometry, const Vec2& st) const;
+    double area(const Cell& cell) const { return quad_ ? quad_->area(cell) : area_ * (cell.s1 - cell.s0) * (cell.t1 - cell.t0); }
+    Vec2 uniform(const Cell& cell, const Vec2& u) const;
+    // How long lines of constant t and of constant s are, about.
+    Vec2 lengths() const { return lengths_; }
+    // t = 0 and t = 1 are the same line.
+    bool closed_in_t() const { return closed_in_t_; }
+
+private:
+    std::uint32_t shape_;
+    std::optional<QuadMap> quad_;
+    Vec3 a_{0.0}, up_{0.0};  // points with (p − a) · up > 0 lie on `upper`
+    std::uint32_t lower_ = 0, upper_ = 0;
+    double area_ = 0.0;  // of a round shape
+    Vec2 lengths_;
+    bool closed_in_t_ = false;
+};
+
+}  // namespace neumann

@@ -1,0 +1,27 @@
+// Sides that face nothing: the outsides of a room's walls. No light gets there and none leaves for elsewhere.
+#pragma once
+
+#include "operators/patches/chart.h"
+
+#include <vector>
+
+namespace neumann {
+
+class Facing {
+public:
+    explicit Facing(const Geometry& geometry);
+
+    // Whether all surfaces lie behind this side of a plane or spherical chart, up to a millionth of the scene's size; false where
+    // that is not known.
+    bool nothing(const Chart& chart, bool front) const;
+
+private:
+    struct Ball {
+        Vec3 center;
+        double radius;
+    };
+    const Geometry& geometry_;
+    std::vector<Ball> balls_;  // surfaces lie in their convex hull
+};
+
+}  // namespace neumann

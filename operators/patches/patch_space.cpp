@@ -1,0 +1,63 @@
+#include "operators/patches/patch_space.h"
+
+#include "core/base/error.h"
+#include "operators/patches/facing.h"
+
+#include <fmt/format.h>
+#include <limits>
+
+namespace neumann {
+
+PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
+    : patches_(std::move(patches)), sides_(std::move(sides)), facet_of_side_(2 * patches_.size()) {
+    const Facing facing(geometry());
+    std::uint64_t unknowns = 0;
+    const Chart* chart = nullptr;
+    SideDirections directions;
+    for (std::uint32_t patch = 0; patch < patches_.size(); ++patch) {
+        if (chart != &patches_.chart(patch)) {
+            chart = &patches_.chart(patch);
+            directions = sides_[chart->shape()];
+            if (!directions.emits && facing.nothing(*chart, true)) directions.front = 0;
+            if (facing.nothing(*chart, false)) directions.back = 0;
+        }
+        for (const bool front : {true, false}) {
+            const std::uint32_t k = directions.of(front);
+            if (k == 0) continue;
+            facets_.push_back({patch, front, {k}, static_cast<std::uint32_t>(unknowns)});
+            unknowns += DirectionCells{k}.size();
+        }
+    }
+    if (unknowns >= std::numeric_limits<std::uint32_t>::max())
+        throw InputError(
+            fmt::format("{} patches have {} unknowns, more than can be numbered; take fewer patches", patches_.size(), unknowns));
+    size_ = static_cast<std::uint32_t>(unknowns);
+    std::fill(facet_of_side_.begin(), facet_of_side_.end(), static_cast<std::uint32_t>(facets_.size()));
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) facet_of_side_[2 * facets_[f].patch + (facets_[f].front ? 0 : 1)] = f;
+}
+
+PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Vec3& w) const {
+    const bool front = glm::dot(p.normal, w) > 0.0;
+    Reading reading{{nothing(), nothing(), nothing(), nothing()}, {}};
+    if (sides_[p.shape].of(front) == 0) return reading;
+    const Patches::Reading patches = patches_.interpolate(p);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t f = facet(patches.patch[i], front);
+        if (f == facets_.size()) return reading;
+        reading.unknown[i] = unknown(facets_[f], p, w);
+        reading.weight[i] = patches.weight[i];
+    }
+    return reading;
+}
+
+std::vector<std::uint32_t> PatchSpace::coarser_of_each(const PatchSpace& coarser) const {
+    const std::vector<std::uint32_t> patch = patches_.coarser_of_each();
+    std::vector<std::uint32_t> result(size_);
+    for (const Facet& facet : facets_) {
+        const Facet& around = coarser.facets_[coarser.facet(patch[facet.patch], facet.front)];
+        for (std::uint32_t cell = 0; cell < facet.cells.size(); ++cell) result[facet.first + cell] = around.first + cell;
+    }
+    return result;
+}
+
+}  // namespace neumann

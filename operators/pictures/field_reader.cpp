@@ -1,0 +1,218 @@
+#include "operators/pictures/field_reader.h"
+
+#include "core/base/frame.h"
+#include "core/base/hot.h"
+#include "core/sampling/power_heuristic.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::size_t packet = RayCaster::packet_size;
+
+// Calls each(i) for those of n rays that hit something, in packets; from(i) and hit(i) as Geometry::first_hits.
+template <class From, class Hit, class Each>
+void for_hits(const Geometry& geometry, std::size_t n, const From& from, const Hit& hit, const Each& each) {
+    for (std::size_t begin = 0; begin < n; begin += packet) {
+        const std::size_t some = std::min(packet, n - begin);
+        const std::uint32_t found = geometry.first_hits(
+            some, [&](std::size_t i) { return from(begin + i); }, [&](std::size_t i) -> SurfacePoint& { return hit(begin + i); });
+        for (std::size_t i = 0; i < some; ++i)
+            if (found >> i & 1u) each(begin + i);
+    }
+}
+
+void add(float* to, std::size_t bounce, const Rgb& x) {
+    for (int c = 0; c < 3; ++c) to[3 * bounce + static_cast<std::size_t>(c)] += static_cast<float>(x[c]);
+}
+
+// Bounces of a field at a point, from the `first`-th float on.
+void add_interpolated(const FieldStack& field, const SurfacePoint& p, const Vec3& w, std::size_t first, float* to) {
+    const PatchSpace::Reading reading = field.space().read(p, w);
+    const float* a = field[reading.unknown[0]];
+    const float* b = field[reading.unknown[1]];
+    const float* c = field[reading.unknown[2]];
+    const float* d = field[reading.unknown[3]];
+    float weight[4];
+    for (std::size_t i = 0; i < 4; ++i) weight[i] = static_cast<float>(reading.weight[i]);
+    for (std::size_t k = first; k < field.stride(); ++k)
+        to[k] += (weight[0] * a[k] + weight[1] * b[k]) + (weight[2] * c[k] + weight[3] * d[k]);
+}
+
+void add_constant(const FieldStack& field, const SurfacePoint& p, const Vec3& w, float* to) {
+    const float* values = field[field.space().unknown(p, w)];
+    for (std::size_t k = 0; k < field.stride(); ++k) to[k] += values[k];
+}
+
+}  // namespace
+
+struct FieldReader::Look {
+    const PixelSample* sample;
+    SurfacePoint x, y;  // what is seen, and what it is lit by
+    Vec3 wo, wi;
+    const Bsdf* bsdf;  // of the side that is seen; null where it absorbs
+    Rgb weight;
+    double pdf;
+};
+
+FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays)
+    : scene_(scene), method_(method), stride_(3 * (static_cast<std::size_t>(bounces) + 1)), gather_rays_(gather_rays) {
+    if (scene.emitters.empty()) return;
+    const SobolPoints points(256);
+    SobolSampler sampler(points, 0, 0);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        sampler.start(i);
+        const Vec3 p = scene.emitters.sample(scene.geometry, sampler.next2()).point.position;
+        low_ = i == 0 ? p : glm::min(low_, p);
+        high_ = i == 0 ? p : glm::max(high_, p);
+    }
+    near_ = glm::length(high_ - low_);
+}
+
+NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fields, std::span<const PixelSample> samples) const {
+    std::vector<Look> looks;
+    find_first_points(samples, looks);
+    std::array<std::uint64_t, 3> rays{samples.size(), 0, 0};
+    if (method_ == FieldMethod::patches) {
+        for (const Look& l : looks) {
+            add_constant(fields.fine, l.x, l.wo, l.sample->fine);
+            add_constant(fields.coarse, l.x, l.wo, l.sample->coarse);
+        }
+        return rays;
+    }
+    for (const Look& l : looks) add(l.sample->fine, 0, scene_.emitters.emitted(l.x, l.wo));
+    if (stride_ == 3) return rays;
+    std::erase_if(looks, [](const Look& l) { return !l.bsdf; });
+    rays[1] = find_lights(looks) + find_lights_nearby(looks);
+    if (method_ == FieldMethod::gather) {
+        rays[2] = gather(fields, looks);
+    } else {
+        for (const Look& l : looks) {
+            add_interpolated(fields.fine, l.x, l.wo, 6, l.sample->fine);
+            add_interpolated(fields.coarse, l.x, l.wo, 6, l.sample->coarse);
+        }
+    }
+    return rays;
+}
+
+void FieldReader::find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const {
+    looks.reserve(samples.size());
+    std::array<SurfacePoint, packet> hits;
+    std::array<Ray, packet> rays;
+    for (std::size_t begin = 0; begin < samples.size(); begin += packet) {
+        const std::size_t n = std::min(packet, samples.size() - begin);
+        for (std::size_t i = 0; i < n; ++i) rays[i] = samples[begin + i].ray;
+        const std::uint32_t found = scene_.geometry.first_hits(std::span<const Ray>(rays).first(n),
+                                                               [&](std::size_t i) -> SurfacePoint& { return hits[i]; });
+        for (std::size_t i = 0; i < n; ++i)
+            if (found >> i & 1u) {
+                Look& l = looks.emplace_back();
+                l.sample = &samples[begin + i];
+                l.x = hits[i];
+                l.wo = -rays[i].direction;
+                l.bsdf = scene_.materials.at(l.x, glm::dot(l.x.normal, l.wo) > 0.0);
+            }
+    }
+}
+
+// Points on lights.
+std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
+    const Emitters& emitters = scene_.emitters;
+    if (emitters.empty()) return 0;
+    std::vector<Look*> asking;
+    for (Look& l : looks) {
+        const LightSample light = emitters.sample(scene_.geometry, l.sample->sampler->next2());
+        const Vec3 d = light.point.position - l.x.position;
+        const double distance2 = glm::dot(d, d);
+        const Vec3 towards = d * (1.0 / std::sqrt(distance2));
+        const double cos_light = -glm::dot(light.point.normal, towards);
+        if (!(cos_light > 0.0)) continue;
+        const Frame frame(glm::dot(l.x.normal, l.wo) > 0.0 ? l.x.normal : -l.x.normal);
+        const Vec3 wo = frame.to_local(l.wo), wi = frame.to_local(towards);
+        const double angle_per_area = cos_light / distance2;
+        const double pdf_other = near_lights(l.x.position) ? pdf(*l.bsdf, l.x, wo, wi) * angle_per_area : 0.0;
+        l.weight = eval(*l.bsdf, l.x, wo, wi) * emitters.emitted(light.point, -towards) *
+                   (std::abs(wi.z) * angle_per_area / light.pdf_area * power_heuristic(light.pdf_area, pdf_other));
+        if (is_black(l.weight)) continue;
+        l.y = light.point;
+        asking.push_back(&l);
+    }
+    for (std::size_t begin = 0; begin < asking.size(); begin += packet) {
+        const std::size_t n = std::min(packet, asking.size() - begin);
+        const std::uint32_t seen = scene_.geometry.visible(
+            n,
+            [&](std::size_t i) {
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(asking[begin + i]->x, asking[begin + i]->y);
+            },
+            RayCaster::Rays::alike);
+        for (std::size_t i = 0; i < n; ++i)
+            if (seen >> i & 1u) add(asking[begin + i]->sample->fine, 1, asking[begin + i]->weight);
+    }
+    return asking.size();
+}
+
+// Directions of the material where the lights are as near as they are large, for there the variance of points on them may be
+// infinite. Which points those are does not depend on the samples, so all stays unbiased.
+std::uint64_t FieldReader::find_lights_nearby(std::vector<Look>& looks) const {
+    const Emitters& emitters = scene_.emitters;
+    std::vector<Look*> asking;
+    for (Look& l : looks) {
+        if (emitters.empty() || !near_lights(l.x.position)) continue;
+        const Frame frame(glm::dot(l.x.normal, l.wo) > 0.0 ? l.x.normal : -l.x.normal);
+        const BsdfSample sampled = sample(*l.bsdf, l.x, frame.to_local(l.wo), l.sample->sampler->next2());
+        if (sampled.pdf == 0.0) continue;
+        l.wi = frame.to_world(sampled.wi);
+        l.weight = sampled.weight;
+        l.pdf = sampled.pdf;
+        asking.push_back(&l);
+    }
+    for_hits(
+        scene_.geometry, asking.size(),
+        [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i]->x, asking[i]->wi); },
+        [&](std::size_t i) -> SurfacePoint& { return asking[i]->y; },
+        [&](std::size_t i) {
+            const Look& l = *asking[i];
+            const Rgb emitted = emitters.emitted(l.y, -l.wi);
+            if (is_black(emitted)) return;
+            const Vec3 d = l.y.position - l.x.position;
+            const double pdf_light = emitters.pdf_area(l.y) * glm::dot(d, d) / -glm::dot(l.y.normal, l.wi);
+            add(l.sample->fine, 1, l.weight * emitted * power_heuristic(l.pdf, pdf_light));
+        });
+    return asking.size();
+}
+
+std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& looks) const {
+    std::vector<float> arriving(stride_);
+    const auto reflect = [&](const FieldStack& field, const Look& l, float* to) {
+        std::fill(arriving.begin(), arriving.end(), 0.0f);
+        add_interpolated(field, l.y, -l.wi, 3, arriving.data());
+        for (std::size_t k = 6; k < stride_; ++k) to[k] += static_cast<float>(l.weight[static_cast<int>(k % 3)]) * arriving[k - 3];
+    };
+    std::uint64_t rays = 0;
+    std::vector<Look*> asking;
+    for (std::uint32_t r = 0; r < gather_rays_; ++r) {
+        asking.clear();
+        for (Look& l : looks) {
+            const Frame frame(glm::dot(l.x.normal, l.wo) > 0.0 ? l.x.normal : -l.x.normal);
+            const BsdfSample sampled = sample(*l.bsdf, l.x, frame.to_local(l.wo), l.sample->sampler->next2());
+            if (sampled.pdf == 0.0) continue;
+            l.wi = frame.to_world(sampled.wi);
+            l.weight = sampled.weight / static_cast<double>(gather_rays_);
+            asking.push_back(&l);
+        }
+        rays += asking.size();
+        for_hits(
+            scene_.geometry, asking.size(),
+            [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i]->x, asking[i]->wi); },
+            [&](std::size_t i) -> SurfacePoint& { return asking[i]->y; },
+            [&](std::size_t i) {
+                reflect(fields.fine, *asking[i], asking[i]->sample->fine);
+                reflect(fields.coarse, *asking[i], asking[i]->sample->coarse);
+            });
+    }
+    return rays;
+}
+
+}  // namespace neumann

@@ -1,0 +1,59 @@
+// Reads all bounces of a pixel's samples at once: bounces 0 and 1 by rays, later ones from fields on patches.
+#pragma once
+
+#include "core/sampling/sobol_sampler.h"
+#include "core/scene/scene.h"
+#include "operators/matrix/field_stack.h"
+
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+// How a picture is made from fields on patches:
+//
+//     patches   every bounce as it is on the patches: the piecewise constant truth
+//     matrix    bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces
+//     gather    K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1
+enum class FieldMethod { patches, matrix, gather };
+
+// One replicate of a series, on patches and on patches four times as large.
+struct FieldPair {
+    const FieldStack& fine;
+    const FieldStack& coarse;
+};
+
+// A camera ray and where its sample is added up: three floats for each bounce. `sampler` has not been asked for numbers that belong
+// to what follows.
+struct PixelSample {
+    CameraRay ray;
+    float* fine;
+    float* coarse;
+    SobolSampler* sampler;
+};
+
+class FieldReader {
+public:
+    // `gather_rays`: a sample.
+    FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays);
+
+    // Adds a sample to each pixel. Rays of one pixel should be side by side. Returns the rays cast for bounces 0, 1 and all others.
+    std::array<std::uint64_t, 3> read(const FieldPair& fields, std::span<const PixelSample> samples) const;
+
+private:
+    struct Look;
+    void find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const;
+    std::uint64_t find_lights(std::vector<Look>& looks) const;
+    std::uint64_t find_lights_nearby(std::vector<Look>& looks) const;
+    std::uint64_t gather(const FieldPair& fields, std::vector<Look>& looks) const;
+    bool near_lights(const Vec3& p) const { return glm::distance(p, glm::clamp(p, low_, high_)) < near_; }
+
+    const Scene& scene_;
+    FieldMethod method_;
+    std::size_t stride_;  // floats of a pixel
+    std::uint32_t gather_rays_;
+    Vec3 low_{0.0}, high_{0.0};  // the box around the lights
+    double near_ = 0.0;
+};
+
+}  // namespace neumann

@@ -1,0 +1,199 @@
+// Patches cover the surfaces, each point is on the patch that was cut around it, and interpolation is linear.
+#include "operators/patches/patch_space.h"
+
+#include "core/base/error.h"
+#include "core/sampling/independent_sampler.h"
+#include "tests/physics/enclosures.h"
+
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace neumann {
+namespace {
+
+using namespace physics;
+
+std::vector<Enclosure> surfaces() {
+    std::vector<Enclosure> all = enclosures(matte(0.5));
+    const auto add = [&](const std::string& name, Shape shape) {
+        all.emplace_back(Enclosure{name, {}}).maker.add(std::move(shape), matte(0.5));
+    };
+    add("skewed quadrilateral", TriangleMesh{{{0, 0, 0}, {2, 0.3, 0}, {1.4, 1.7, 0}, {0.2, 1.1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    add("long triangle", triangle({0, 0, 0}, {5, 0, 1}, {0, 0.4, 2}));
+    add("kite that is no convex quadrilateral",
+        TriangleMesh{{{0, 0, 0}, {2, 2, 0}, {0.5, 0.5, 1e-3}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    add("slanted disc", make_disk(Mat4({2, 0, 0.5, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 2, 3, 1})));
+    return all;
+}
+
+double area(const Patches& patches) {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) sum += patches.area(i);
+    return sum;
+}
+
+double area(const Geometry& geometry) {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < geometry.shapes().size(); ++i) sum += geometry.area(i);
+    return sum;
+}
+
+TEST(Patches, CoverTheSurfaces) {
+    for (const Enclosure& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        for (const std::size_t n : {1u, 50u, 3000u})
+            EXPECT_NEAR(area(Patches(scene.geometry, {n, 0.5})) / area(scene.geometry), 1.0, 1e-13) << e.name << ", " << n;
+    }
+}
+
+TEST(Patches, AreAboutAsManyAsAskedFor) {
+    for (const Enclosure& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        const std::size_t n = Patches(scene.geometry, {5000, 0.5}).size();
+        EXPECT_LE(n, 5000u) << e.name;
+        EXPECT_GE(n, 3500u) << e.name;
+    }
+}
+
+// A hit keeps clear of the triangle's edges by its rounding error, so next to the line between two patches it may be on either.
+TEST(Patches, AreFoundFromTheirPoints) {
+    std::uint64_t elsewhere = 0, all = 0;
+    for (const Enclosure& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        const Patches patches(scene.geometry, {700, 0.6});
+        IndependentSampler random(1, 0);
+        random.start(0);
+        for (std::uint32_t i = 0; i < patches.size(); ++i)
+            for (int k = 0; k < 8; ++k) {
+                const SurfacePoint p = patches.point(i, random.next2());
+                elsewhere += patches.locate(p) != i;
+                ++all;
+            }
+    }
+    EXPECT_LE(elsewhere, all / 5000) << "of " << all;
+}
+
+// Uniform points: the part that falls into one half of a patch's coordinates is that half's part of the area. 40 cells of each
+// surface, |z| < 4.5: 3e-3 false alarms.
+TEST(Patches, PointsAreUniformByArea) {
+    for (const Enclosure& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        const Patches coarse(scene.geometry, {40, 0.3}), fine(scene.geometry, {2000, 0.0});
+        std::vector<double> share(fine.size());
+        IndependentSampler random(7, 0);
+        random.start(0);
+        constexpr int samples = 20000;
+        // Points of all coarse patches, weighted by area, against the area of the fine patches, eight groups of them.
+        std::vector<double> found(8), expected(8), squares(8);
+        for (std::uint32_t i = 0; i < coarse.size(); ++i) {
+            const double weight = coarse.area(i) / samples;
+            std::vector<double> in(8);
+            for (int k = 0; k < samples; ++k) in[fine.locate(coarse.point(i, random.next2())) % 8] += 1.0;
+            for (int g = 0; g < 8; ++g) {
+                found[g] += in[g] * weight;
+                const double p = in[g] / samples;
+                squares[g] += coarse.area(i) * coarse.area(i) * p * (1.0 - p) / samples;
+            }
+        }
+        for (std::uint32_t i = 0; i < fine.size(); ++i) expected[i % 8] += fine.area(i);
+        for (int g = 0; g < 8; ++g)
+            EXPECT_LE(std::abs(found[g] - expected[g]), 4.5 * std::sqrt(squares[g])) << e.name << ", group " << g;
+    }
+}
+
+TEST(Patches, InterpolationIsExactForLinearFunctions) {
+    const Vec3 slope(0.3, -1.2, 0.7);
+    SceneMaker maker;
+    maker.add(parallelogram({1, 2, 3}, {2, 0, 1}, {0.5, 1.5, 0}), matte(0.5));
+    const Scene scene = maker.make();
+    const Patches patches(scene.geometry, {300, 0.7});
+    IndependentSampler random(3, 0);
+    random.start(0);
+    for (int k = 0; k < 1000; ++k) {
+        const SurfacePoint p =
+            patches.point(static_cast<std::uint32_t>(random.next() * static_cast<double>(patches.size())), random.next2());
+        const Patches::Reading r = patches.interpolate(p);
+        double value = 0.0, sum = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            value += r.weight[i] * glm::dot(slope, patches.point(r.patch[i], Vec2(0.5)).position);
+            sum += r.weight[i];
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-14);
+        EXPECT_NEAR(value, glm::dot(slope, p.position), 1e-6);  // points keep clear of edges by a rounding error of floats
+    }
+}
+
+TEST(Patches, InterpolationStaysWithinAChartAndAddsUpToOne) {
+    for (const Enclosure& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        const Patches patches(scene.geometry, {500, 0.7});
+        IndependentSampler random(3, 0);
+        random.start(0);
+        for (std::uint32_t i = 0; i < patches.size(); ++i) {
+            const Patches::Reading r = patches.interpolate(patches.point(i, random.next2()));
+            EXPECT_NEAR(std::accumulate(r.weight.begin(), r.weight.end(), 0.0), 1.0, 1e-12) << e.name;
+            for (const std::uint32_t patch : r.patch) EXPECT_EQ(&patches.chart(patch), &patches.chart(i)) << e.name;
+        }
+    }
+}
+
+TEST(Patches, CoarserOnesAreUnionsOfFinerOnes) {
+    for (const Enclosure& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        const Patches fine(scene.geometry, {600, 0.7}), coarse = fine.coarser();
+        const std::vector<std::uint32_t> around = fine.coarser_of_each();
+        ASSERT_EQ(around.size(), fine.size());
+        std::vector<double> area(coarse.size());
+        for (std::uint32_t i = 0; i < fine.size(); ++i) {
+            area[around[i]] += fine.area(i);
+            EXPECT_EQ(coarse.locate(fine.point(i, Vec2(0.5))), around[i]) << e.name;
+        }
+        for (std::uint32_t i = 0; i < coarse.size(); ++i) EXPECT_NEAR(area[i] / coarse.area(i), 1.0, 1e-12) << e.name;
+    }
+}
+
+TEST(Patches, RefuseWhatCannotBeCut) {
+    const Scene empty = SceneMaker().make();
+    EXPECT_THROW(Patches(empty.geometry, {100, 0.0}), InputError);
+    SceneMaker maker;
+    maker.add(triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(0.5));
+    EXPECT_THROW(Patches(maker.make().geometry, {0, 0.0}), InputError);
+}
+
+TEST(PatchSpace, LeavesOutSidesThatFaceNothing) {
+    // The outsides of a room and of a sphere, but not the inside and the outside of a box in the room.
+    SceneMaker maker;
+    Surface two_sided = matte(0.5);
+    two_sided.two_sided = true;
+    maker.add(room({-1, -1, -1}, {1, 1, 1}), two_sided);
+    const std::uint32_t box_shape = maker.add(box({0.1, 0.2, -0.5}, {0.4, 0.5, 0.3}), two_sided);
+    const Scene scene = maker.make();
+    const std::vector<SideDirections> sides(scene.geometry.shapes().size(), SideDirections{1, 1, false});
+    const PatchSpace space(scene.geometry, {600, 0.0}, sides);
+    for (const Facet& facet : space.facets()) EXPECT_TRUE(facet.front || space.patches().chart(facet.patch).shape() == box_shape);
+    std::size_t backs = 0;
+    for (const Facet& facet : space.facets()) backs += !facet.front;
+    EXPECT_GT(backs, 0u);
+}
+
+TEST(DirectionCells, HoldTheirDirections) {
+    IndependentSampler random(5, 0);
+    random.start(0);
+    for (const std::uint32_t k : {1u, 2u, 8u, 16u}) {
+        const DirectionCells cells{k};
+        std::uint32_t elsewhere = 0;
+        for (std::uint32_t cell = 0; cell < cells.size(); ++cell)
+            for (int i = 0; i < 32; ++i) {
+                const Vec3 w = cells.direction(cell, random.next2());
+                elsewhere += cells.cell(w) != cell;
+                // A mirror turns by half a circle.
+                const std::uint32_t across = k - 1 - cell % k, along = k - 1 - cell / k;
+                if (cells.cell(w) != cell) continue;
+                EXPECT_EQ(cells.cell({-w.x, -w.y, w.z}), along * k + across);
+            }
+        EXPECT_LE(elsewhere, 1u);
+    }
+}
+
+}  // namespace
+}  // namespace neumann
