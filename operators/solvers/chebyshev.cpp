@@ -15,21 +15,22 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
     // I − K has its eigenvalues in centre ± half.
     const double centre = 1.0 - 0.5 * (lowest + highest), half = 0.5 * (highest - lowest);
     double c = half / centre;
-    Vector x = problem.Le, r, Kd;
-    progress.reached(x, std::numeric_limits<double>::infinity());
-    progress.apply(x, r);
-    Vector d = r / centre;
+    // From x = 0, whose residual is Le.
+    Vector r = problem.Le, d = r / centre, x = d, Kd;
+    double estimate = std::numeric_limits<double>::infinity();
     for (;;) {
-        x += d;
+        // The residual of this x takes one more application, so that the estimate is that of the iterate before.
+        if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
+        if (progress.exhausted()) return progress.end_limit(x);
         progress.apply(d, Kd);
         r -= d - Kd;
-        if (!x.allFinite())
-            return progress.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
-        if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
-        if (progress.exhausted()) return progress.end_limit(x);
+        estimate = progress.from_residual(r, x);
         const double next = 1.0 / (2.0 * centre / half - c);
         d = next * c * d + 2.0 * next / half * r;
         c = next;
+        x += d;
+        if (!x.allFinite())
+            return progress.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
     }
 }
 

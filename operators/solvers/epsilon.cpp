@@ -17,13 +17,13 @@ double wynn(std::array<double, depth + 1> column, std::size_t n) {
     for (std::size_t k = 1; k <= n; ++k) {
         std::array<double, depth + 1> next;
         for (std::size_t j = 0; j + k <= n; ++j) {
-            const double difference = column[j + 1] - column[j];
-            if (difference == 0.0) return best;
-            next[j] = before[j + 1] + 1.0 / difference;
+            // Equal entries make this infinite, and the entry after next finite again; not a number where two in a row are equal.
+            next[j] = before[j + 1] + 1.0 / (column[j + 1] - column[j]);
+            if (std::isnan(next[j])) return best;
         }
         before = column;
         column = next;
-        if (k % 2 == 0) best = column[n - k];
+        if (k % 2 == 0 && std::isfinite(column[n - k])) best = column[n - k];
     }
     return best;
 }

@@ -7,44 +7,7 @@
 
 namespace neumann {
 
-const char* name(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::converged:
-            return "converged";
-        case Verdict::limit:
-            return "limit";
-        case Verdict::diverging:
-            return "diverging";
-        case Verdict::broke_down:
-            return "broke down";
-        case Verdict::refused:
-            return "refused";
-    }
-    return "";
-}
-
 double largest(const Vector& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
-
-void ChangeRate::add(double change) {
-    changes_.push_back(change);
-    const std::size_t n = changes_.size() - 1;
-    rate_ = change == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
-    if (n == 0 || change == 0.0) return;
-    rate_ = 0.0;
-    for (std::size_t k = 1; k <= std::min<std::size_t>(n, 8); ++k) {
-        if (changes_[n - k] > 0.0) rate_ = std::max(rate_, std::pow(change / changes_[n - k], 1.0 / static_cast<double>(k)));
-    }
-}
-
-double ChangeRate::estimate() const {
-    return rate_ < 1.0 ? changes_.back() * rate_ / (1.0 - rate_) : std::numeric_limits<double>::infinity();
-}
-
-bool ChangeRate::not_falling() const {
-    constexpr std::size_t window = 32;
-    // Rounding moves the terms of a furnace of albedo 1 by some 10⁻¹⁶ a bounce.
-    return changes_.size() > window && !(changes_.back() < (1.0 - 1e-12) * changes_[changes_.size() - 1 - window]);
-}
 
 Progress::Progress(const Problem& problem) : problem_(problem) {
     if (!problem.K || problem.K->size() != problem.Le.size())

@@ -1,6 +1,7 @@
 // Solvers of L = Le + K L, (I − K) L = Le, for one colour channel, side by side: what each needs, what it tells, and how it ends.
 #pragma once
 
+#include "operators/series/verdict.h"
 #include "operators/solvers/channel_operator.h"
 
 #include <functional>
@@ -31,16 +32,6 @@ struct Problem {
     const Vector* exact = nullptr;  // L, to record the true error
     std::function<void(const SolverStep&)> observer;
 };
-
-enum class Verdict {
-    converged,   // the estimated error is below the tolerance
-    limit,       // the applications allowed were used up before
-    diverging,   // the terms do not get smaller: there is no L
-    broke_down,  // a division by zero, or numbers that are not finite: the method has no answer here
-    refused      // there is an answer, but not one to rely on; `why` says what is wrong with it
-};
-
-const char* name(Verdict);
 
 struct SolverResult {
     Vector x;  // the last iterate, whatever the verdict
