@@ -28,6 +28,8 @@ SolverResult solve_sor(const Problem& problem, double omega) {
         rate.add(change);
         if (progress.reached(x, change == 0.0 ? 0.0 : rate.estimate() / largest(x)))
             return progress.end(x, Verdict::converged, fmt::format("the changes fall at the rate {:.6g}", rate.rate()));
+        if (rate.not_falling() && change <= 1e-12 * largest(x))
+            return progress.end(x, Verdict::limit, "the changes are down to rounding");
         if (rate.not_falling())
             return progress.end(x, Verdict::diverging, "the changes did not get smaller over the last 32 sweeps");
         if (progress.exhausted()) return progress.end_limit(x);

@@ -2,6 +2,7 @@
 
 #include "operators/solvers/anderson.h"
 #include "operators/solvers/chebyshev.h"
+#include "operators/solvers/eigenpair_tail.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/relaxation.h"
@@ -16,6 +17,7 @@ const std::vector<NamedSolver>& solvers() {
         {"aitken", "Aitken, each unknown", solve_aitken},
         {"wynn", "Wynn's epsilon, each unknown", solve_wynn_epsilon},
         {"vector-epsilon", "vector epsilon", solve_vector_epsilon},
+        {"eigenpair-tail", "series + leading eigenpair", solve_eigenpair_tail},
         {"gauss-seidel", "Gauss-Seidel", solve_gauss_seidel},
         {"sor", "SOR, 1.2", [](const Problem& problem) { return solve_sor(problem, 1.2); }},
         {"southwell", "Southwell, shooting", solve_southwell},
