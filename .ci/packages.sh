@@ -16,6 +16,8 @@ libcli11-dev        | CLI11                                   | CLI/CLI.hpp
 nlohmann-json3-dev  | JSON for Modern C++ 3.11 or later       | nlohmann/json.hpp
 libfmt-dev          | {fmt}                                   | fmt/format.h
 libboost-dev        | Boost 1.74 or later, headers only       | boost/version.hpp
+libeigen3-dev       | Eigen 3.4 or later                      | eigen3/Eigen/src/Core/Matrix.h Eigen/src/Core/Matrix.h
+libspectra-dev      | Spectra                                 | Spectra/Util/Version.h
 librandom123-dev    | Random123                               | Random123/philox.h
 libxxhash-dev       | xxHash                                  | xxhash.h
 fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |

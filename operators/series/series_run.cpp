@@ -1,0 +1,89 @@
+#include "operators/series/series_run.h"
+
+#include "operators/series/change_rate.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Neighbours first; where these alternate, every second term.
+Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum) {
+    Enclosure enclosure;
+    if (series.bounce() == 0) {
+        enclosure.why = "there is only one term";
+        return enclosure;
+    }
+    enclosure = enclose(series.before(), series.term(), sum, series.term());
+    if (enclosure.exists || series.bounce() == 1) return enclosure;
+    Enclosure second = enclose(before_last, series.term(), sum, series.before() + series.term());
+    return second.exists ? second : enclosure;
+}
+
+double rate_over(const std::vector<SeriesRow>& rows) {
+    const std::size_t n = rows.size() - 1, k = std::min<std::size_t>(n, 16);
+    return k == 0 ? 0.0 : std::pow(rows[n].term.sup / rows[n - k].term.sup, 1.0 / static_cast<double>(k));
+}
+
+}  // namespace
+
+SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOptions& options) {
+    SeriesRun run;
+    const bool bounded = options.norm && *options.norm < 1.0;
+    const double a = bounded ? *options.norm : 1.0;
+    if (options.norm && !bounded)
+        run.warnings.push_back(
+            fmt::format("a = {:.6g} is not below 1 and bounds nothing; the series may converge all the same", *options.norm));
+    TermSeries series(K, Le);
+    ChangeRate rate;
+    Vector before_last;
+    const double emitted = series.term_norms().sup;
+    const auto end = [&](Verdict verdict, std::string why) {
+        run.verdict = verdict;
+        run.why = std::move(why);
+        run.rate = rate_over(run.rows);
+        return std::move(run);
+    };
+    for (;;) {
+        run.sum = series.sum();
+        SeriesRow row;
+        row.bounce = series.bounce();
+        row.term = series.term_norms();
+        rate.add(row.term.sup);
+        row.ratio = run.rows.empty() ? std::numeric_limits<double>::quiet_NaN() : row.term.power / run.rows.back().term.power;
+        row.a_priori = bounded ? std::pow(a, row.bounce + 1) / (1.0 - a) * emitted : infinity;
+        row.a_posteriori = bounded ? row.term.sup * a / (1.0 - a) : infinity;
+        row.estimate = row.term.sup == 0.0 ? 0.0 : rate.estimate();
+        run.enclosure = enclose_last(series, before_last, run.sum);
+        row.enclosure_width = run.enclosure.exists ? run.enclosure.width : infinity;
+        run.rows.push_back(row);
+        if (options.observer) options.observer(row);
+
+        const double allowed = options.tolerance * norms(run.sum, K.measure()).sup;
+        if (!run.sum.allFinite()) return end(Verdict::diverging, "the terms grew until they were not finite");
+        if (row.term.sup == 0.0)
+            return end(Verdict::converged, fmt::format("term {} is 0, and so are all that follow", row.bounce));
+        if (0.5 * row.enclosure_width <= options.tolerance) {
+            run.sum = 0.5 * (run.enclosure.low + run.enclosure.high);
+            return end(Verdict::converged,
+                       fmt::format("enclosed between quotients {:.6g} and {:.6g}", run.enclosure.c1, run.enclosure.c2));
+        }
+        if (row.a_posteriori <= allowed) return end(Verdict::converged, fmt::format("bounded with a = {:.6g}", a));
+        if (!bounded && !run.enclosure.exists && row.estimate <= allowed)
+            return end(Verdict::converged,
+                       fmt::format("estimated from the rate {:.6g}, not bounded: {}", rate.rate(), run.enclosure.why));
+        if (rate.not_falling())
+            return end(Verdict::diverging,
+                       fmt::format("not converging: the terms did not get smaller over the last 32 bounces, rate {:.9g}",
+                                   rate_over(run.rows)));
+        if (row.bounce >= options.most_bounces)
+            return end(Verdict::limit, fmt::format("{} bounces were used up", options.most_bounces));
+        before_last = series.before();
+        series.advance();
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,30 @@
+// How a series or a solver ended. "Stopped" is not "converged".
+#pragma once
+
+namespace neumann {
+
+enum class Verdict {
+    converged,   // the estimated error is below the tolerance
+    limit,       // the applications allowed were used up before
+    diverging,   // the terms do not get smaller: there is no L
+    broke_down,  // a division by zero, or numbers that are not finite: the method has no answer here
+    refused      // there is an answer, but not one to rely on; `why` says what is wrong with it
+};
+
+inline const char* name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::converged:
+            return "converged";
+        case Verdict::limit:
+            return "limit";
+        case Verdict::diverging:
+            return "diverging";
+        case Verdict::broke_down:
+            return "broke down";
+        case Verdict::refused:
+            return "refused";
+    }
+    return "";
+}
+
+}  // namespace neumann

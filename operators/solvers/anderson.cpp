@@ -1,0 +1,44 @@
+#include "operators/solvers/anderson.h"
+
+#include "operators/solvers/progress.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+
+namespace neumann {
+
+SolverResult solve_anderson(const Problem& problem, int m) {
+    Progress progress(problem);
+    const Eigen::Index n = problem.Le.size(), columns = std::max(1, m);
+    const Vector weight = progress.K().measure().cwiseSqrt();
+    Eigen::MatrixXd df(n, columns), dg(n, columns);  // df weighted
+    Eigen::Index kept = 0, next = 0;
+    Vector x = problem.Le, g(n), f(n), last_g, last_f;
+    for (;;) {
+        progress.apply(x, g);
+        g += problem.Le;
+        f = g - x;
+        const double estimate = progress.from_residual(f, x);
+        Vector weighted = weight.cwiseProduct(f);
+        if (last_f.size() != 0) {
+            df.col(next) = weighted - last_f;
+            dg.col(next) = g - last_g;
+            next = (next + 1) % columns;
+            kept = std::min(kept + 1, columns);
+        }
+        last_f = weighted;
+        last_g = g;
+        x = g;
+        if (kept > 0) {
+            const Vector gamma = df.leftCols(kept).colPivHouseholderQr().solve(weighted);
+            x -= dg.leftCols(kept) * gamma;
+        }
+        if (!x.allFinite()) return progress.end(x, Verdict::broke_down, "values that are not finite");
+        // The estimate is that of the iterate before: the residual of this one is not known yet.
+        if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
+        if (progress.exhausted()) return progress.end_limit(x);
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,51 @@
+#include "operators/solvers/eigen_system.h"
+#include "operators/solvers/krylov.h"
+#include "operators/solvers/progress.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+SolverResult solve_bicgstab(const Problem& problem) {
+    Progress progress(problem);
+    const Eigen::Index n = problem.Le.size();
+    Vector x = Vector::Zero(n), y = x, last = x, r(n);
+    if (problem.Le.isZero(0.0)) return progress.end(x, Verdict::converged, "nothing emits");
+
+    // Eigen changes y in place, so that the iterate can be seen whenever K is applied.
+    const EigenSystem* seen = nullptr;
+    const auto look = [&] {
+        if (y == last) return;
+        progress.record(largest(y - last) / largest(y),
+                        problem.exact ? progress.true_error(seen->unscaled(y)) : progress.true_error(y));
+        last = y;
+    };
+    const EigenSystem system(*problem.K, [&] {
+        look();
+        progress.count(1.0);
+    });
+    seen = &system;
+    Eigen::BiCGSTAB<EigenSystem, Eigen::IdentityPreconditioner> bicgstab;
+    bicgstab.compute(system);
+    const Vector scaled = system.scaled(problem.Le);
+    double goal = problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0);
+    for (;;) {
+        bicgstab.setTolerance(goal);
+        bicgstab.setMaxIterations(
+            std::max<Eigen::Index>(1, (problem.most - static_cast<Eigen::Index>(progress.applications())) / 2));
+        y = bicgstab.solveWithGuess(scaled, Vector(y));
+        look();
+        x = system.unscaled(y);
+        progress.apply(x, r);
+        r += problem.Le - x;
+        if (!x.allFinite() || bicgstab.info() == Eigen::NumericalIssue)
+            return progress.end(x, Verdict::broke_down, "a division by zero in BiCGSTAB");
+        if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
+        if (progress.exhausted()) return progress.end_limit(x);
+        goal *= 0.1;
+        if (goal < std::numeric_limits<double>::epsilon())
+            return progress.end(x, Verdict::limit, "rounding keeps the residual above the tolerance");
+    }
+}
+
+}  // namespace neumann

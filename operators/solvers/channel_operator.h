@@ -1,0 +1,27 @@
+// One colour channel of K = R ∘ T on finitely many unknowns: what a solver of L = Le + K L needs to know.
+//
+// Unknown u stands for a patch, or for a patch and a bundle of directions; its value is radiance in W·m⁻²·sr⁻¹, and measure_u is
+// area times projected solid angle. Inner product and adjoint: ⟨f, g⟩ = Σ_u measure_u f_u g_u,  ⟨K f, g⟩ = ⟨f, K* g⟩.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace neumann {
+
+using Vector = Eigen::VectorXd;  // one value per unknown
+
+// All vectors have size() values; x and y are different vectors. Calls change nothing that can be seen from outside.
+class ChannelOperator {
+public:
+    virtual ~ChannelOperator() = default;
+
+    virtual Eigen::Index size() const = 0;
+    virtual void apply(const Vector& x, Vector& y) const = 0;                // y = K x
+    virtual void apply_adjoint(const Vector& x, Vector& y) const = 0;        // y = K* x
+    virtual double row(Eigen::Index u, const Vector& x) const = 0;           // (K x)_u
+    virtual double diagonal(Eigen::Index u) const = 0;                       // K_uu
+    virtual void add_column(Eigen::Index u, double a, Vector& y) const = 0;  // y += a K e_u
+    virtual const Vector& measure() const = 0;                               // > 0
+};
+
+}  // namespace neumann

@@ -1,0 +1,42 @@
+#include "operators/solvers/chebyshev.h"
+
+#include "operators/solvers/progress.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+SolverResult solve_chebyshev(const Problem& problem, double lowest, double highest) {
+    Progress progress(problem);
+    if (!(lowest < highest && highest < 1.0))
+        return progress.end(
+            problem.Le, Verdict::refused,
+            fmt::format("needs lowest < highest < 1 for the eigenvalues of K, not [{:.6g}, {:.6g}]", lowest, highest));
+    // I − K has its eigenvalues in centre ± half.
+    const double centre = 1.0 - 0.5 * (lowest + highest), half = 0.5 * (highest - lowest);
+    double c = half / centre;
+    // From x = 0, whose residual is Le.
+    Vector r = problem.Le, d = r / centre, x = d, Kd;
+    double estimate = std::numeric_limits<double>::infinity();
+    for (;;) {
+        // The residual of this x takes one more application, so that the estimate is that of the iterate before.
+        if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
+        if (progress.exhausted()) return progress.end_limit(x);
+        progress.apply(d, Kd);
+        r -= d - Kd;
+        estimate = progress.from_residual(r, x);
+        const double next = 1.0 / (2.0 * centre / half - c);
+        d = next * c * d + 2.0 * next / half * r;
+        c = next;
+        x += d;
+        if (!x.allFinite())
+            return progress.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
+    }
+}
+
+SolverResult solve_chebyshev(const Problem& problem) {
+    if (!problem.radius) return Progress(problem).end(problem.Le, Verdict::refused, "needs the spectral radius");
+    return solve_chebyshev(problem, problem.lowest.value_or(-*problem.radius), *problem.radius);
+}
+
+}  // namespace neumann

@@ -1,0 +1,48 @@
+#include "operators/solvers/eigenpair_tail.h"
+
+#include "operators/series/term_series.h"
+#include "operators/solvers/progress.h"
+#include "operators/spectrum/spectrum.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+SolverResult solve_eigenpair_tail(const Problem& problem) {
+    Progress progress(problem);
+    const Eigenpairs right = leading_eigenpairs(progress.K(), 1), left = leading_eigenpairs(progress.K(), 1, true);
+    progress.count(right.applications + left.applications);
+    progress.setup_ends();
+    if (!right.converged || !left.converged)
+        return progress.end(problem.Le, Verdict::refused, "the leading eigenpair was not found");
+    const std::complex<double> value = right.pairs[0].value;
+    if (!(std::abs(value) < 1.0))
+        return progress.end(problem.Le, Verdict::refused,
+                            fmt::format("the spectral radius is {:.6g}: the series diverges", std::abs(value)));
+    if (std::abs(value.imag()) > 1e-9 * std::abs(value) || std::abs(value - left.pairs[0].value) > 1e-6 * std::abs(value))
+        return progress.end(problem.Le, Verdict::refused, "the leading eigenvalue is not real and single");
+    const double lambda = value.real();
+    const Vector v = right.pairs[0].vector.real(), w = left.pairs[0].vector.real().cwiseProduct(progress.K().measure());
+    const double scale = w.dot(v);
+
+    TermSeries series(progress.K(), problem.Le);
+    ChangeRate rate;
+    for (;;) {
+        // What of t_n is not in the leading mode.
+        const double amount = w.dot(series.term()) / scale;
+        const double other = largest(series.term() - amount * v);
+        const Vector x = series.sum() + lambda / (1.0 - lambda) * amount * v;
+        rate.add(other);
+        if (progress.reached(x, other == 0.0 ? 0.0 : rate.estimate() / largest(x)))
+            return progress.end(x, Verdict::converged, fmt::format("the other modes fall at the rate {:.6g}", rate.rate()));
+        if (!std::isfinite(scale) || !x.allFinite())
+            return progress.end(x, Verdict::broke_down, "the leading eigenvector is defective");
+        if (rate.not_falling())
+            return progress.end(x, Verdict::limit, "the other modes are down to the accuracy of the leading one");
+        if (progress.exhausted()) return progress.end_limit(x);
+        series.advance();
+        progress.count(1.0);
+    }
+}
+
+}  // namespace neumann

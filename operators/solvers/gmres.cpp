@@ -1,0 +1,64 @@
+#include "operators/solvers/eigen_system.h"
+#include "operators/solvers/krylov.h"
+#include "operators/solvers/progress.h"
+
+#include <fmt/format.h>
+#include <unsupported/Eigen/IterativeSolvers>
+
+namespace neumann {
+
+namespace {
+
+using Gmres = Eigen::GMRES<EigenSystem, Eigen::IdentityPreconditioner>;
+
+Vector after_steps(const Problem& problem, int k) {
+    const EigenSystem system(*problem.K, [] {});
+    Gmres gmres(system);
+    gmres.set_restart(k);
+    gmres.setMaxIterations(k);
+    gmres.setTolerance(0.0);
+    return system.unscaled(gmres.solve(system.scaled(problem.Le)));
+}
+
+}  // namespace
+
+SolverResult solve_gmres(const Problem& problem, int restart) {
+    Progress progress(problem);
+    const Eigen::Index n = problem.Le.size();
+    const int steps = static_cast<int>(std::clamp<Eigen::Index>(restart, 1, std::max<Eigen::Index>(1, n)));
+    Vector x = Vector::Zero(n), r(n);
+    if (problem.Le.isZero(0.0)) return progress.end(x, Verdict::converged, "nothing emits");
+
+    Gmres gmres;
+    bool begun = false;  // a step, whose residual is known when K is applied next
+    const auto look = [&] {
+        const int k = static_cast<int>(progress.applications());
+        progress.record(gmres.error(), problem.exact && k <= steps ? progress.true_error(after_steps(problem, k))
+                                                                   : std::numeric_limits<double>::quiet_NaN());
+    };
+    const EigenSystem system(*problem.K, [&] {
+        if (begun) look();
+        begun = true;
+        progress.count(1.0);
+    });
+    gmres.compute(system);
+    gmres.set_restart(steps);
+    double goal = problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0);
+    for (;;) {
+        gmres.setTolerance(goal);
+        gmres.setMaxIterations(std::max<Eigen::Index>(1, problem.most - static_cast<Eigen::Index>(progress.applications())));
+        const Vector guess = system.scaled(x);
+        x = system.unscaled(gmres.solveWithGuess(system.scaled(problem.Le), guess));
+        look();
+        progress.apply(x, r);
+        r += problem.Le - x;
+        if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
+        if (progress.exhausted()) return progress.end_limit(x);
+        goal *= 0.1;
+        if (goal < std::numeric_limits<double>::epsilon())
+            return progress.end(x, Verdict::limit, "rounding keeps the residual above the tolerance");
+        begun = false;
+    }
+}
+
+}  // namespace neumann

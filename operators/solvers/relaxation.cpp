@@ -1,0 +1,68 @@
+#include "operators/solvers/relaxation.h"
+
+#include "operators/solvers/progress.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+SolverResult solve_gauss_seidel(const Problem& problem) { return solve_sor(problem, 1.0); }
+
+SolverResult solve_sor(const Problem& problem, double omega) {
+    Progress progress(problem);
+    const ChannelOperator& K = progress.K();
+    Vector x = problem.Le;
+    ChangeRate rate;
+    for (;;) {
+        double change = 0.0;
+        for (Eigen::Index u = 0; u < x.size(); ++u) {
+            // 1 − K_uu ≤ 0: patch u alone, seen by itself, has no finite radiance.
+            const double rest = 1.0 - K.diagonal(u);
+            if (!(rest > 0.0)) return progress.end(x, Verdict::diverging, fmt::format("K_uu ≥ 1 at unknown {}", u));
+            const double step = omega * (problem.Le[u] + K.row(u, x) - x[u]) / rest;
+            x[u] += step;
+            change = std::max(change, std::abs(step));
+        }
+        progress.count(1.0);
+        if (!x.allFinite()) return progress.end(x, Verdict::diverging, "the iterates grew until they were not finite");
+        rate.add(change);
+        if (progress.reached(x, change == 0.0 ? 0.0 : rate.estimate() / largest(x)))
+            return progress.end(x, Verdict::converged, fmt::format("the changes fall at the rate {:.6g}", rate.rate()));
+        if (rate.not_falling() && change <= 1e-12 * largest(x))
+            return progress.end(x, Verdict::limit, "the changes are down to rounding");
+        if (rate.not_falling())
+            return progress.end(x, Verdict::diverging, "the changes did not get smaller over the last 32 sweeps");
+        if (progress.exhausted()) return progress.end_limit(x);
+    }
+}
+
+SolverResult solve_southwell(const Problem& problem) {
+    Progress progress(problem);
+    const ChannelOperator& K = progress.K();
+    const Eigen::Index n = problem.Le.size();
+    const double cost = 1.0 / static_cast<double>(std::max<Eigen::Index>(n, 1));
+    Vector x = Vector::Zero(n), r = problem.Le;
+    const double power = K.measure().dot(problem.Le.cwiseAbs());
+    for (Eigen::Index i = 1;; ++i) {
+        Eigen::Index u = 0;
+        if (n > 0) r.cwiseProduct(K.measure()).cwiseAbs().maxCoeff(&u);
+        if (n == 0 || r[u] == 0.0) {
+            progress.reached(x, 0.0);
+            return progress.end(x, Verdict::converged, "nothing is left to shoot");
+        }
+        const double rest = 1.0 - K.diagonal(u);
+        if (!(rest > 0.0)) return progress.end(x, Verdict::diverging, fmt::format("K_uu ≥ 1 at unknown {}", u));
+        const double step = r[u] / rest;
+        x[u] += step;
+        r[u] -= step;
+        K.add_column(u, step, r);
+        progress.count(cost);
+        if (i % std::max<Eigen::Index>(1, n / 4) != 0) continue;
+        if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
+        if (!(K.measure().dot(r.cwiseAbs()) < 1e6 * power))
+            return progress.end(x, Verdict::diverging, "the unshot power grew to a million times the emitted power");
+        if (progress.exhausted()) return progress.end_limit(x);
+    }
+}
+
+}  // namespace neumann

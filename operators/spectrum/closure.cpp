@@ -1,0 +1,48 @@
+#include "operators/spectrum/closure.h"
+
+#include <cmath>
+#include <random>
+
+namespace neumann {
+
+namespace {
+
+template <class Other>
+double defect(const ChannelOperator& K, int pairs, const Other& other) {
+    std::mt19937_64 bits(1);
+    const auto fill = [&](Vector& x) {
+        for (double& value : x) value = static_cast<double>(bits() >> 11) * 0x1p-52 - 1.0;
+    };
+    const auto dot = [&](const Vector& f, const Vector& g) { return f.cwiseProduct(K.measure()).dot(g); };
+    Vector f(K.size()), g(K.size()), Kf(K.size()), other_g(K.size());
+    double largest = 0.0;
+    for (int i = 0; i < pairs; ++i) {
+        fill(f);
+        fill(g);
+        K.apply(f, Kf);
+        other(g, other_g);
+        const double size = std::sqrt(dot(Kf, Kf) * dot(g, g));
+        if (size > 0.0) largest = std::max(largest, std::abs(dot(Kf, g) - dot(f, other_g)) / size);
+    }
+    return largest;
+}
+
+}  // namespace
+
+Vector row_sums(const ChannelOperator& F) {
+    Vector sums(F.size());
+    F.apply(Vector::Ones(F.size()), sums);
+    return sums;
+}
+
+double closure_defect(const ChannelOperator& F) { return F.size() == 0 ? 0.0 : (row_sums(F).array() - 1.0).abs().maxCoeff(); }
+
+double reciprocity_defect(const ChannelOperator& F, int pairs) {
+    return defect(F, pairs, [&](const Vector& g, Vector& y) { F.apply(g, y); });
+}
+
+double adjoint_defect(const ChannelOperator& K, int pairs) {
+    return defect(K, pairs, [&](const Vector& g, Vector& y) { K.apply_adjoint(g, y); });
+}
+
+}  // namespace neumann
