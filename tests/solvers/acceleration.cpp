@@ -167,6 +167,20 @@ TEST(Acceleration, MixedAlbedo) {
                -0.3418005946, 0.6622559027, 0.95);
 }
 
+// The quotient by the symmetries of the square stands for the whole cube: same iterates, same counts, but for rounding at the
+// threshold.
+TEST(Acceleration, QuotientTakesAsManyAsTheWholeCube) {
+    const Cube cube = make_cube(16);
+    Acceleration whole(cube, Vector::Constant(cube.size(), 0.9)), quotient = uniform(0.9);
+    for (const char* method : {"neumann", "ratio-tail", "aitken", "vector-epsilon", "anderson-3", "cg", "gmres"}) {
+        const Solver& solve = find_solver(method)->solve;
+        const Counts a = whole.counts(solve, 220), b = quotient.counts(solve, 220);
+        EXPECT_EQ(a[0], b[0]) << method;
+        EXPECT_EQ(a[1], b[1]) << method;
+        EXPECT_NEAR(a[2], b[2], 1) << method;
+    }
+}
+
 // What has no outside figures, by theory: with eigenvalues in [λ_n, λ_1] Gauss–Seidel needs between a third and all of the series'
 // applications (1/2 where K is consistently ordered), shooting does the same work in another order, and one more mode summed
 // exactly leaves the second eigenvalue, 0.473 at ρ = 0.9: ln(1e10)/ln(1/0.473) = 31.
@@ -186,6 +200,28 @@ TEST(Acceleration, RelaxationAndTheLeadingPair) {
     }
     EXPECT_GT(tail[2], 0);
     EXPECT_LE(tail[2], 35);
+}
+
+// Each look is told as it happens, and applications only grow.
+TEST(Acceleration, ObserverSeesTheHistory) {
+    Acceleration cube = uniform(0.9);
+    for (const NamedSolver& solver : solvers()) {
+        Problem problem = cube.problem();
+        problem.tolerance = 1e-4;
+        problem.radius = 0.9;
+        std::vector<SolverStep> seen;
+        problem.observer = [&](const SolverStep& step) { seen.push_back(step); };
+        const SolverResult result = solver.solve(problem);
+        ASSERT_EQ(seen.size(), result.history.size()) << solver.name;
+        ASSERT_FALSE(seen.empty()) << solver.name;
+        for (std::size_t i = 1; i < seen.size(); ++i) {
+            EXPECT_GE(seen[i].applications, seen[i - 1].applications) << solver.name;
+            EXPECT_GE(seen[i].seconds, seen[i - 1].seconds) << solver.name;
+        }
+        EXPECT_NEAR(seen.back().applications, result.applications, 1e-9) << solver.name;
+        EXPECT_LE(seen.back().estimate, 1e-4) << solver.name;
+        EXPECT_LE(seen.back().error, 1e-3) << solver.name;
+    }
 }
 
 // All of them, stopped by their own estimate: the answer is what they say, to ten times the tolerance.
