@@ -1,7 +1,10 @@
 // What a surface does with the light that arrives: fs(p, ωi → ωo), in 1/sr. Directions are in the local frame, unit length and
 // pointing away from the surface; pdfs are per solid angle.
+//
+// Where fs is a delta (`Lobe::Kind::specular`), eval() and pdf() are 0, and sample() has the pdf ∞ (delta_pdf).
 #pragma once
 
+#include "core/material/conductor.h"
 #include "core/material/diffuse.h"
 
 #include <variant>
@@ -9,7 +12,7 @@
 namespace neumann {
 
 // A closed set: adding a material is a file beside diffuse.h and a name here.
-using Bsdf = std::variant<Diffuse>;
+using Bsdf = std::variant<Diffuse, Conductor>;
 
 inline Rgb eval(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
     return std::visit([&](const auto& b) { return b.eval(p, wo, wi); }, bsdf);
@@ -23,6 +26,9 @@ inline BsdfSample sample(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo
 // An upper bound on ∫ fs |cosθ| dω over all points and directions, for each channel.
 inline Rgb largest_albedo(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);
+}
+inline Lobe lobe(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
 }
 
 }  // namespace neumann

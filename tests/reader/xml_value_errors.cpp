@@ -20,7 +20,8 @@ protected:
 };
 
 TEST_F(XmlValueErrors, UnknownTypes) {
-    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"), "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: diffuse, twosided");
+    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"),
+              "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: conductor, diffuse, twosided");
     EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
     EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: path");
     EXPECT_EQ(error("<shape type=\"cylinder\"/>"),
@@ -216,6 +217,19 @@ TEST_F(XmlValueErrors, Bsdfs) {
               "scene.xml:2:1: bsdf 'twosided' stands inside another one");
     EXPECT_EQ(error("<bsdf type='twosided' id='a'><ref id='a'/></bsdf>"),
               "scene.xml:2:1: bsdf 'twosided' stands inside another one");
+}
+
+TEST_F(XmlValueErrors, Conductors) {
+    EXPECT_EQ(
+        error("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/></bsdf>"),
+        "scene.xml:3:25: material 'Au' of bsdf 'conductor' is not supported; allowed: none, which is a perfect mirror, or eta "
+        "and k in its place, as rgb or float");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<spectrum name=\"eta\" value=\"400:1.6 700:0.2\"/></bsdf>"),
+              "scene.xml:3:1: parameter 'eta' of bsdf 'conductor' is a spectrum, expected rgb, float or integer");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<rgb name=\"k\" value=\"3.9, -2.4, 2.2\"/></bsdf>"),
+              "scene.xml:3:15: k is negative: '3.9, -2.4, 2.2'");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<float name=\"int_ior\" value=\"1\"/></bsdf>"),
+              "scene.xml:3:8: unknown parameter 'int_ior' of bsdf 'conductor'; allowed: material, eta, k, specular_reflectance");
 }
 
 TEST_F(XmlValueErrors, UnusedDefinitionsAreCheckedToo) {
