@@ -6,13 +6,14 @@
 
 #include "core/material/conductor.h"
 #include "core/material/diffuse.h"
+#include "core/material/rough_conductor.h"
 
 #include <variant>
 
 namespace neumann {
 
 // A closed set: adding a material is a file beside diffuse.h and a name here.
-using Bsdf = std::variant<Diffuse, Conductor>;
+using Bsdf = std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>>;
 
 inline Rgb eval(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
     return std::visit([&](const auto& b) { return b.eval(p, wo, wi); }, bsdf);

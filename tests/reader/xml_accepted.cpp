@@ -256,6 +256,30 @@ TEST_F(XmlAccepted, Conductors) {
     EXPECT_EQ(both.sides_of_shape.at(0).front, both.sides_of_shape.at(0).back);
 }
 
+TEST_F(XmlAccepted, RoughConductors) {
+    const auto material = [&](const std::string& inside) {
+        return read("<shape type='cube'><bsdf type='roughconductor'>" + inside + "</bsdf></shape>").bsdfs.at(0);
+    };
+    EXPECT_TRUE(std::holds_alternative<RoughConductor<Beckmann>>(material("")));
+    EXPECT_EQ(lobe(material("")).kind, Lobe::Kind::rough);
+    EXPECT_EQ(lobe(material("")).alpha, 0.1);
+    EXPECT_EQ(largest_albedo(material("")), Rgb(1.0));
+    const Bsdf ggx = material(
+        "<string name='distribution' value='ggx'/><float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>"
+        "<boolean name='sample_visible' value='false'/><rgb name='specular_reflectance' value='0.9, 0.8, 0.7'/>"
+        "<float name='eta' value='0.2'/><float name='k' value='3'/>");
+    ASSERT_TRUE(std::holds_alternative<RoughConductor<Ggx>>(ggx));
+    EXPECT_EQ(lobe(ggx).alpha, 0.3);
+    EXPECT_EQ(largest_albedo(ggx), Rgb(0.9, 0.8, 0.7));
+    // At normal incidence on both sides G = 1 and D = 1/(π α²); Mitsuba's masking is the separable one.
+    const Vec3 up(0, 0, 1), slant(0.6, 0, 0.8);
+    const double F = (0.64 + 9.0) / (1.44 + 9.0);
+    EXPECT_NEAR(eval(ggx, {}, up, up).g, 0.8 * F * inv_pi / 0.09 / 4.0, 1e-13);
+    const double G1 = 2.0 / (1.0 + std::sqrt(1.0 + 0.09 * 0.5625));
+    const Bsdf perfect = material("<string name='distribution' value='ggx'/><float name='alpha' value='0.3'/>");
+    EXPECT_NEAR(eval(perfect, {}, slant, slant).g, G1 * G1 * 0.09 * inv_pi / std::pow(0.36 + 0.09 * 0.64, 2) / (4.0 * 0.64), 1e-13);
+}
+
 TEST_F(XmlAccepted, Spheres) {
     const Sphere sphere = std::get<Sphere>(
         read("<shape type='sphere'><point name='center' x='1' y='2' z='3'/><float name='radius' value='2'/>"
