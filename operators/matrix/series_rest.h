@@ -1,6 +1,7 @@
-// Σ_{k>N} K^k Le, the rest of a series whose terms are so far known, with few applications of K: terms are added until they fall
-// all alike, t_{n+1} ≈ λ t_n, and what follows is closed as a geometric series, t_n λ/(1−λ). The error of that, about ‖t_{n+1} − λ
-// t_n‖/(1−λ)², is below `closing_error` of the rest; for pictures, not for proofs.
+// Σ_{k>N} K^k Le, the rest of a series whose terms are so far known, with few applications of K: terms are added until every second
+// one falls alike, t_{n+2} ≈ μ t_n (light between a lamp and the ceiling goes to and fro, so neighbours need not), and what follows
+// is closed as a geometric series, (t_{n+1} + t_{n+2}) μ/(1−μ). The error of that, about ‖t_{n+2} − μ t_n‖/(1−μ)², is below
+// `closing_error` of the rest; for pictures, not for proofs.
 #pragma once
 
 #include "operators/matrix/patch_field.h"
@@ -25,24 +26,23 @@ template <int C, class Op>
 SeriesRest<C> rest_of_series(const Op& K, ExitantVector<C> term) {
     SeriesRest<C> rest{ExitantVector<C>::Zero(C, term.cols())};
     while (rest.applications < most_terms_of_rest) {
-        const ExitantVector<C> before = std::move(term);
-        term = K(before);
-        rest.sum += term;
-        ++rest.applications;
+        const ExitantVector<C> first = std::move(term), second = K(first);
+        term = K(second);
+        rest.sum += second + term;
+        rest.applications += 2;
         bool closed = true;
         Channels<C> factor = Channels<C>::Zero(C);
         for (int c = 0; c < C && closed; ++c) {
-            const double size = rest.sum.row(c).abs().maxCoeff();
-            if (size == 0.0) continue;
-            const auto t = term.row(c) / size, t0 = before.row(c) / size;
-            const double along = (t * t0).sum(), lambda = along > 0.0 ? (t * t).sum() / along : 0.0;
-            if ((t == 0.0).all()) continue;
-            const double left = 1.0 - lambda, error = (t - lambda * t0).abs().maxCoeff() / (left * left);
-            closed = lambda > 0.0 && left > 0.0 && error <= closing_error;
-            factor[c] = lambda / left;
+            const double size = rest.sum.row(c).abs().maxCoeff(), last = first.row(c).abs().maxCoeff();
+            if (size == 0.0 || last == 0.0) continue;
+            // Relative to the last, so that squares do not vanish.
+            const double mu = (term.row(c) / last * (first.row(c) / last)).sum() / (first.row(c) / last).square().sum();
+            const double left = 1.0 - mu, error = (term.row(c) - mu * first.row(c)).abs().maxCoeff() / (left * left);
+            closed = left > 0.0 && error <= closing_error * size;
+            factor[c] = mu / left;
         }
         if (!closed) continue;
-        rest.sum += term.colwise() * factor;
+        rest.sum += (second + term).colwise() * factor;
         rest.converges = true;
         return rest;
     }

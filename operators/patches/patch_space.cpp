@@ -36,11 +36,11 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
     for (std::uint32_t f = 0; f < facets_.size(); ++f) facet_of_side_[2 * facets_[f].patch + (facets_[f].front ? 0 : 1)] = f;
 }
 
-PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Vec3& w) const {
+PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::Place& place, const Vec3& w) const {
     const bool front = glm::dot(p.normal, w) > 0.0;
     Reading reading{{nothing(), nothing(), nothing(), nothing()}, {}};
     if (sides_[p.shape].of(front) == 0) return reading;
-    const Patches::Reading patches = patches_.interpolate(p);
+    const Patches::Reading patches = patches_.interpolate(place);
     for (std::size_t i = 0; i < 4; ++i) {
         const std::uint32_t f = facet(patches.patch[i], front);
         if (f == facets_.size()) return reading;

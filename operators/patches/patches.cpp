@@ -198,25 +198,22 @@ Patches::Neighbours Patches::neighbours(const Axis& axis, double x) {
     return {low, low + 1, (x - axis.middles[low]) / (axis.middles[low + 1] - axis.middles[low])};
 }
 
-Patches::Reading Patches::interpolate(const SurfacePoint& p) const {
-    const std::uint32_t chart = atlas_.chart_of(p);
-    const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
-    const Grid& grid = grids_[chart];
-    const Neighbours s = neighbours(grid.s, st.x), t = neighbours(grid.t, st.y);
+Patches::Reading Patches::interpolate(const Place& p) const {
+    const Grid& grid = grids_[p.chart];
+    const Neighbours s = neighbours(grid.s, p.st.x), t = neighbours(grid.t, p.st.y);
     const std::uint32_t n = size_of(grid.s);
     Reading reading{
         {grid.first + t.low * n + s.low, grid.first + t.low * n + s.high, grid.first + t.high * n + s.low,
          grid.first + t.high * n + s.high},
         {(1.0 - t.weight) * (1.0 - s.weight), (1.0 - t.weight) * s.weight, t.weight * (1.0 - s.weight), t.weight * s.weight}};
-    if (footprints_[chart].empty()) {
+    if (footprints_[p.chart].empty()) {
         for (std::uint32_t& patch : reading.patch) patch = first_of_cell_[patch];
         return reading;
     }
     // Only patches on the same side of all outlines; where those are too few, the value of the point's own.
-    const std::uint32_t class_bits = footprints_[chart].classes(st);
     double left = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const auto found = find(reading.patch[i], class_bits);
+        const auto found = find(reading.patch[i], p.class_bits);
         reading.patch[i] = found.value_or(first_of_cell_[reading.patch[i]]);
         if (found)
             left += reading.weight[i];

@@ -31,15 +31,24 @@ public:
     double area(std::uint32_t patch) const { return patches_[patch].area; }
     const Chart& chart(std::uint32_t patch) const { return charts()[patches_[patch].chart]; }
 
-    std::uint32_t locate(const SurfacePoint& p) const {
+    // Where a point is on its chart; the same on coarser patches.
+    struct Place {
+        std::uint32_t chart;
+        Vec2 st;
+        std::uint32_t class_bits;
+    };
+    Place place(const SurfacePoint& p) const {
         const std::uint32_t chart = atlas_.chart_of(p);
         const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
-        const Grid& grid = grids_[chart];
-        const std::uint32_t c = grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
-        const std::uint32_t first = first_of_cell_[c];
-        if (first_of_cell_[c + 1] == first + 1) return first;
-        return find(c, footprints_[chart].classes(st)).value_or(first);
+        return {chart, st, footprints_[chart].empty() ? 0 : footprints_[chart].classes(st)};
     }
+    std::uint32_t locate(const Place& p) const {
+        const Grid& grid = grids_[p.chart];
+        const std::uint32_t c = grid.first + cell(grid.t, p.st.y) * size_of(grid.s) + cell(grid.s, p.st.x);
+        const std::uint32_t first = first_of_cell_[c];
+        return first_of_cell_[c + 1] == first + 1 ? first : find(c, p.class_bits).value_or(first);
+    }
+    std::uint32_t locate(const SurfacePoint& p) const { return locate(place(p)); }
     // Uniform by area for uniform u in [0, 1)².
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
@@ -54,7 +63,8 @@ public:
         std::array<std::uint32_t, 4> patch;
         std::array<double, 4> weight;
     };
-    Reading interpolate(const SurfacePoint& p) const;
+    Reading interpolate(const Place& p) const;
+    Reading interpolate(const SurfacePoint& p) const { return interpolate(place(p)); }
 
     const Geometry& geometry() const { return *geometry_; }
 

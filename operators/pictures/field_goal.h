@@ -18,10 +18,11 @@ struct FieldRun {
 };
 
 // Errors of whole pictures, relative: of sampling and of patches together, of every term that is not all zero. Where the largest
-// settings do not reach the error that is asked for, the outcome is samples_reached. observer.judge is not asked.
+// settings do not reach the error that is asked for, or no progress is made, the outcome is samples_reached. Interrupted, it
+// returns what the render before reached; the first one is short and is not interrupted. observer.judge is not asked.
 FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, double relative_error, const RenderObserver& observer);
 
-// What the settings of a single render reach.
+// What the settings of a single render reach; it is not interrupted.
 FieldRun render_fields_once(const Scene& scene, const FieldSettings& settings);
 
 }  // namespace neumann

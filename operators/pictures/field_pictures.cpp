@@ -99,7 +99,8 @@ private:
 
 }  // namespace
 
-FieldPictures render_fields(const Scene& scene, const FieldSettings& settings) {
+std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings,
+                                           const std::function<bool()>& interrupted) {
     const auto start = std::chrono::steady_clock::now();
     FieldPictures result;
     result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
@@ -168,9 +169,11 @@ FieldPictures render_fields(const Scene& scene, const FieldSettings& settings) {
     };
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
+        if (interrupted()) return;
         Workspace& work = workspaces.local();
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) render(group, work);
     });
+    if (interrupted()) return std::nullopt;
     // In a fixed order, so that threads do not matter.
     for (std::uint32_t group = 1; group < groups; ++group)
         for (std::size_t k = 0; k < means_of_group; ++k) means[k] += means[group * means_of_group + k];
@@ -181,6 +184,9 @@ FieldPictures render_fields(const Scene& scene, const FieldSettings& settings) {
     return result;
 }
 
-PictureError picture_error(const Estimate& picture) { return {relative_standard_error(picture), relative_discretisation(picture)}; }
+PictureError picture_error(const Estimate& picture) {
+    const double sampling = relative_standard_error(picture), difference = relative_discretisation(picture);
+    return {sampling, std::sqrt(std::max(difference * difference - sampling * sampling, 0.0))};
+}
 
 }  // namespace neumann

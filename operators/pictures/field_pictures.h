@@ -9,6 +9,8 @@
 #include "operators/statistics/picture_statistics.h"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace neumann {
@@ -43,9 +45,12 @@ struct FieldPictures {
     double field_seconds = 0.0, picture_seconds = 0.0;
 };
 
-FieldPictures render_fields(const Scene& scene, const FieldSettings& settings);
+// Nothing where `interrupted` answers true meanwhile; asked from any thread.
+std::optional<FieldPictures> render_fields(
+    const Scene& scene, const FieldSettings& settings, const std::function<bool()>& interrupted = [] { return false; });
 
-// The error of a whole picture, relative as relative_standard_error(): of the samples, of the patches, and of both.
+// The error of a whole picture, relative as relative_standard_error(): of the samples, of the patches, and of both. Rays make the
+// finer and the coarser fields differ, too: that much is not the patches'.
 struct PictureError {
     double sampling = 0.0, discretisation = 0.0;
     double all() const { return std::hypot(sampling, discretisation); }

@@ -29,8 +29,9 @@ void add(float* to, std::size_t bounce, const Rgb& x) {
 }
 
 // Bounces of a field at a point, from the `first`-th float on.
-void add_interpolated(const FieldStack& field, const SurfacePoint& p, const Vec3& w, std::size_t first, float* to) {
-    const PatchSpace::Reading reading = field.space().read(p, w);
+void add_interpolated(const FieldStack& field, const SurfacePoint& p, const Patches::Place& place, const Vec3& w, std::size_t first,
+                      float* to) {
+    const PatchSpace::Reading reading = field.space().read(p, place, w);
     const float* a = field[reading.unknown[0]];
     const float* b = field[reading.unknown[1]];
     const float* c = field[reading.unknown[2]];
@@ -93,8 +94,9 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
         rays[2] = gather(fields, looks);
     } else {
         for (const Look& l : looks) {
-            add_interpolated(fields.fine, l.x, l.wo, from_field_, l.sample->fine);
-            add_interpolated(fields.coarse, l.x, l.wo, from_field_, l.sample->coarse);
+            const Patches::Place place = fields.fine.space().patches().place(l.x);
+            add_interpolated(fields.fine, l.x, place, l.wo, from_field_, l.sample->fine);
+            add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, l.sample->coarse);
         }
     }
     return rays;
@@ -188,9 +190,9 @@ std::uint64_t FieldReader::find_lights_nearby(std::vector<Look>& looks) const {
 
 std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& looks) const {
     std::vector<float> arriving(stride_);
-    const auto reflect = [&](const FieldStack& field, const Look& l, float* to) {
+    const auto reflect = [&](const FieldStack& field, const Look& l, const Patches::Place& place, float* to) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
-        add_interpolated(field, l.y, -l.wi, 0, arriving.data());
+        add_interpolated(field, l.y, place, -l.wi, 0, arriving.data());
         // Bounce i is R T of bounce i − 1, and the rest that of bounce N and the rest.
         for (std::size_t k = stride_ - 3; k < stride_; ++k) arriving[k - 3] += arriving[k];
         for (std::size_t k = from_field_; k < stride_; ++k)
@@ -214,8 +216,10 @@ std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& lo
             [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i]->x, asking[i]->wi); },
             [&](std::size_t i) -> SurfacePoint& { return asking[i]->y; },
             [&](std::size_t i) {
-                reflect(fields.fine, *asking[i], asking[i]->sample->fine);
-                reflect(fields.coarse, *asking[i], asking[i]->sample->coarse);
+                const Look& l = *asking[i];
+                const Patches::Place place = fields.fine.space().patches().place(l.y);
+                reflect(fields.fine, l, place, l.sample->fine);
+                reflect(fields.coarse, l, place, l.sample->coarse);
             });
     }
     return rays;

@@ -58,7 +58,7 @@ DiscretisationReport report_discretisation(const Estimate& picture) {
         report.worst_x = static_cast<int>(i) % error.width;
         report.worst_y = static_cast<int>(i) / error.width;
     }
-    report.relative = relative_discretisation(picture);
+    report.relative = picture_error(picture).discretisation;
     return report;
 }
 

@@ -14,7 +14,7 @@ namespace neumann {
 struct DiscretisationReport {
     double mean = 0.0, worst = 0.0;  // of the error, over pixels and channels, radiance
     int worst_x = 0, worst_y = 0;    // where the worst is
-    double relative = 0.0;           // √(Σ error² / Σ mean²)
+    double relative = 0.0;           // √(Σ error² / Σ mean²), without what noise explains
 };
 
 struct BounceReport {

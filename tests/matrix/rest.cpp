@@ -1,0 +1,71 @@
+// The rest of a series, closed with few applications, against sums known exactly.
+#include "operators/matrix/series_rest.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+namespace neumann {
+namespace {
+
+// K as a matrix, each channel by itself, and the last unknown for nothing.
+ExitantVector<1> times(const Eigen::MatrixXd& K, const ExitantVector<1>& x) {
+    ExitantVector<1> y = x;
+    y.leftCols(K.rows()) = (K * x.leftCols(K.rows()).matrix().transpose()).transpose().array();
+    return y;
+}
+SeriesRest<1> rest(const Eigen::MatrixXd& K, const std::vector<double>& term) {
+    ExitantVector<1> t = ExitantVector<1>::Zero(1, K.rows() + 1);
+    for (std::size_t i = 0; i < term.size(); ++i) t(0, static_cast<Eigen::Index>(i)) = term[i];
+    return rest_of_series<1>([&](const ExitantVector<1>& x) { return times(K, x); }, t);
+}
+// (I − K)⁻¹ K t.
+Eigen::VectorXd exactly(const Eigen::MatrixXd& K, const std::vector<double>& term) {
+    const Eigen::VectorXd t = Eigen::Map<const Eigen::VectorXd>(term.data(), static_cast<Eigen::Index>(term.size()));
+    return (Eigen::MatrixXd::Identity(K.rows(), K.rows()) - K).partialPivLu().solve(K * t);
+}
+void expect_right(const Eigen::MatrixXd& K, const std::vector<double>& term, int applications) {
+    const auto found = rest(K, term);
+    const Eigen::VectorXd exact = exactly(K, term);
+    EXPECT_TRUE(found.converges);
+    EXPECT_LE(found.applications, applications);
+    for (Eigen::Index i = 0; i < K.rows(); ++i)
+        EXPECT_NEAR(found.sum(0, i), exact[i], 10.0 * closing_error * exact.cwiseAbs().maxCoeff());
+}
+
+TEST(SeriesRest, TwoRoomsThatFallAlike) {
+    Eigen::MatrixXd K(2, 2);
+    K << 0.5, 0.3, 0.2, 0.6;
+    expect_right(K, {1.0, 0.1}, 20);
+}
+
+TEST(SeriesRest, SlowSeriesTakesNoLonger) {
+    Eigen::MatrixXd K(2, 2);
+    K << 0.5, 0.4999, 0.4999, 0.5;
+    expect_right(K, {1.0, 0.1}, 20);
+}
+
+// Near-parallel plates: terms alternate and the ratio of neighbours never settles.
+TEST(SeriesRest, LightThatGoesToAndFro) {
+    Eigen::MatrixXd K(2, 2);
+    K << 0.0, 0.9, 0.9 * 0.99 * 0.99, 0.9 * (1.0 - 0.99 * 0.99);
+    expect_right(K, {1.0, 0.0}, 400);
+    K << 0.0, 0.93, 0.88, 0.0;
+    expect_right(K, {1.0, 0.0}, 4);
+}
+
+TEST(SeriesRest, NothingLeft) {
+    const auto found = rest(Eigen::MatrixXd::Zero(2, 2), {1.0, 1.0});
+    EXPECT_TRUE(found.converges);
+    EXPECT_EQ(found.sum.abs().maxCoeff(), 0.0);
+}
+
+TEST(SeriesRest, AlbedoOneOrMoreDoesNotConverge) {
+    Eigen::MatrixXd K(2, 2);
+    K << 0.5, 0.5, 0.5, 0.5;
+    EXPECT_FALSE(rest(K, {1.0, 0.1}).converges);
+    K << 0.7, 0.4, 0.4, 0.7;
+    EXPECT_FALSE(rest(K, {1.0, 0.1}).converges);
+}
+
+}  // namespace
+}  // namespace neumann
