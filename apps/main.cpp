@@ -2,6 +2,7 @@
 #include "apps/compare.h"
 #include "apps/options.h"
 #include "apps/render.h"
+#include "apps/solve.h"
 #include "apps/spectrum.h"
 #include "core/base/error.h"
 
@@ -107,6 +108,8 @@ int main(int argc, char** argv) try {
     compare->add_flag("--json", json, "Print JSON");
     neumann::SpectrumRequest spectrum_request;
     auto* spectrum = neumann::add_spectrum(app, spectrum_request);
+    neumann::SolveRequest solve_request;
+    auto* solve = neumann::add_solve(app, solve_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -135,6 +138,10 @@ int main(int argc, char** argv) try {
     if (*spectrum) {
         spectrum_request.patches.command_line = command_line;
         return finish(neumann::spectrum_command(spectrum_request));
+    }
+    if (*solve) {
+        solve_request.patches.command_line = command_line;
+        return finish(neumann::solve_command(solve_request));
     }
 
     request.definitions = neumann::parse_definitions(definitions);

@@ -53,14 +53,15 @@ TEST_F(SpectrumCommand, Furnace) {
 }
 
 // Two surfaces that exchange light: F_ss = 3/4, F_sd = 1/4, and F_ds = 3/4 / 0.87², for the disk's rim is outside. 13 rings of
-// patches, of which the disk's plane is nearly a border. The limit is a third of 1/√(rays), a deviation of one ray.
+// patches, of which the disk's plane is nearly a border: this moves the eigenvalues by up to 0.0003. Over 50 seeds they have
+// standard deviations of at most 0.0005, of which the limit is 4.5, and the 0.0003.
 TEST_F(SpectrumCommand, SphereSegment) {
     for (const auto& [rho_s, rho_d] : {std::pair(0.5, 0.7), std::pair(0.9, 0.3)}) {
         const auto j = json({segment, "--patches", "300", "--directions", "256", "-D", fmt::format("sphere_albedo={}", rho_s), "-D",
                              fmt::format("disk_albedo={}", rho_d)});
         const double trace = 0.75 * rho_s, root = std::sqrt(trace * trace + rho_s * rho_d * 0.75 / (0.87 * 0.87));
         const auto& grey = j["channels"][0];
-        const double limit = 0.33 / std::sqrt(j["rays"].get<double>());
+        const double limit = 4.5 * 0.0005 + 0.0003;
         EXPECT_NEAR(grey["spectral_radius"], 0.5 * (trace + root), limit);
         EXPECT_NEAR(grey["eigenvalues"][0]["real"], 0.5 * (trace + root), limit);
         // The cavity behind the disk has an eigenvalue of its own, and other modes are noise.
