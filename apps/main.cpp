@@ -1,5 +1,6 @@
 // The command line.
 #include "apps/compare.h"
+#include "apps/export.h"
 #include "apps/options.h"
 #include "apps/render.h"
 #include "apps/solve.h"
@@ -110,6 +111,8 @@ int main(int argc, char** argv) try {
     auto* spectrum = neumann::add_spectrum(app, spectrum_request);
     neumann::SolveRequest solve_request;
     auto* solve = neumann::add_solve(app, solve_request);
+    neumann::ExportRequest export_request;
+    auto* export_matrices = neumann::add_export(app, export_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -142,6 +145,10 @@ int main(int argc, char** argv) try {
     if (*solve) {
         solve_request.patches.command_line = command_line;
         return finish(neumann::solve_command(solve_request));
+    }
+    if (*export_matrices) {
+        export_request.patches.command_line = command_line;
+        return finish(neumann::export_command(export_request));
     }
 
     request.definitions = neumann::parse_definitions(definitions);
