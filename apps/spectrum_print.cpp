@@ -29,7 +29,7 @@ void print_transport(const SpectrumReport& report) {
                report.row_max);
     fmt::print("{:<30}{:>8.2f} %   or a side that neither reflects nor shines\n", "  rays that see nothing",
                100.0 * report.rays_without_hit);
-    fmt::print("{:<30}{:>10.1e}   statistical: a traced T is reciprocal only on average\n", "  reciprocity defect",
+    fmt::print("{:<30}{:>10.1e}   statistical: T is traced, the functions are random\n", "  reciprocity defect",
                report.reciprocity_defect);
 }
 
