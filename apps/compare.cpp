@@ -54,6 +54,7 @@ Side read_side(const std::string& path) {
     Side side;
     Attributes attributes;
     side.picture = read_exr(path, &attributes);
+    side.picture.pixels_are_independent = !attributes.contains("neumann:pixels");
     const auto variance = attributes.find("neumann:variance");
     if (variance != attributes.end()) {
         const auto* text = std::get_if<std::string>(&variance->second);

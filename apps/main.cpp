@@ -63,16 +63,25 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
         ->type_name("REL")
         ->check(neumann::above_zero());
     render
-        ->add_option("--method", request.method, "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain")
+        ->add_option(
+            "--method", request.method,
+            "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
+            "gather: the same with K once more at the pixel; patches: the patches as they are")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "pointwise"}).description(""))
+        ->check(CLI::IsMember({"walk", "pointwise", "matrix", "gather", "patches"}).description(""))
         ->capture_default_str();
     render
-        ->add_option("--direct", direct,
-                     "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis)")
+        ->add_option(
+            "--direct", direct,
+            "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis, the default)")
         ->type_name("HOW")
-        ->check(CLI::IsMember({"light", "bsdf", "mis"}).description(""))
-        ->capture_default_str();
+        ->check(CLI::IsMember({"light", "bsdf", "mis"}).description(""));
+    render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
+        ->type_name("N")
+        ->check(neumann::whole_from(0, std::uint64_t{1} << 40));
+    render->add_option("--directions", request.directions, "Rays of a patch, of patches, matrix and gather")
+        ->type_name("N")
+        ->check(neumann::whole_from(1, 1u << 20));
     render
         ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
         ->type_name("DIR");
@@ -98,7 +107,7 @@ int main(int argc, char** argv) try {
 
     neumann::RenderRequest request;
     std::vector<std::string> definitions;
-    std::string direct = "mis";
+    std::string direct;
     add_render(app, request, definitions, direct);
     std::string a, b;
     bool json = false;
@@ -155,9 +164,10 @@ int main(int argc, char** argv) try {
     request.command_line = command_line;
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
-    request.direct = direct == "light"  ? neumann::DirectLight::light
-                     : direct == "bsdf" ? neumann::DirectLight::bsdf
-                                        : neumann::DirectLight::mis;
+    if (!direct.empty())
+        request.direct = direct == "light"  ? neumann::DirectLight::light
+                         : direct == "bsdf" ? neumann::DirectLight::bsdf
+                                            : neumann::DirectLight::mis;
     return finish(neumann::render_command(request));
 } catch (const neumann::InputError& e) {
     complain(e.what());

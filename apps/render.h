@@ -21,7 +21,9 @@ struct RenderRequest {
     std::optional<double> seconds;
     std::optional<double> relative_error;
     std::string method = "walk";
-    DirectLight direct = DirectLight::mis;
+    std::optional<DirectLight> direct;
+    std::optional<std::size_t> patches;
+    std::optional<std::uint32_t> directions;
     std::string reference;  // a folder of an earlier render, or empty
     std::uint64_t seed = 0;
     int threads = 0;  // 0: all

@@ -39,20 +39,8 @@ const char* name(Outcome outcome) {
     return "";
 }
 
-const char* name(DirectLight direct) {
-    switch (direct) {
-        case DirectLight::light:
-            return "light";
-        case DirectLight::bsdf:
-            return "bsdf";
-        case DirectLight::mis:
-            return "mis";
-    }
-    return "";
-}
-
-Json rest_json(const Scene& scene, const PictureSampler::Settings& settings, const Pilot& pilot, const RenderedSeries& series,
-               const SeriesReport& report) {
+Json rest_json(const Scene& scene, const RenderResult& result) {
+    const SeriesReport& report = result.series.report;
     const double bound = report.bounces.back().bound;
     Json json;
     switch (report.rest_verdict) {
@@ -60,19 +48,15 @@ Json rest_json(const Scene& scene, const PictureSampler::Settings& settings, con
             json = mean_json(report.rest, report.rest_infinite_variance);
             json["verdict"] = "measured";
             json["fraction_of_sum_with_interval"] = number(report.tail_fraction());
-            json["probability_of_being_sampled"] = settings.walk.rest_probability;
-            json["walks_given_up"] = series.tally.given_up;
             break;
         case RestVerdict::not_converging:
             json["verdict"] = "not converging";
-            json["why"] = std::to_string(pilot.given_up()) + " of " + std::to_string(pilot.walks()) +
-                          " walks had not ended after " + std::to_string(Pilot::bounces + Pilot::give_up) +
-                          " bounces and were given up";
             break;
         case RestVerdict::not_sampled:
             json["verdict"] = "not sampled by this method";
             break;
     }
+    if (!result.rest.is_null()) json.update(result.rest);
     json["a_priori_bound"] = number(bound);
     json["a_priori_bound_note"] =
         std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
@@ -83,42 +67,44 @@ Json rest_json(const Scene& scene, const PictureSampler::Settings& settings, con
     return json;
 }
 
+void add_discretisation(Json& json, const std::optional<DiscretisationReport>& report) {
+    if (!report) return;
+    json["discretisation"] = {{"mean", report->mean},
+                              {"worst", report->worst},
+                              {"worst_pixel", {report->worst_x, report->worst_y}},
+                              {"relative", report->relative}};
+}
+
 }  // namespace
 
-Json run_json(const RenderRequest& request, const Scene& scene, const PictureSampler::Settings& settings, const Pilot& pilot,
-              const RenderedSeries& series, const SeriesReport& report, const Warnings& warnings, double seconds_total) {
+Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, double seconds_total) {
+    const auto& [request, scene, pilot] = job;
+    const BounceSeries& series = result.series;
+    const SeriesReport& report = series.report;
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = request.command_line;
     json["scene"] = {{"file", request.scene}, {"hash", scene.hash}, {"definitions", request.definitions}};
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
-    json["options"] = {{"bounces", settings.walk.bounces},
-                       {"method", request.method},
-                       {"direct", name(settings.walk.direct)},
-                       {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-                       {"seed", settings.seed}};
-    json["samples"] = {{"per_pixel", series.samples},
-                       {"replicate_size", series.replicate_size},
-                       {"replicates", series.moments.replicates()},
-                       {"degrees_of_freedom", series.moments.result().degrees_of_freedom()},
-                       {"outcome", name(series.outcome)}};
-    std::uint64_t rays = 0;
-    for (const std::uint64_t r : series.tally.rays) rays += r;
-    json["timing"] = {{"sampling_seconds", series.seconds}, {"total_seconds", seconds_total}, {"rays", rays}};
+    json["options"] = result.options;
+    json["samples"] = result.samples;
+    json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;
+    json["samples"]["outcome"] = name(series.outcome);
+    json["timing"] = {{"sampling_seconds", series.seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     json["sum"] = mean_json(report.sum, report.infinite_variance());
+    add_discretisation(json["sum"], report.sum_discretisation);
     json["bounces"] = Json::array();
     for (const BounceReport& b : report.bounces) {
         Json bounce = mean_json(b.mean, b.infinite_variance);
+        add_discretisation(bounce, b.discretisation);
         if (b.ratio) bounce["ratio_estimate"] = *b.ratio;
         bounce["tail_bound"] = number(b.bound);
         if (b.tail) bounce["tail_index"] = {{"estimate", b.tail->alpha}, {"upper_99.9", b.tail->upper}};
         bounce["rays"] = b.rays;
         json["bounces"].push_back(bounce);
     }
-    json["rest"] = rest_json(scene, settings, pilot, series, report);
-    json["non_finite_samples"] = {{"count", series.tally.non_finite_count}, {"first", Json::array()}};
-    for (const NonFiniteSample& s : series.tally.non_finite)
-        json["non_finite_samples"]["first"].push_back({{"x", s.x}, {"y", s.y}, {"bounce", s.bounce}, {"sample", s.sample}});
+    json["rest"] = rest_json(scene, result);
+    json["non_finite_samples"] = result.non_finite;
     json["warnings"] = Json::array();
     for (const auto& [text, count] : warnings.counts()) json["warnings"].push_back({{"text", text}, {"count", count}});
     return json;

@@ -12,30 +12,32 @@ namespace neumann {
 std::string bounce_file(std::size_t i) { return fmt::format("bounce_{:03}.exr", i); }
 std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
 
-std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, const SeriesReport& report) {
-    const auto result = series.moments.result();
+std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
+    const SeriesReport& report = series.report;
     const std::size_t N = report.bounces.size() - 1;
-    const auto attributes = [&](const char* quantity, std::size_t bounce, bool infinite_variance) {
-        return Attributes{{"neumann:quantity", std::string(quantity)},
-                          {"neumann:bounce", static_cast<std::int64_t>(bounce)},
-                          {"neumann:samples", static_cast<std::int64_t>(series.samples)},
-                          {"neumann:degrees_of_freedom", result.degrees_of_freedom()},
-                          {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
+    const auto attributes = [&](const char* quantity, std::size_t bounce, const Estimate& picture, bool infinite_variance) {
+        Attributes all{{"neumann:quantity", std::string(quantity)},
+                       {"neumann:bounce", static_cast<std::int64_t>(bounce)},
+                       {"neumann:samples", static_cast<std::int64_t>(series.samples)},
+                       {"neumann:degrees_of_freedom", series.degrees_of_freedom},
+                       {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
+        if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
+        return all;
     };
     std::vector<Image> terms, sums;
     bool any_infinite = false;
     for (std::size_t i = 0; i <= N; ++i) {
-        Estimate term = result.term(i), sum = result.sum(i);
+        Estimate term = series.term(i), sum = series.sum(i);
         any_infinite = any_infinite || report.bounces[i].infinite_variance;
-        folder.write(bounce_file(i), encode_exr(term, attributes("K^i Le", i, report.bounces[i].infinite_variance)));
-        folder.write(sum_file(i), encode_exr(sum, attributes("sum of K^k Le for k <= i", i, any_infinite)));
+        folder.write(bounce_file(i), encode_exr(term, attributes("K^i Le", i, term, report.bounces[i].infinite_variance)));
+        folder.write(sum_file(i), encode_exr(sum, attributes("sum of K^k Le for k <= i", i, sum, any_infinite)));
         terms.push_back(std::move(term.mean));
         sums.push_back(std::move(sum.mean));
     }
-    if (report.rest_verdict == RestVerdict::measured) {
-        Estimate rest = result.term(N + 1);
-        folder.write("rest.exr", encode_exr(rest, attributes("sum of K^k Le for k > i", N, report.rest_infinite_variance)));
-        terms.push_back(std::move(rest.mean));
+    if (series.rest) {
+        folder.write("rest.exr", encode_exr(*series.rest,
+                                            attributes("sum of K^k Le for k > i", N, *series.rest, report.rest_infinite_variance)));
+        terms.push_back(series.rest->mean);
     }
 
     std::vector<LabelledPicture> term_pictures, sum_pictures;
@@ -53,13 +55,17 @@ std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, c
 }
 
 std::string series_table(const SeriesReport& report) {
-    std::string csv = "bounce,mean,mean_stderr,ratio,bound,rays,seconds,interval95\n";
+    std::string csv = "bounce,mean,mean_stderr,ratio,bound,rays,seconds,interval95";
+    const bool discretised = report.sum_discretisation.has_value();
+    csv += discretised ? ",discretisation_mean,discretisation_worst,worst_x,worst_y\n" : "\n";
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const BounceReport& b = report.bounces[i];
         const double infinity = std::numeric_limits<double>::infinity();
-        csv += fmt::format("{},{:.9g},{:.4g},{},{:.9g},{},{:.4g},{:.4g}\n", i, b.mean.mean,
+        csv += fmt::format("{},{:.9g},{:.4g},{},{:.9g},{},{:.4g},{:.4g}", i, b.mean.mean,
                            b.infinite_variance ? infinity : b.mean.standard_error, b.ratio ? fmt::format("{:.6g}", *b.ratio) : "",
                            b.bound, b.rays, b.seconds, b.infinite_variance ? infinity : b.mean.interval());
+        if (const auto& d = b.discretisation) csv += fmt::format(",{:.4g},{:.4g},{},{}", d->mean, d->worst, d->worst_x, d->worst_y);
+        csv += "\n";
     }
     return csv;
 }

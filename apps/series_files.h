@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/output_folder.h"
-#include "operators/pictures/series_report.h"
+#include "operators/pictures/bounce_series.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,7 +11,7 @@ namespace neumann {
 
 // bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif. Returns a warning where labels were left out, or
 // nothing.
-std::string write_pictures(OutputFolder& folder, const RenderedSeries& series, const SeriesReport& report);
+std::string write_pictures(OutputFolder& folder, const BounceSeries& series);
 
 // series.csv, and convergence.csv.
 std::string series_table(const SeriesReport& report);

@@ -28,6 +28,8 @@ struct Image {
 struct Estimate {
     Image mean, standard_error;
     double degrees_of_freedom = 0.0;
+    Image discretisation = {};  // ≥ 0: how far the mean is estimated to be from the truth whatever the samples; empty: not at all
+    bool pixels_are_independent = true;
 };
 
 }  // namespace neumann

@@ -26,6 +26,7 @@ namespace {
 
 constexpr std::array<const char*, 3> mean_channels = {"R", "G", "B"};
 constexpr std::array<const char*, 3> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
+constexpr std::array<const char*, 3> discretisation_channels = {"discretisation.R", "discretisation.G", "discretisation.B"};
 
 std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
     std::vector<unsigned char> bytes;
@@ -111,25 +112,30 @@ void expect_readable(const std::string& path) {
 }  // namespace
 
 std::string encode_exr(const Estimate& picture, const Attributes& attributes) {
-    const Image& mean = picture.mean;
-    const Image& error = picture.standard_error;
-    const bool has_error = !error.pixels.empty();
-    if (mean.pixels.empty() || (has_error && (error.width != mean.width || error.height != mean.height))) {
-        throw std::invalid_argument("encode_exr: an empty picture, or a standard error of another size");
+    struct Layer {
+        const Image* image;
+        const std::array<const char*, 3>* channels;
+    };
+    std::vector<Layer> layers{{&picture.mean, &mean_channels}};
+    if (!picture.standard_error.pixels.empty()) layers.push_back({&picture.standard_error, &error_channels});
+    if (!picture.discretisation.pixels.empty()) layers.push_back({&picture.discretisation, &discretisation_channels});
+    const int width = picture.mean.width, height = picture.mean.height;
+    OIIO::ImageSpec spec(width, height, 3 * static_cast<int>(layers.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames.clear();
+    for (const Layer& layer : layers) {
+        if (layer.image->pixels.empty() || layer.image->width != width || layer.image->height != height)
+            throw std::invalid_argument("encode_exr: an empty picture, or errors of another size");
+        spec.channelnames.insert(spec.channelnames.end(), layer.channels->begin(), layer.channels->end());
     }
-    OIIO::ImageSpec spec(mean.width, mean.height, has_error ? 6 : 3, OIIO::TypeDesc::FLOAT);
-    spec.channelnames.assign(mean_channels.begin(), mean_channels.end());
-    if (has_error) spec.channelnames.insert(spec.channelnames.end(), error_channels.begin(), error_channels.end());
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", "");  // not the present time: the same pictures are the same bytes
     for (const auto& [name, value] : attributes) set_attribute(spec, name, value);
 
     std::vector<float> values;
-    values.reserve(mean.pixels.size() * static_cast<std::size_t>(spec.nchannels));
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(mean.pixels[i][c]));
-        for (int c = 0; has_error && c < 3; ++c) values.push_back(static_cast<float>(error.pixels[i][c]));
-    }
+    values.reserve(picture.mean.pixels.size() * static_cast<std::size_t>(spec.nchannels));
+    for (std::size_t i = 0; i < picture.mean.pixels.size(); ++i)
+        for (const Layer& layer : layers)
+            for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(layer.image->pixels[i][c]));
     return encode("exr", spec, OIIO::TypeDesc::FLOAT, values.data());
 }
 
@@ -171,6 +177,8 @@ Estimate read_exr(const std::string& path, Attributes* attributes) {
     if (attributes != nullptr) get_attributes(spec, *attributes);
     Estimate picture{pick_channels(spec, values, *mean_places), {}};
     if (const auto places = find_channels(spec, error_channels)) picture.standard_error = pick_channels(spec, values, *places);
+    if (const auto places = find_channels(spec, discretisation_channels))
+        picture.discretisation = pick_channels(spec, values, *places);
     return picture;
 }
 

@@ -1,15 +1,19 @@
 // What a surface does with the light that arrives: fs(p, ωi → ωo), in 1/sr. Directions are in the local frame, unit length and
 // pointing away from the surface; pdfs are per solid angle.
+//
+// Where fs is a delta (`Lobe::Kind::specular`), eval() and pdf() are 0, and sample() has the pdf ∞ (delta_pdf).
 #pragma once
 
+#include "core/material/conductor.h"
 #include "core/material/diffuse.h"
+#include "core/material/rough_conductor.h"
 
 #include <variant>
 
 namespace neumann {
 
 // A closed set: adding a material is a file beside diffuse.h and a name here.
-using Bsdf = std::variant<Diffuse>;
+using Bsdf = std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>>;
 
 inline Rgb eval(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
     return std::visit([&](const auto& b) { return b.eval(p, wo, wi); }, bsdf);
@@ -24,11 +28,12 @@ inline BsdfSample sample(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo
 inline Rgb largest_albedo(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);
 }
+inline Lobe lobe(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
+}
 
 // ∫ fs |cosθ| dω of a diffuse material, which is the same in all directions.
-inline Rgb diffuse_albedo(const Bsdf& bsdf, const SurfacePoint& p) {
-    return std::visit([&](const auto& b) { return b.albedo(p); }, bsdf);
-}
+inline Rgb diffuse_albedo(const Bsdf& bsdf, const SurfacePoint& p) { return std::get<Diffuse>(bsdf).albedo(p); }
 
 // Known to be the same all over a surface.
 inline bool is_constant(const Bsdf& bsdf) {

@@ -1,16 +1,12 @@
 // Lambert's ideal diffuse reflection: fs = ρ/π on the front side, nothing on the back (Mitsuba's `diffuse`).
 #pragma once
 
+#include "core/material/bsdf_sample.h"
+#include "core/material/lobe.h"
 #include "core/material/surface_function.h"
 #include "core/sampling/warp.h"
 
 namespace neumann {
-
-struct BsdfSample {
-    Vec3 wi{0.0};
-    Rgb weight{0.0};   // fs |cosθi| / pdf; black when nothing is reflected
-    double pdf = 0.0;  // per solid angle
-};
 
 class Diffuse {
 public:
@@ -30,6 +26,7 @@ public:
     Rgb largest_albedo() const { return reflectance_.upper_bound(); }
     bool is_constant() const { return reflectance_.is_constant(); }
     bool is_grey() const { return reflectance_.is_grey(); }
+    Lobe lobe() const { return {}; }
 
 private:
     SurfaceFunction reflectance_;

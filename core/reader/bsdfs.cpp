@@ -2,16 +2,73 @@
 
 #include "core/reader/color.h"
 
+#include <fmt/format.h>
+
 namespace neumann::reader {
 
 namespace {
 
+Rgb read_reflectance(Properties& p, const std::string& name, double missing, const Context& context) {
+    const Element* e = p.find(name, color_types);
+    return e ? parse_color(p, name, *e, Illuminant::d65, context.warnings) : Rgb(missing);
+}
+
 Diffuse read_diffuse(const Element& e, const Context& context) {
     Properties p(e, context.objects);
-    const Element* reflectance = p.find("reflectance", color_types);
-    const Rgb c = reflectance ? parse_color(p, "reflectance", *reflectance, Illuminant::d65, context.warnings) : Rgb(0.5);
+    const Rgb reflectance = read_reflectance(p, "reflectance", 0.5, context);
     p.finish();
-    return Diffuse(c);
+    return Diffuse(reflectance);
+}
+
+// `material`, `eta` and `k`. A list of wavelengths has no meaning here: what its RGB would be depends on what is made of it.
+ConductorFresnel read_fresnel(Properties& p, const Context& context) {
+    const std::string material = p.text("material").value_or("none");
+    if (material != "none")
+        p.fail("material",
+               fmt::format("material '{}' of {} is not supported; allowed: none, which is a perfect mirror, or eta and k "
+                           "in its place, as rgb or float",
+                           material, p.title()));
+    const auto read = [&](const std::string& name, double missing) {
+        const Element* e = p.find(name, {"rgb", "float", "integer"});
+        return e ? parse_color(p, name, *e, Illuminant::equal_energy, context.warnings) : Rgb(missing);
+    };
+    const Rgb eta = read("eta", 0.0);
+    return {eta, read("k", 1.0)};
+}
+
+Conductor read_conductor(const Element& e, const Context& context) {
+    Properties p(e, context.objects);
+    const ConductorFresnel fresnel = read_fresnel(p, context);
+    const Rgb reflectance = read_reflectance(p, "specular_reflectance", 1.0, context);
+    p.finish();
+    return Conductor(fresnel, reflectance);
+}
+
+// Mitsuba takes what is below 0.0001 for 0.0001.
+double read_alpha(Properties& p) {
+    const auto alpha = p.number("alpha"), u = p.number("alpha_u"), v = p.number("alpha_v");
+    const std::string given = u ? "alpha_u" : v ? "alpha_v" : "alpha";
+    if (alpha && (u || v)) p.fail(given, fmt::format("both alpha and {} are given, expected one of them", given));
+    if (u.has_value() != v.has_value())
+        p.fail(given, fmt::format("{} is given without {}, expected both, or alpha", given, u ? "alpha_v" : "alpha_u"));
+    if (u && *u != *v)
+        p.fail("alpha_v",
+               fmt::format("alpha_u is {} and alpha_v is {}, expected the same: anisotropic roughness is not supported", *u, *v));
+    const double value = u ? *u : alpha.value_or(0.1);
+    if (value < 1e-4) p.fail(given, fmt::format("{} is {}, expected at least 0.0001; bsdf 'conductor' is smooth", given, value));
+    return value;
+}
+
+Bsdf read_rough_conductor(const Element& e, const Context& context) {
+    Properties p(e, context.objects);
+    const ConductorFresnel fresnel = read_fresnel(p, context);
+    const Rgb reflectance = read_reflectance(p, "specular_reflectance", 1.0, context);
+    const std::string distribution = p.choice("distribution", {"beckmann", "ggx"}, "beckmann");
+    const double alpha = read_alpha(p);
+    p.boolean("sample_visible");  // how Mitsuba draws directions; changes noise only
+    p.finish();
+    if (distribution == "ggx") return RoughConductor(Ggx(alpha), fresnel, reflectance);
+    return RoughConductor(Beckmann(alpha), fresnel, reflectance);
 }
 
 }  // namespace
@@ -24,7 +81,9 @@ Materials::Sides Bsdfs::sides(const Element& e) {
 Materials::Sides Bsdfs::read(const Element& e) {
     const std::string& type = e.attribute("type").value;
     if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
-    if (type != "twosided") fail_type(e, {"diffuse", "twosided"});
+    if (type == "conductor") return {store(read_conductor(e, context_)), Materials::absorbing};
+    if (type == "roughconductor") return {store(read_rough_conductor(e, context_)), Materials::absorbing};
+    if (type != "twosided") fail_type(e, {"conductor", "diffuse", "roughconductor", "twosided"});
 
     Properties p(e, context_.objects);
     const std::vector<const Element*> nested = p.nested("bsdf", 2);

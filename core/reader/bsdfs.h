@@ -1,4 +1,4 @@
-// <bsdf>: `diffuse`, and `twosided` around one or two of them.
+// <bsdf>: `diffuse`, `conductor`, `roughconductor`, and `twosided` around one or two of them.
 #pragma once
 
 #include "core/material/materials.h"

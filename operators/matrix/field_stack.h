@@ -11,21 +11,21 @@ namespace neumann {
 
 class FieldStack {
 public:
-    // Bounces 0 … N of a space.
+    // Bounces 0 … N and the rest, quantity N + 1, zero until they are set.
     FieldStack(const PatchSpace& space, int bounces)
-        : space_(&space), stride_(3 * (static_cast<std::size_t>(bounces) + 1)), values_(stride_ * (space.size() + 1)) {}
+        : space_(&space), stride_(3 * (static_cast<std::size_t>(bounces) + 2)), values_(stride_ * (space.size() + 1)) {}
 
     const PatchSpace& space() const { return *space_; }
-    // Three floats for each bounce.
+    // Three floats for each quantity.
     std::size_t stride() const { return stride_; }
     const float* operator[](std::uint32_t unknown) const { return values_.data() + unknown * stride_; }
 
     template <int C>
-    void set(int bounce, const ExitantVector<C>& term) {
+    void set(int quantity, const ExitantVector<C>& term) {
         for (std::uint32_t u = 0; u < space_->size(); ++u) {
             const Rgb value = to_rgb<C>(term.col(u));
             for (int c = 0; c < 3; ++c)
-                values_[u * stride_ + 3 * static_cast<std::size_t>(bounce) + static_cast<std::size_t>(c)] =
+                values_[u * stride_ + 3 * static_cast<std::size_t>(quantity) + static_cast<std::size_t>(c)] =
                     static_cast<float>(value[c]);
         }
     }

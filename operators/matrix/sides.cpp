@@ -1,10 +1,15 @@
 #include "operators/matrix/sides.h"
 
+#include "core/base/error.h"
+
 #include <algorithm>
 
 namespace neumann {
 
 std::vector<SideDirections> side_directions(const Scene& scene) {
+    for (const Bsdf& bsdf : scene.materials.bsdfs())
+        if (lobe(bsdf).kind != Lobe::Kind::diffuse)
+            throw InputError("patches cannot hold the directions of conductor and roughconductor yet; use --method walk");
     std::vector<SideDirections> sides;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const SurfacePoint somewhere{{}, {}, 0.0, shape, 0};

@@ -2,6 +2,7 @@
 
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/reflection_matrix.h"
+#include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
 #include "operators/series/product.h"
 
@@ -45,21 +46,35 @@ TracedSeries trace(const Scene& scene, const PatchSpace& space, const PatchSpace
     const auto K = R * T;
     const Coarsening coarsening(space, coarser);
 
+    const auto K_coarse = [&](const ExitantVector<C>& x) { return coarsening.mean<C>(K(coarsening.prolong<C>(x))); };
+
     TracedSeries series{FieldStack(space, settings.bounces), FieldStack(coarser, settings.bounces), table.seen().size()};
     ExitantVector<C> term = emitted_light<C>(scene, space), coarse_term = coarsening.mean<C>(term);
+    const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
+    const auto direct = [&] { return direct_light<C>(scene, space, settings.light_samples, settings.seed); };
+    if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
+    series.rays += series.light_rays;
     for (int i = 0;; ++i) {
         series.fine.set<C>(i, term);
         series.coarse.set<C>(i, coarse_term);
-        if (i == settings.bounces) return series;
-        if (i == 0 && rays_that_meet_lights(scene, settings.rays) < enough_rays) {
-            term = direct_light<C>(scene, space, settings.light_samples, settings.seed);
-            coarse_term = coarsening.mean<C>(term);
-            series.rays += std::uint64_t{settings.light_samples} * space.facets().size();
-        } else {
-            term = K(std::move(term));
-            coarse_term = coarsening.mean<C>(K(coarsening.prolong<C>(coarse_term)));
-        }
+        if (i == settings.bounces) break;
+        term = i == 0 && sample_lights ? direct() : K(std::move(term));
+        coarse_term = i == 0 && sample_lights ? coarsening.mean<C>(term) : K_coarse(coarse_term);
     }
+    if (!settings.rest) return series;
+    // Where the lights are sampled, bounce 1 is not K's.
+    const bool begin = sample_lights && settings.bounces == 0;
+    if (begin) term = direct();
+    auto rest = rest_of_series<C>(K, term);
+    if (begin) rest.sum += term;
+    series.fine.set<C>(settings.bounces + 1, rest.sum);
+    series.rest_converges = rest.converges;
+    if (!rest.converges) return series;
+    if (begin) coarse_term = coarsening.mean<C>(term);
+    auto coarse_rest = rest_of_series<C>(K_coarse, coarse_term);
+    if (begin) coarse_rest.sum += coarse_term;
+    series.coarse.set<C>(settings.bounces + 1, coarse_rest.sum);
+    return series;
 }
 
 }  // namespace

@@ -16,11 +16,14 @@ struct TracedSeriesSettings {
     std::uint32_t rays = 32;           // of a facet; a power of two
     std::uint32_t light_samples = 16;  // of a facet; a power of two
     std::uint64_t seed = 0;
+    bool rest = true;  // Σ_{k>N} is wanted as well
 };
 
 struct TracedSeries {
     FieldStack fine, coarse;
-    std::uint64_t rays = 0;  // cast
+    std::uint64_t rays = 0;        // cast
+    std::uint64_t light_rays = 0;  // of these, for b
+    bool rest_converges = false;
 };
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,

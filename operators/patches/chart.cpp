@@ -46,7 +46,7 @@ Chart::Chart(const Geometry& geometry, std::uint32_t shape) : shape_(shape), are
 Chart::Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper)
     : shape_(shape),
       quad_(QuadMap(corners[0], corners[1], corners[2], corners[3], normal)),
-      a_(corners[0]),
+      corners_(corners),
       up_(glm::cross(normal, corners[2] - corners[0])),
       lower_(lower),
       upper_(upper),
@@ -55,7 +55,7 @@ Chart::Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3
 SurfacePoint Chart::point(const Geometry& geometry, const Vec2& st) const {
     if (!quad_) return geometry.point(shape_, 0, st);
     const Vec3 p = quad_->position(st);
-    return geometry.point_on_triangle(shape_, glm::dot(p - a_, up_) > 0.0 ? upper_ : lower_, p);
+    return geometry.point_on_triangle(shape_, glm::dot(p - corners_[0], up_) > 0.0 ? upper_ : lower_, p);
 }
 
 Vec2 Chart::uniform(const Cell& cell, const Vec2& u) const {

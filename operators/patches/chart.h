@@ -3,6 +3,7 @@
 
 #include "core/geometry/geometry.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -32,6 +33,7 @@ public:
         const double length2 = glm::dot(across, across);
         return {length2 > 0.0 ? glm::dot(h - f_ * t, across) / length2 : 0.5, t};
     }
+    Vec3 normal() const { return glm::cross(x_, y_); }
     double area(const Cell& c) const {
         return (c.s1 - c.s0) * (c.t1 - c.t0) * (j0_ + 0.5 * (js_ * (c.s0 + c.s1) + jt_ * (c.t0 + c.t1)));
     }
@@ -56,6 +58,10 @@ public:
     Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);
 
     std::uint32_t shape() const { return shape_; }
+    // A quadrilateral, with its corners (the last two may coincide) and its normal.
+    bool is_plane() const { return quad_.has_value(); }
+    const std::array<Vec3, 4>& corners() const { return corners_; }
+    Vec3 normal() const { return quad_->normal(); }
     Vec2 coordinates(const Geometry& geometry, const Vec3& position) const {
         return quad_ ? quad_->coordinates(position) : geometry.round_coordinates(shape_, position);
     }
@@ -70,7 +76,8 @@ public:
 private:
     std::uint32_t shape_;
     std::optional<QuadMap> quad_;
-    Vec3 a_{0.0}, up_{0.0};  // points with (p − a) · up > 0 lie on `upper`
+    std::array<Vec3, 4> corners_{};
+    Vec3 up_{0.0};  // points with (p − first corner) · up > 0 lie on `upper`
     std::uint32_t lower_ = 0, upper_ = 0;
     double area_ = 0.0;  // of a round shape
     Vec2 lengths_;

@@ -51,7 +51,7 @@ PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Vec3& w) const
 }
 
 std::vector<std::uint32_t> PatchSpace::coarser_of_each(const PatchSpace& coarser) const {
-    const std::vector<std::uint32_t> patch = patches_.coarser_of_each();
+    const std::vector<std::uint32_t> patch = patches_.coarser_of_each(coarser.patches_);
     std::vector<std::uint32_t> result(size_);
     for (const Facet& facet : facets_) {
         const Facet& around = coarser.facets_[coarser.facet(patch[facet.patch], facet.front)];

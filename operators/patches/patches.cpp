@@ -38,6 +38,12 @@ std::size_t count_cells(const std::vector<Chart>& charts, double width) {
     return sum;
 }
 
+// Nearer to a chart than this part of a patch's width, a surface divides it.
+constexpr double near = 0.25;
+
+// Of the interpolation, on one side of an outline.
+constexpr double least_weight = 0.5;
+
 // The smallest width that needs no more cells than wanted.
 double choose_width(const std::vector<Chart>& charts, double area, std::size_t wanted) {
     double high = 4.0 * std::sqrt(area), low = 0.25 * std::sqrt(area / static_cast<double>(wanted));
@@ -55,6 +61,7 @@ Patches::Patches(const Geometry& geometry, const Patching& patching)
       atlas_(geometry, positive_area(geometry) / static_cast<double>(std::max<std::size_t>(patching.patches, 1))) {
     if (patching.patches == 0) throw InputError("0 patches: at least one is needed");
     const double width = choose_width(charts(), total_area(geometry), patching.patches);
+    footprints_ = find_footprints(geometry, charts(), near * width);
     for (const Chart& chart : charts()) {
         const auto [across, along] = cells_of(chart, width);
         add_grid(axis(across, patching.grading, false), axis(along, patching.grading, chart.closed_in_t()));
@@ -62,32 +69,83 @@ Patches::Patches(const Geometry& geometry, const Patching& patching)
 }
 
 void Patches::add_grid(Axis s, Axis t) {
-    const auto number = static_cast<std::uint32_t>(grids_.size());
-    const Grid& grid = grids_.emplace_back(Grid{std::move(s), std::move(t), static_cast<std::uint32_t>(cells_.size())});
+    const auto chart = static_cast<std::uint32_t>(grids_.size());
+    const Grid& grid = grids_.emplace_back(Grid{std::move(s), std::move(t), static_cast<std::uint32_t>(first_of_cell_.size()) - 1});
     for (std::size_t j = 0; j < size_of(grid.t); ++j)
-        for (std::size_t i = 0; i < size_of(grid.s); ++i) {
-            const Cell cell{grid.s.ends[i], grid.s.ends[i + 1], grid.t.ends[j], grid.t.ends[j + 1]};
-            cells_.push_back(cell);
-            areas_.push_back(charts()[number].area(cell));
-            chart_of_.push_back(number);
-        }
+        for (std::size_t i = 0; i < size_of(grid.s); ++i)
+            add_cell(chart, {grid.s.ends[i], grid.s.ends[i + 1], grid.t.ends[j], grid.t.ends[j + 1]});
 }
 
+void Patches::add_cell(std::uint32_t chart, const Cell& cell) {
+    const double area = charts()[chart].area(cell);
+    std::map<std::uint32_t, Part> parts;  // by class
+    if (!footprints_[chart].empty())
+        for (std::uint16_t i = 0; i < squares_along * squares_along; ++i) {
+            const Vec2 u(i % squares_along + 0.5, i / squares_along + 0.5);
+            parts[footprints_[chart].classes(charts()[chart].uniform(cell, u / double(squares_along)))].push_back(i);
+        }
+    if (parts.size() < 2) {
+        patches_.push_back({cell, area, chart, parts.empty() ? 0 : parts.begin()->first, whole});
+    } else {
+        for (auto& [class_bits, part] : parts) {
+            const double share = static_cast<double>(part.size()) / (squares_along * squares_along);
+            patches_.push_back({cell, area * share, chart, class_bits, static_cast<std::uint32_t>(parts_.size())});
+            parts_.push_back(std::move(part));
+        }
+    }
+    first_of_cell_.push_back(static_cast<std::uint32_t>(patches_.size()));
+}
+
+Vec2 Patches::in_part(const Part& part, const Vec2& u) {
+    const double place = u.x * static_cast<double>(part.size());
+    const std::size_t i = std::min(static_cast<std::size_t>(place), part.size() - 1);
+    return Vec2(part[i] % squares_along + (place - static_cast<double>(i)), part[i] / squares_along + u.y) /
+           static_cast<double>(squares_along);
+}
+
+std::optional<std::uint32_t> Patches::find(std::uint32_t cell, std::uint32_t class_bits) const {
+    for (std::uint32_t patch = first_of_cell_[cell]; patch < first_of_cell_[cell + 1]; ++patch)
+        if (patches_[patch].class_bits == class_bits) return patch;
+    return std::nullopt;
+}
+
+// A coarser cell has the parts of the finer ones in it, and their areas.
 Patches Patches::coarser() const {
-    Patches result(*geometry_, atlas_);
-    for (const Grid& grid : grids_) result.add_grid(coarser(grid.s), coarser(grid.t));
+    Patches result(*geometry_, atlas_, footprints_);
+    for (std::uint32_t chart = 0; chart < grids_.size(); ++chart) {
+        const Grid& grid = grids_[chart];
+        const Axis s = coarser(grid.s), t = coarser(grid.t);
+        std::vector<std::map<std::uint32_t, double>> area_of_class(std::size_t{size_of(s)} * size_of(t));
+        for (std::uint32_t j = 0; j < size_of(grid.t); ++j)
+            for (std::uint32_t i = 0; i < size_of(grid.s); ++i) {
+                const std::uint32_t fine = grid.first + j * size_of(grid.s) + i;
+                auto& areas = area_of_class[coarser_cell(grid.t, j) * size_of(s) + coarser_cell(grid.s, i)];
+                for (std::uint32_t patch = first_of_cell_[fine]; patch < first_of_cell_[fine + 1]; ++patch)
+                    areas[patches_[patch].class_bits] += patches_[patch].area;
+            }
+        result.grids_.push_back({s, t, static_cast<std::uint32_t>(result.first_of_cell_.size()) - 1});
+        for (std::uint32_t j = 0; j < size_of(t); ++j)
+            for (std::uint32_t i = 0; i < size_of(s); ++i) {
+                const Cell cell{s.ends[i], s.ends[i + 1], t.ends[j], t.ends[j + 1]};
+                for (const auto& [class_bits, area] : area_of_class[j * size_of(s) + i])
+                    result.patches_.push_back({cell, area, chart, class_bits, whole});
+                result.first_of_cell_.push_back(static_cast<std::uint32_t>(result.patches_.size()));
+            }
+    }
     return result;
 }
 
-std::vector<std::uint32_t> Patches::coarser_of_each() const {
+std::vector<std::uint32_t> Patches::coarser_of_each(const Patches& coarse) const {
     std::vector<std::uint32_t> result;
-    std::uint32_t first = 0;
-    for (const Grid& grid : grids_) {
-        const std::uint32_t across = size_of(coarser(grid.s)), along = size_of(coarser(grid.t));
+    for (std::uint32_t chart = 0; chart < grids_.size(); ++chart) {
+        const Grid &grid = grids_[chart], &around = coarse.grids_[chart];
         for (std::uint32_t j = 0; j < size_of(grid.t); ++j)
-            for (std::uint32_t i = 0; i < size_of(grid.s); ++i)
-                result.push_back(first + coarser_cell(grid.t, j) * across + coarser_cell(grid.s, i));
-        first += across * along;
+            for (std::uint32_t i = 0; i < size_of(grid.s); ++i) {
+                const std::uint32_t fine = grid.first + j * size_of(grid.s) + i;
+                const std::uint32_t cell = around.first + coarser_cell(grid.t, j) * size_of(around.s) + coarser_cell(grid.s, i);
+                for (std::uint32_t patch = first_of_cell_[fine]; patch < first_of_cell_[fine + 1]; ++patch)
+                    result.push_back(*coarse.find(cell, patches_[patch].class_bits));
+            }
     }
     return result;
 }
@@ -145,9 +203,31 @@ Patches::Reading Patches::interpolate(const SurfacePoint& p) const {
     const Grid& grid = grids_[chart];
     const Neighbours s = neighbours(grid.s, st.x), t = neighbours(grid.t, st.y);
     const std::uint32_t n = size_of(grid.s);
-    return {{grid.first + t.low * n + s.low, grid.first + t.low * n + s.high, grid.first + t.high * n + s.low,
-             grid.first + t.high * n + s.high},
-            {(1.0 - t.weight) * (1.0 - s.weight), (1.0 - t.weight) * s.weight, t.weight * (1.0 - s.weight), t.weight * s.weight}};
+    Reading reading{
+        {grid.first + t.low * n + s.low, grid.first + t.low * n + s.high, grid.first + t.high * n + s.low,
+         grid.first + t.high * n + s.high},
+        {(1.0 - t.weight) * (1.0 - s.weight), (1.0 - t.weight) * s.weight, t.weight * (1.0 - s.weight), t.weight * s.weight}};
+    if (footprints_[chart].empty()) {
+        for (std::uint32_t& patch : reading.patch) patch = first_of_cell_[patch];
+        return reading;
+    }
+    // Only patches on the same side of all outlines; where those are too few, the value of the point's own.
+    const std::uint32_t class_bits = footprints_[chart].classes(st);
+    double left = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto found = find(reading.patch[i], class_bits);
+        reading.patch[i] = found.value_or(first_of_cell_[reading.patch[i]]);
+        if (found)
+            left += reading.weight[i];
+        else
+            reading.weight[i] = 0.0;
+    }
+    if (left < least_weight) {
+        const std::uint32_t own = locate(p);
+        return {{own, own, own, own}, {1.0, 0.0, 0.0, 0.0}};
+    }
+    for (double& weight : reading.weight) weight /= left;
+    return reading;
 }
 
 }  // namespace neumann

@@ -1,10 +1,13 @@
-// Surfaces cut into patches: a grid on each chart, finer towards its edges. Geometry only.
+// Surfaces cut into patches: the cells of a grid on each chart, finer towards its edges, and cut again along the outlines of what
+// touches the chart. Geometry only.
 #pragma once
 
 #include "operators/patches/atlas.h"
+#include "operators/patches/footprints.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace neumann {
@@ -19,25 +22,30 @@ public:
     // Throws InputError where there are no surfaces or no patches are asked for.
     Patches(const Geometry& geometry, const Patching& patching);
 
-    // Patches twice as wide in both directions, where a chart has so many.
+    // Patches twice as wide in both directions, where a chart has so many. Points of them are not drawn.
     Patches coarser() const;
     // The coarser patch around each patch.
-    std::vector<std::uint32_t> coarser_of_each() const;
+    std::vector<std::uint32_t> coarser_of_each(const Patches& coarser) const;
 
-    std::size_t size() const { return cells_.size(); }
-    double area(std::uint32_t patch) const { return areas_[patch]; }
-    const Chart& chart(std::uint32_t patch) const { return charts()[chart_of_[patch]]; }
+    std::size_t size() const { return patches_.size(); }
+    double area(std::uint32_t patch) const { return patches_[patch].area; }
+    const Chart& chart(std::uint32_t patch) const { return charts()[patches_[patch].chart]; }
 
     std::uint32_t locate(const SurfacePoint& p) const {
         const std::uint32_t chart = atlas_.chart_of(p);
         const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
         const Grid& grid = grids_[chart];
-        return grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
+        const std::uint32_t c = grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
+        const std::uint32_t first = first_of_cell_[c];
+        if (first_of_cell_[c + 1] == first + 1) return first;
+        return find(c, footprints_[chart].classes(st)).value_or(first);
     }
     // Uniform by area for uniform u in [0, 1)².
-    SurfacePoint point(std::uint32_t patch, const Vec2& u) const {
-        const Chart& chart = charts()[chart_of_[patch]];
-        return chart.point(*geometry_, chart.uniform(cells_[patch], u));
+    SurfacePoint point(std::uint32_t number, const Vec2& u) const {
+        const Patch& patch = patches_[number];
+        const Chart& chart = charts()[patch.chart];
+        if (patch.part == whole) return chart.point(*geometry_, chart.uniform(patch.cell, u));
+        return chart.point(*geometry_, chart.uniform(patch.cell, in_part(parts_[patch.part], u)));
     }
 
     // A function that has its values at the middles of the patches, linear between them and on to the edge, is at a point the sum
@@ -57,29 +65,46 @@ private:
     };
     struct Grid {
         Axis s, t;
-        std::uint32_t first;
+        std::uint32_t first;  // cell
     };
+    // A cell, or the part of a cell that has one class of Footprints.
+    struct Patch {
+        Cell cell;
+        double area;
+        std::uint32_t chart, class_bits, part;
+    };
+    static constexpr std::uint32_t whole = ~std::uint32_t{0};
+    // The squares of a fine grid on the unit square that make up a part.
+    static constexpr std::uint32_t squares_along = 16;
+    using Part = std::vector<std::uint16_t>;
+
     struct Neighbours {
         std::uint32_t low, high;
         double weight;  // of `high`
     };
+    Patches(const Geometry& geometry, Atlas atlas, std::vector<Footprints> footprints)
+        : geometry_(&geometry), atlas_(std::move(atlas)), footprints_(std::move(footprints)) {}
+
     static Axis axis(std::size_t cells, double grading, bool closed);
     static Axis axis(std::vector<double> ends, bool closed);
     static Axis coarser(const Axis& axis);
     static std::uint32_t coarser_cell(const Axis& axis, std::uint32_t cell);
-    void add_grid(Axis s, Axis t);
     static std::uint32_t size_of(const Axis& axis) { return static_cast<std::uint32_t>(axis.middles.size()); }
     static std::uint32_t cell(const Axis& axis, double x);
     static Neighbours neighbours(const Axis& axis, double x);
+    static Vec2 in_part(const Part& part, const Vec2& u);
+    void add_grid(Axis s, Axis t);
+    void add_cell(std::uint32_t chart, const Cell& cell);
+    std::optional<std::uint32_t> find(std::uint32_t cell, std::uint32_t class_bits) const;
     const std::vector<Chart>& charts() const { return atlas_.charts(); }
-    Patches(const Geometry& geometry, Atlas atlas) : geometry_(&geometry), atlas_(std::move(atlas)) {}
 
     const Geometry* geometry_;
     Atlas atlas_;
-    std::vector<Grid> grids_;  // of each chart
-    std::vector<Cell> cells_;
-    std::vector<double> areas_;
-    std::vector<std::uint32_t> chart_of_;
+    std::vector<Footprints> footprints_;  // of each chart
+    std::vector<Grid> grids_;             // of each chart
+    std::vector<std::uint32_t> first_of_cell_{0};
+    std::vector<Patch> patches_;  // cell by cell
+    std::vector<Part> parts_;
 };
 
 }  // namespace neumann

@@ -58,7 +58,11 @@ struct FieldReader::Look {
 };
 
 FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays)
-    : scene_(scene), method_(method), stride_(3 * (static_cast<std::size_t>(bounces) + 1)), gather_rays_(gather_rays) {
+    : scene_(scene),
+      method_(method),
+      stride_(3 * (static_cast<std::size_t>(bounces) + 2)),
+      from_field_(bounces > 0 ? 6 : 3),
+      gather_rays_(gather_rays) {
     if (scene.emitters.empty()) return;
     const SobolPoints points(256);
     SobolSampler sampler(points, 0, 0);
@@ -83,15 +87,14 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
         return rays;
     }
     for (const Look& l : looks) add(l.sample->fine, 0, scene_.emitters.emitted(l.x, l.wo));
-    if (stride_ == 3) return rays;
     std::erase_if(looks, [](const Look& l) { return !l.bsdf; });
-    rays[1] = find_lights(looks) + find_lights_nearby(looks);
+    if (from_field_ > 3) rays[1] = find_lights(looks) + find_lights_nearby(looks);
     if (method_ == FieldMethod::gather) {
         rays[2] = gather(fields, looks);
     } else {
         for (const Look& l : looks) {
-            add_interpolated(fields.fine, l.x, l.wo, 6, l.sample->fine);
-            add_interpolated(fields.coarse, l.x, l.wo, 6, l.sample->coarse);
+            add_interpolated(fields.fine, l.x, l.wo, from_field_, l.sample->fine);
+            add_interpolated(fields.coarse, l.x, l.wo, from_field_, l.sample->coarse);
         }
     }
     return rays;
@@ -187,8 +190,11 @@ std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& lo
     std::vector<float> arriving(stride_);
     const auto reflect = [&](const FieldStack& field, const Look& l, float* to) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
-        add_interpolated(field, l.y, -l.wi, 3, arriving.data());
-        for (std::size_t k = 6; k < stride_; ++k) to[k] += static_cast<float>(l.weight[static_cast<int>(k % 3)]) * arriving[k - 3];
+        add_interpolated(field, l.y, -l.wi, 0, arriving.data());
+        // Bounce i is R T of bounce i − 1, and the rest that of bounce N and the rest.
+        for (std::size_t k = stride_ - 3; k < stride_; ++k) arriving[k - 3] += arriving[k];
+        for (std::size_t k = from_field_; k < stride_; ++k)
+            to[k] += static_cast<float>(l.weight[static_cast<int>(k % 3)]) * arriving[k - 3];
     };
     std::uint64_t rays = 0;
     std::vector<Look*> asking;

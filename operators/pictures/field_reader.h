@@ -1,10 +1,12 @@
-// Reads all bounces of a pixel's samples at once: bounces 0 and 1 by rays, later ones from fields on patches.
+// Reads all bounces of a pixel's samples at once: bounces 0 and 1 by rays, later ones and the rest from fields on patches.
 #pragma once
 
 #include "core/sampling/sobol_sampler.h"
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,8 +25,8 @@ struct FieldPair {
     const FieldStack& coarse;
 };
 
-// A camera ray and where its sample is added up: three floats for each bounce. `sampler` has not been asked for numbers that belong
-// to what follows.
+// A camera ray and where its sample is added up: three floats for each quantity of FieldStack. `sampler` has not been asked for
+// numbers that belong to what follows.
 struct PixelSample {
     CameraRay ray;
     float* fine;
@@ -40,6 +42,11 @@ public:
     // Adds a sample to each pixel. Rays of one pixel should be side by side. Returns the rays cast for bounces 0, 1 and all others.
     std::array<std::uint64_t, 3> read(const FieldPair& fields, std::span<const PixelSample> samples) const;
 
+    // Rays at the pixel are the same with any patches.
+    void copy_what_needs_no_patches(const float* fine, float* coarse) const {
+        if (method_ != FieldMethod::patches) std::copy_n(fine, from_field_, coarse);
+    }
+
 private:
     struct Look;
     void find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const;
@@ -50,7 +57,8 @@ private:
 
     const Scene& scene_;
     FieldMethod method_;
-    std::size_t stride_;  // floats of a pixel
+    std::size_t stride_;      // floats of a pixel
+    std::size_t from_field_;  // of them, the first that is read from fields
     std::uint32_t gather_rays_;
     Vec3 low_{0.0}, high_{0.0};  // the box around the lights
     double near_ = 0.0;

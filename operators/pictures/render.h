@@ -59,9 +59,9 @@ struct RenderedSeries {
 constexpr std::uint32_t largest_replicate = 32;
 std::uint32_t replicate_size(std::uint64_t samples);
 
-// A render that is stopped by time or error ends at a number of samples from which replicate_size() finds the same replicates again,
-// and so does one that is interrupted, unless that would take long. An interrupted one drops the samples that are not yet in all
-// pixels; where that is all of them it takes a single one.
+// A render that is stopped by time or error ends at a number of samples from which replicate_size() finds the same replicates
+// again, and so does one that is interrupted, unless that would take long. An interrupted one drops the samples that are not yet in
+// all pixels; where that is all of them it takes a single one.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const RenderObserver& observer = {});
 

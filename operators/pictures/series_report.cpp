@@ -46,4 +46,43 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     return report;
 }
 
+namespace {
+
+DiscretisationReport report_discretisation(const Estimate& picture) {
+    DiscretisationReport report;
+    const Image& error = picture.discretisation;
+    for (std::size_t i = 0; i < error.pixels.size(); ++i) {
+        report.mean += mean_component(error.pixels[i]) / static_cast<double>(error.pixels.size());
+        if (max_component(error.pixels[i]) <= report.worst) continue;
+        report.worst = max_component(error.pixels[i]);
+        report.worst_x = static_cast<int>(i) % error.width;
+        report.worst_y = static_cast<int>(i) / error.width;
+    }
+    report.relative = relative_discretisation(picture);
+    return report;
+}
+
+}  // namespace
+
+SeriesReport report_series(const Scene& scene, const FieldPictures& series) {
+    SeriesReport report;
+    const double seconds = series.field_seconds + series.picture_seconds;
+    const auto all_rays = static_cast<double>(std::accumulate(series.rays.begin(), series.rays.end(), std::uint64_t{0}));
+    for (std::size_t i = 0; i < series.terms.size(); ++i) {
+        BounceReport bounce;
+        bounce.mean = series.terms[i].mean;
+        if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
+        bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
+        bounce.rays = series.rays[i];
+        bounce.seconds = seconds * static_cast<double>(bounce.rays) / all_rays;
+        bounce.discretisation = report_discretisation(series.terms[i].picture);
+        report.bounces.push_back(bounce);
+    }
+    report.sum = series.sums.back().mean;
+    report.sum_discretisation = report_discretisation(series.sums.back().picture);
+    report.rest = series.rest.mean;
+    report.rest_verdict = series.rest_converges ? RestVerdict::measured : RestVerdict::not_converging;
+    return report;
+}
+
 }  // namespace neumann

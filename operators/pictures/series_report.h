@@ -1,6 +1,7 @@
 // What a rendered series says of itself: each bounce in figures, and what is left out.
 #pragma once
 
+#include "operators/pictures/field_pictures.h"
 #include "operators/pictures/render.h"
 #include "operators/statistics/picture_statistics.h"
 
@@ -8,6 +9,13 @@
 #include <vector>
 
 namespace neumann {
+
+// What patches get wrong, as it is estimated.
+struct DiscretisationReport {
+    double mean = 0.0, worst = 0.0;  // of the error, over pixels and channels, radiance
+    int worst_x = 0, worst_y = 0;    // where the worst is
+    double relative = 0.0;           // √(Σ error² / Σ mean²)
+};
 
 struct BounceReport {
     MeanWithError mean;              // radiance of K^i Le, over pixels and channels
@@ -17,17 +25,19 @@ struct BounceReport {
     std::optional<TailIndex> tail;
     std::uint64_t rays = 0;
     double seconds = 0.0;  // of the sampling, shared out by rays
+    std::optional<DiscretisationReport> discretisation;
 };
 
 enum class RestVerdict {
     measured,        // Σ_{k>N} K^k Le is estimated
-    not_converging,  // walks did not end: it was given up
+    not_converging,  // walks did not end, or terms did not fall: it was given up
     not_sampled,     // the method has no rest
 };
 
 struct SeriesReport {
     std::vector<BounceReport> bounces;
     MeanWithError sum;  // of Σ_{k≤N}
+    std::optional<DiscretisationReport> sum_discretisation;
     RestVerdict rest_verdict = RestVerdict::measured;
     MeanWithError rest;
     bool rest_infinite_variance = false;
@@ -38,5 +48,6 @@ struct SeriesReport {
 };
 
 SeriesReport report_series(const Scene& scene, const RenderedSeries& series, RestVerdict rest_verdict);
+SeriesReport report_series(const Scene& scene, const FieldPictures& series);
 
 }  // namespace neumann

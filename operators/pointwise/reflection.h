@@ -22,7 +22,7 @@ public:
             if (!bsdf) return Rgb(0.0);
             const Frame frame(front ? p.normal : -p.normal);
             const BsdfSample sampled = sample(*bsdf, p, frame.to_local(wo), random.next2());
-            if (sampled.pdf == 0.0) return Rgb(0.0);
+            if (is_black(sampled.weight)) return Rgb(0.0);
             return sampled.weight * g(p, frame.to_world(sampled.wi), random);
         });
     }

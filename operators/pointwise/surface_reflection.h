@@ -3,9 +3,11 @@
 //     (R g)(x, ωo) = ∫_A fs(x, y → ωo) V(x, y) G(x, y) g(x, xy) dA(y),   G = |cos θx cos θy| / ‖x − y‖²,
 //
 // with xy the direction from x to y. The kernel f·V·G is the whole of it; y is drawn uniformly from all surfaces. Unlike the
-// hemisphere form this one asks for visibility, and it counts only what arrives from surfaces.
+// hemisphere form this one asks for visibility, and it counts only what arrives from surfaces. A mirror has no fs to evaluate: its
+// reflection cannot be written this way.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/frame.h"
 #include "core/geometry/area_sampler.h"
 #include "core/material/materials.h"
@@ -18,9 +20,13 @@ public:
     using Domain = IncidentField;
     using Range = ExitantField;
 
-    // All three are kept by reference.
+    // All three are kept by reference. Throws InputError where a material is a mirror.
     SurfaceReflectionOperator(const Geometry& geometry, const AreaSampler& surfaces, const Materials& materials)
-        : geometry_(&geometry), surfaces_(&surfaces), materials_(&materials) {}
+        : geometry_(&geometry), surfaces_(&surfaces), materials_(&materials) {
+        for (const Bsdf& bsdf : materials.bsdfs())
+            if (lobe(bsdf).kind == Lobe::Kind::specular)
+                throw InputError("reflection over surfaces is not possible with mirrors, expected diffuse or rough materials");
+    }
 
     // fs V G between the points x and y, towards ωo.
     static Rgb kernel(const Geometry& geometry, const Materials& materials, const SurfacePoint& x, const Vec3& wo,

@@ -26,8 +26,8 @@ struct SeriesRow {
 struct SeriesOptions {
     double tolerance = 1e-6;  // of the error, relative to ‖S_n‖∞
     int most_bounces = 10000;
-    std::optional<double> norm;  // a ≥ ‖K‖∞, as the largest albedo; makes the bounds
-    std::function<void(const SeriesRow&)> observer;
+    std::optional<double> norm = {};  // a ≥ ‖K‖∞, as the largest albedo; makes the bounds
+    std::function<void(const SeriesRow&)> observer = {};
 };
 
 struct SeriesRun {

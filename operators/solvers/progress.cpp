@@ -51,6 +51,9 @@ SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
             why = fmt::format(
                 "the spectral radius is {:.6g}: the series diverges, and this solves (I − K) L = Le without being its sum",
                 *problem_.radius);
+        } else if (largest(x) > 1e12 * largest(problem_.Le)) {
+            verdict = Verdict::refused;
+            why = fmt::format("it is {:.2g} times Le: I − K is singular to rounding", largest(x) / largest(problem_.Le));
         } else if (problem_.Le.minCoeff() >= 0.0 && lowest < -std::max(1e-9, 10.0 * problem_.tolerance) * largest(x)) {
             verdict = Verdict::refused;
             why = fmt::format(

@@ -30,9 +30,9 @@ public:
     bool reached(const Vector& x, double estimate) { return record(estimate, true_error(x)); }
     double true_error(const Vector& x) const;  // not a number where L is not known
 
-    // Ends with x. An answer that converged is refused where the spectral radius given is 1 or more, and where Le ≥ 0 but x is
-    // negative somewhere. The latter is a proof, for K ≥ 0: were x ≥ 0 a solution, then x = S_n + K^{n+1} x ≥ S_n for all n and the
-    // series would converge.
+    // Ends with x. An answer that converged is refused where the spectral radius given is 1 or more, where x is 10¹² times Le, and
+    // where Le ≥ 0 but x is negative somewhere. The last is a proof, for K ≥ 0: were x ≥ 0 a solution, then x = S_n + K^{n+1} x ≥
+    // S_n for all n and the series would converge.
     SolverResult end(Vector x, Verdict verdict, std::string why);
     SolverResult end_limit(Vector x);
 

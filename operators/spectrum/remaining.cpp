@@ -17,10 +17,12 @@ std::optional<int> bounces_until(const std::vector<SeriesRow>& rows, double frac
         after[n] = rest;
         rest += rows[n].term.power;
     }
+    const double allowed = fraction * rest;
     for (std::size_t n = 0; n < rows.size(); ++n) {
-        if (after[n] <= fraction * rest) return rows[n].bounce;
+        if (after[n] <= allowed) return rows[n].bounce;
     }
-    return std::nullopt;
+    if (!(allowed > 0.0)) return std::nullopt;
+    return rows.back().bounce + static_cast<int>(std::ceil(std::log(allowed / after.back()) / std::log(rows.back().ratio)));
 }
 
 std::vector<SeriesRow> power_rows(const ChannelOperator& K, const Vector& Le, const Vector& b, double fraction, int most) {

@@ -32,7 +32,8 @@ struct Eigenpairs {
 };
 
 // The `count` eigenvalues of largest modulus, by Arnoldi's method with implicit restarts (Spectra), or of the matrix where it has
-// at most 64 unknowns. Of the adjoint K* where asked for. The start is fixed, so that the answer is too.
+// at most 64 unknowns. Of the adjoint K* where asked for. The start is fixed, so that the answer is too. An eigenvalue with
+// several vectors may come with fewer of them, as from every method that builds on one start.
 Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint = false);
 
 // |λ₁|, or not a number where it was not found.

@@ -143,14 +143,22 @@ MeanDifferences compare_means(const Estimate& test, double test_degrees_of_freed
     const auto difference_of = [&](const auto& value) {
         MeanDifference d;
         ErrorOfSum error;
+        const auto add_errors = [&](const Estimate& picture, double degrees_of_freedom) {
+            if (picture.standard_error.pixels.empty()) return;
+            double all = 0.0;
+            for (const std::size_t i : places) {
+                const double one = value(picture.standard_error.pixels[i]) / n;
+                all += one;
+                if (picture.pixels_are_independent) error.add(one, degrees_of_freedom);
+            }
+            if (!picture.pixels_are_independent) error.add(all, degrees_of_freedom);
+        };
+        add_errors(test, test_degrees_of_freedom);
+        add_errors(reference, reference_degrees_of_freedom);
         for (const std::size_t i : places) {
             d.mean += value(test.mean.pixels[i]);
             d.reference_mean += value(reference.mean.pixels[i]);
             d.difference += value(test.mean.pixels[i]) - value(reference.mean.pixels[i]);
-            if (!test.standard_error.pixels.empty()) error.add(value(test.standard_error.pixels[i]) / n, test_degrees_of_freedom);
-            if (!reference.standard_error.pixels.empty()) {
-                error.add(value(reference.standard_error.pixels[i]) / n, reference_degrees_of_freedom);
-            }
         }
         for (double* sum : {&d.mean, &d.reference_mean, &d.difference}) *sum /= n;
         d.standard_error = error.standard_error();

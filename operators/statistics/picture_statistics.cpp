@@ -36,12 +36,14 @@ MeanWithError picture_mean(const Estimate& estimate) {
     }
     const double mean = sum / static_cast<double>(n), df = estimate.degrees_of_freedom;
     if (largest_error == 0.0 || !std::isfinite(largest_error)) return {mean, largest_error, df};
-    double variance = 0.0, variance2 = 0.0;
+    double variance = 0.0, variance2 = 0.0, sum_of_errors = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         const double error = mean_component(estimate.standard_error.pixels[i]) / largest_error, v = error * error;
         variance += v;
         variance2 += v * v;
+        sum_of_errors += error;
     }
+    if (!estimate.pixels_are_independent) return {mean, largest_error * sum_of_errors / static_cast<double>(n), df};
     return {mean, largest_error * std::sqrt(variance) / static_cast<double>(n), df * variance * variance / variance2};
 }
 
@@ -55,6 +57,10 @@ double relative_standard_error(const Estimate& estimate) {
         means += glm::dot(mean, mean);
     }
     return root_of_ratio(errors, means);
+}
+
+double relative_discretisation(const Estimate& estimate) {
+    return estimate.discretisation.pixels.empty() ? 0.0 : relative_standard_error({estimate.mean, estimate.discretisation});
 }
 
 double relative_error(const Image& test, const Image& reference) {

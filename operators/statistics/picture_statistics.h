@@ -11,12 +11,15 @@ struct MeanWithError {
     double interval() const;
 };
 
-// Mean over pixels and channels. Pixels are independent; a pixel's channels are not, and are taken as fully correlated, which can
+// Mean over pixels and channels. A pixel's channels, and pixels that are not independent, are taken as fully correlated, which can
 // only make the error larger. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
 // √(Σ SE² / Σ mean²) over pixels and channels; 0 for a picture that is zero everywhere.
 double relative_standard_error(const Estimate& estimate);
+
+// √(Σ discretisation² / Σ mean²), likewise; 0 where there is none.
+double relative_discretisation(const Estimate& estimate);
 
 // √(Σ (x − r)² / Σ r²) over pixels and channels; 0 where both are zero everywhere. Throws InputError where the sizes differ.
 double relative_error(const Image& test, const Image& reference);

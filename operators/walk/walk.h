@@ -4,7 +4,8 @@
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
 // The last reflection may instead look for a light by itself (next-event estimation); with multiple importance sampling both are
-// used, each weighted by the power heuristic (Veach 1997, 9.2.4).
+// used, each weighted by the power heuristic (Veach 1997, 9.2.4). After a mirror only the direction can find a light, and what it
+// finds counts in full whatever is asked for.
 #pragma once
 
 #include "core/base/frame.h"
@@ -48,7 +49,7 @@ struct Walker {
 
     // The next reflection.
     Vec3 from, wi;
-    double pdf = 0.0;  // of wi, per solid angle
+    double pdf = 0.0;  // of wi, per solid angle; delta_pdf in a mirror
     SurfacePoint light;
     Rgb found;  // what arrives from `light` if it is seen
 };
@@ -179,9 +180,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         }
 
         // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
-        if (settings.direct == DirectLight::light && bounce == N && settings.rest_probability == 0.0) return;
+        const bool only_mirrors = settings.direct == DirectLight::light && bounce == N && settings.rest_probability == 0.0;
         filter([&](Walker& w, std::uint32_t i) {
-            if (w.pdf == 0.0 || is_black(w.beta)) return false;
+            if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
             // Roulette with the ratio of the throughput: weights stay as they are, so the variance stays finite wherever Σ β² does.
             if (rest) {
                 const double survival = max_component(w.beta) / w.kept_weight;
@@ -207,7 +208,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         };
         advance(next_points, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.wi;
-            if (settings.direct != DirectLight::light && emitters.is_emitter(w.x)) {
+            if ((settings.direct != DirectLight::light || w.pdf == delta_pdf) && emitters.is_emitter(w.x)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);
                 if (!is_black(emitted)) {
                     double weight = 1.0;

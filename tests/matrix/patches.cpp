@@ -141,7 +141,7 @@ TEST(Patches, CoarserOnesAreUnionsOfFinerOnes) {
     for (const Enclosure& e : surfaces()) {
         const Scene scene = e.maker.make();
         const Patches fine(scene.geometry, {600, 0.7}), coarse = fine.coarser();
-        const std::vector<std::uint32_t> around = fine.coarser_of_each();
+        const std::vector<std::uint32_t> around = fine.coarser_of_each(coarse);
         ASSERT_EQ(around.size(), fine.size());
         std::vector<double> area(coarse.size());
         for (std::uint32_t i = 0; i < fine.size(); ++i) {

@@ -10,10 +10,10 @@ namespace neumann::physics {
 
 std::uint32_t SceneMaker::add(Shape shape, const Surface& surface) {
     Materials::Sides sides;
-    if (surface.reflectance) {
+    if (surface.reflectance || surface.bsdf) {
         sides.front = static_cast<int>(parts.bsdfs.size());
         if (surface.two_sided) sides.back = sides.front;
-        parts.bsdfs.emplace_back(Diffuse(*surface.reflectance));
+        parts.bsdfs.push_back(surface.bsdf ? *surface.bsdf : Diffuse(*surface.reflectance));
     }
     parts.sides_of_shape.push_back(sides);
     parts.light_of_shape.push_back(surface.emission ? static_cast<int>(parts.lights.size()) : Emitters::none);

@@ -15,10 +15,14 @@ struct Surface {
     std::optional<SurfaceFunction> reflectance;
     std::optional<AreaLight> emission;
     bool two_sided = false;
+    std::optional<Bsdf> bsdf = std::nullopt;  // in place of the reflectance
 };
 inline Surface black() { return {}; }
 inline Surface matte(double rho) { return {grey(rho), std::nullopt}; }
 inline Surface lamp(double radiance) { return {std::nullopt, grey(radiance)}; }
+inline Surface made_of(Bsdf bsdf, std::optional<AreaLight> emission = std::nullopt) {
+    return {std::nullopt, std::move(emission), false, std::move(bsdf)};
+}
 inline Surface glowing(double rho, double radiance) { return {grey(rho), grey(radiance)}; }
 
 class SceneMaker {

@@ -234,6 +234,52 @@ TEST_F(XmlAccepted, WavelengthsOutsideSrgb) {
               (std::map<std::string, std::uint64_t>{{"spectrum outside the colours of sRGB, cut to them", 1}}));
 }
 
+TEST_F(XmlAccepted, Conductors) {
+    const auto reflected = [&](const std::string& inside) {
+        const SceneParts parts = read("<shape type='cube'><bsdf type='conductor'>" + inside + "</bsdf></shape>");
+        EXPECT_EQ(parts.sides_of_shape.at(0).back, Materials::absorbing);
+        EXPECT_EQ(lobe(parts.bsdfs.at(0)).kind, Lobe::Kind::specular);
+        return sample(parts.bsdfs.at(0), {}, Vec3(0, 0, 1), Vec2(0.5)).weight;
+    };
+    const auto at_normal = [](double n, double k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); };
+    EXPECT_EQ(reflected(""), Rgb(1.0));
+    EXPECT_EQ(reflected("<string name='material' value='none'/><rgb name='specular_reflectance' value='1, 0.5, 0.25'/>"),
+              Rgb(1.0, 0.5, 0.25));
+    const Rgb gold = reflected("<rgb name='eta' value='0.143, 0.374, 1.442'/><rgb name='k' value='3.983, 2.385, 1.603'/>");
+    EXPECT_NEAR(gold.r, at_normal(0.143, 3.983), 1e-14);
+    EXPECT_NEAR(gold.g, at_normal(0.374, 2.385), 1e-14);
+    EXPECT_NEAR(gold.b, at_normal(1.442, 1.603), 1e-14);
+    EXPECT_NEAR(reflected("<float name='eta' value='2'/><integer name='k' value='3'/>").g, at_normal(2.0, 3.0), 1e-14);
+    EXPECT_NEAR(reflected("<float name='eta' value='2'/>").g, at_normal(2.0, 1.0), 1e-14);
+    EXPECT_EQ(reflected("<float name='k' value='5'/>"), Rgb(1.0));
+    const SceneParts both = read("<shape type='cube'><bsdf type='twosided'><bsdf type='conductor'/></bsdf></shape>");
+    EXPECT_EQ(both.sides_of_shape.at(0).front, both.sides_of_shape.at(0).back);
+}
+
+TEST_F(XmlAccepted, RoughConductors) {
+    const auto material = [&](const std::string& inside) {
+        return read("<shape type='cube'><bsdf type='roughconductor'>" + inside + "</bsdf></shape>").bsdfs.at(0);
+    };
+    EXPECT_TRUE(std::holds_alternative<RoughConductor<Beckmann>>(material("")));
+    EXPECT_EQ(lobe(material("")).kind, Lobe::Kind::rough);
+    EXPECT_EQ(lobe(material("")).alpha, 0.1);
+    EXPECT_EQ(largest_albedo(material("")), Rgb(1.0));
+    const Bsdf ggx = material(
+        "<string name='distribution' value='ggx'/><float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>"
+        "<boolean name='sample_visible' value='false'/><rgb name='specular_reflectance' value='0.9, 0.8, 0.7'/>"
+        "<float name='eta' value='0.2'/><float name='k' value='3'/>");
+    ASSERT_TRUE(std::holds_alternative<RoughConductor<Ggx>>(ggx));
+    EXPECT_EQ(lobe(ggx).alpha, 0.3);
+    EXPECT_EQ(largest_albedo(ggx), Rgb(0.9, 0.8, 0.7));
+    // At normal incidence on both sides G = 1 and D = 1/(π α²); Mitsuba's masking is the separable one.
+    const Vec3 up(0, 0, 1), slant(0.6, 0, 0.8);
+    const double F = (0.64 + 9.0) / (1.44 + 9.0);
+    EXPECT_NEAR(eval(ggx, {}, up, up).g, 0.8 * F * inv_pi / 0.09 / 4.0, 1e-13);
+    const double G1 = 2.0 / (1.0 + std::sqrt(1.0 + 0.09 * 0.5625));
+    const Bsdf perfect = material("<string name='distribution' value='ggx'/><float name='alpha' value='0.3'/>");
+    EXPECT_NEAR(eval(perfect, {}, slant, slant).g, G1 * G1 * 0.09 * inv_pi / std::pow(0.36 + 0.09 * 0.64, 2) / (4.0 * 0.64), 1e-13);
+}
+
 TEST_F(XmlAccepted, Spheres) {
     const Sphere sphere = std::get<Sphere>(
         read("<shape type='sphere'><point name='center' x='1' y='2' z='3'/><float name='radius' value='2'/>"

@@ -20,7 +20,8 @@ protected:
 };
 
 TEST_F(XmlValueErrors, UnknownTypes) {
-    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"), "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: diffuse, twosided");
+    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"),
+              "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: conductor, diffuse, roughconductor, twosided");
     EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
     EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: path");
     EXPECT_EQ(error("<shape type=\"cylinder\"/>"),
@@ -216,6 +217,44 @@ TEST_F(XmlValueErrors, Bsdfs) {
               "scene.xml:2:1: bsdf 'twosided' stands inside another one");
     EXPECT_EQ(error("<bsdf type='twosided' id='a'><ref id='a'/></bsdf>"),
               "scene.xml:2:1: bsdf 'twosided' stands inside another one");
+}
+
+TEST_F(XmlValueErrors, Conductors) {
+    EXPECT_EQ(
+        error("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/></bsdf>"),
+        "scene.xml:3:25: material 'Au' of bsdf 'conductor' is not supported; allowed: none, which is a perfect mirror, or eta "
+        "and k in its place, as rgb or float");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<spectrum name=\"eta\" value=\"400:1.6 700:0.2\"/></bsdf>"),
+              "scene.xml:3:1: parameter 'eta' of bsdf 'conductor' is a spectrum, expected rgb, float or integer");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<rgb name=\"k\" value=\"3.9, -2.4, 2.2\"/></bsdf>"),
+              "scene.xml:3:15: k is negative: '3.9, -2.4, 2.2'");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<float name=\"int_ior\" value=\"1\"/></bsdf>"),
+              "scene.xml:3:8: unknown parameter 'int_ior' of bsdf 'conductor'; allowed: material, eta, k, specular_reflectance");
+}
+
+TEST_F(XmlValueErrors, RoughConductors) {
+    const auto rough_error = [&](const std::string& inside) {
+        return error("<bsdf type=\"roughconductor\">\n" + inside + "</bsdf>");
+    };
+    EXPECT_EQ(
+        rough_error("<string name=\"material\" value=\"Cu\"/>"),
+        "scene.xml:3:25: material 'Cu' of bsdf 'roughconductor' is not supported; allowed: none, which is a perfect mirror, or "
+        "eta and k in its place, as rgb or float");
+    EXPECT_EQ(rough_error("<string name=\"distribution\" value=\"phong\"/>"),
+              "scene.xml:3:29: distribution is 'phong'; allowed: beckmann, ggx");
+    EXPECT_EQ(rough_error("<float name=\"alpha\" value=\"0\"/>"),
+              "scene.xml:3:21: alpha is 0, expected at least 0.0001; bsdf 'conductor' is smooth");
+    EXPECT_EQ(rough_error("<float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0.3\"/>"),
+              "scene.xml:3:58: alpha_u is 0.1 and alpha_v is 0.3, expected the same: anisotropic roughness is not supported");
+    EXPECT_EQ(rough_error("<float name=\"alpha_v\" value=\"0.1\"/>"),
+              "scene.xml:3:23: alpha_v is given without alpha_u, expected both, or alpha");
+    EXPECT_EQ(rough_error("<float name=\"alpha\" value=\"0.1\"/><float name=\"alpha_u\" value=\"0.3\"/>"),
+              "scene.xml:3:56: both alpha and alpha_u are given, expected one of them");
+    EXPECT_EQ(rough_error("<float name=\"alpha_u\" value=\"0\"/><float name=\"alpha_v\" value=\"0\"/>"),
+              "scene.xml:3:23: alpha_u is 0, expected at least 0.0001; bsdf 'conductor' is smooth");
+    EXPECT_EQ(rough_error("<float name=\"roughness\" value=\"0.1\"/>"),
+              "scene.xml:3:8: unknown parameter 'roughness' of bsdf 'roughconductor'; allowed: material, eta, k, "
+              "specular_reflectance, distribution, alpha, alpha_u, alpha_v, sample_visible");
 }
 
 TEST_F(XmlValueErrors, UnusedDefinitionsAreCheckedToo) {

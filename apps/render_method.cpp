@@ -1,0 +1,64 @@
+#include "apps/render_method.h"
+
+#include "apps/series_files.h"
+#include "core/base/error.h"
+#include "core/image/image_io.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <algorithm>
+#include <filesystem>
+
+namespace neumann {
+
+namespace {
+
+// Bounces without any request: until the rest is below this part of the sum.
+constexpr double default_tail = 0.01;
+constexpr int default_most_bounces = 64, default_bounces_without_end = 16;
+
+Image read_reference(const std::string& folder, const std::string& file, const Film& film) {
+    const std::string path = (std::filesystem::path(folder) / file).string();
+    Image image = read_exr(path).mean;
+    if (image.width != film.crop_width || image.height != film.crop_height)
+        throw InputError(fmt::format("{}: is {}×{} pixels, expected {}×{} as the scene's film", path, image.width, image.height,
+                                     film.crop_width, film.crop_height));
+    return image;
+}
+
+}  // namespace
+
+int choose_bounces(const RenderJob& job) {
+    const auto& [request, scene, pilot] = job;
+    if (request.bounces) return *request.bounces;
+    if (request.tail) {
+        if (!pilot.converges())
+            throw RunError(fmt::format(
+                "--tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the bounces with -n",
+                *request.tail, pilot.given_up(), pilot.walks(), Pilot::bounces + Pilot::give_up));
+        const int n = pilot.bounces_for_tail(*request.tail);
+        if (n < 0)
+            throw RunError(fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", *request.tail,
+                                       Pilot::bounces));
+        return n;
+    }
+    if (scene.bounces) return *scene.bounces;
+    const int n = pilot.bounces_for_tail(default_tail);
+    return n < 0 || !pilot.converges() ? default_bounces_without_end : std::min(n, default_most_bounces);
+}
+
+Reference::Reference(const std::string& folder, int bounces, const Film& film) {
+    if (!std::filesystem::is_directory(folder))
+        throw InputError(folder + ": is not a folder; --reference takes the folder of an earlier render");
+    for (int i = 0; i <= bounces; ++i) terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film));
+    sum_ = read_reference(folder, sum_file(static_cast<std::size_t>(bounces)), film);
+}
+
+void Reference::judge(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint& checkpoint) const {
+    for (std::size_t i = 0; i < terms_.size(); ++i) checkpoint.true_term_error.push_back(relative_error(term(i), terms_[i]));
+    checkpoint.true_sum_error = relative_error(sum, sum_);
+}
+
+double memory_of_machine() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
+
+}  // namespace neumann

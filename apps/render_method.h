@@ -1,0 +1,47 @@
+// What the ways to render a series share: how many bounces, and what a result is judged by.
+#pragma once
+
+#include "apps/render.h"
+#include "core/base/warnings.h"
+#include "operators/pictures/bounce_series.h"
+#include "operators/pictures/pilot.h"
+
+#include <nlohmann/json.hpp>
+
+namespace neumann {
+
+struct RenderJob {
+    const RenderRequest& request;
+    const Scene& scene;
+    const Pilot& pilot;
+};
+
+struct RenderResult {
+    BounceSeries series;
+    Warnings warnings;
+    // Parts of run.json that belong to the method.
+    nlohmann::ordered_json options, samples, rest, non_finite;
+};
+
+RenderResult render_by_walk(const RenderJob& job);    // walk and pointwise
+RenderResult render_by_fields(const RenderJob& job);  // patches, matrix and gather
+inline bool is_field_method(const std::string& method) { return method == "patches" || method == "matrix" || method == "gather"; }
+
+// The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
+int choose_bounces(const RenderJob& job);
+
+// The pictures of an earlier render, to judge this one by.
+class Reference {
+public:
+    Reference(const std::string& folder, int bounces, const Film& film);
+    void judge(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint& checkpoint) const;
+
+private:
+    std::vector<Image> terms_;
+    Image sum_;
+};
+
+// The machine's, bytes.
+double memory_of_machine();
+
+}  // namespace neumann

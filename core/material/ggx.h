@@ -1,0 +1,41 @@
+// The GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al., Microfacet Models for Refraction through
+// Rough Surfaces, 2007), isotropic with roughness α > 0, in the local frame.
+#pragma once
+
+#include "core/sampling/warp.h"
+
+namespace neumann {
+
+class Ggx {
+public:
+    explicit Ggx(double alpha) : alpha_(alpha) {}
+
+    // D(m), sr⁻¹: the area of microfacets that face along m, per solid angle and per area of the surface. The sum keeps its digits
+    // for small α, where 1 + (α² − 1) cos²θ would not.
+    double density(const Vec3& m) const {
+        if (m.z <= 0.0) return 0.0;
+        const double a2 = alpha_ * alpha_, x = m.x * m.x + m.y * m.y + a2 * m.z * m.z;
+        return a2 * inv_pi / (x * x);
+    }
+    // ∫ D(m) (v·m)⁺ dm, v above the surface: the area of facets that a view along v would see if none hid another. Smith's share of
+    // visible ones is G1(v) = v.z / projected_area(v).
+    double projected_area(const Vec3& v) const {
+        return 0.5 * (v.z + std::sqrt(v.z * v.z + alpha_ * alpha_ * (v.x * v.x + v.y * v.y)));
+    }
+    // A normal with the density D(m) (v·m)⁺ / projected_area(v). The sphere's visible cap, stretched: Dupuy and Benyoub, Sampling
+    // Visible GGX Normals with Spherical Caps, 2023.
+    Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
+        const Vec3 w = glm::normalize(Vec3(alpha_ * v.x, alpha_ * v.y, v.z));
+        const double height = (1.0 - u.y) * (1.0 + w.z);                      // z of the cap's point, plus w.z
+        const double above = height + (w.x * w.x + w.y * w.y) / (1.0 + w.z);  // z of the cap's point, plus 1
+        const double radius = std::sqrt(std::max(above * (2.0 - above), 0.0));
+        const Vec2 cap = direction_on_circle(u.x) * radius;
+        return glm::normalize(Vec3(alpha_ * (cap.x + w.x), alpha_ * (cap.y + w.y), height));
+    }
+    double alpha() const { return alpha_; }
+
+private:
+    double alpha_;
+};
+
+}  // namespace neumann

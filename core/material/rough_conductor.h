@@ -1,0 +1,71 @@
+// A rough metal: microfacets that are mirrors, each hit once (Mitsuba's `roughconductor`). One-sided.
+//
+//     fs(ωi → ωo) = ρ F(ωo·m) D(m) G2(ωi, ωo) / (4 cosθi cosθo),   m ∝ ωi + ωo
+//
+// Torrance and Sparrow 1967; Smith's masking as in Heitz, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs,
+// 2014. Light that hits a second facet is not followed, so a rough metal is darker than a smooth one.
+#pragma once
+
+#include "core/material/beckmann.h"
+#include "core/material/bsdf_sample.h"
+#include "core/material/fresnel.h"
+#include "core/material/ggx.h"
+#include "core/material/lobe.h"
+#include "core/material/surface_function.h"
+
+namespace neumann {
+
+// G2: whether a facet hides from one direction has to do with how high it stands, and so with the other one, or has not.
+enum class Masking {
+    separable,         // G1(ωi) G1(ωo), as in Mitsuba
+    height_correlated  // 1 / (1 + Λ(ωi) + Λ(ωo)), G1 = 1 / (1 + Λ)
+};
+
+// Everything is written with the projected areas a(v) = cosθ (1 + Λ(v)) of the facets, which do not vanish at grazing angles.
+template <class Microfacets>
+class RoughConductor {
+public:
+    explicit RoughConductor(Microfacets facets, ConductorFresnel fresnel = {}, SurfaceFunction specular_reflectance = Rgb(1.0),
+                            Masking masking = Masking::separable)
+        : facets_(facets), fresnel_(fresnel), reflectance_(std::move(specular_reflectance)), masking_(masking) {}
+
+    Rgb eval(const SurfacePoint& p, const Vec3& wo, const Vec3& wi) const {
+        if (wo.z <= 0.0 || wi.z <= 0.0) return Rgb(0.0);
+        const Vec3 m = glm::normalize(wo + wi);
+        return reflectance_(p) * fresnel_(glm::dot(wo, m)) * (facets_.density(m) / (4.0 * area(wo, wi)));
+    }
+    // Over the whole sphere: facets also reflect light from below the horizon, where fs is 0.
+    double pdf(const SurfacePoint&, const Vec3& wo, const Vec3& wi) const {
+        const Vec3 h = wo + wi;
+        if (wo.z <= 0.0 || h.z <= 0.0) return 0.0;
+        return facets_.density(glm::normalize(h)) / (4.0 * facets_.projected_area(wo));
+    }
+    BsdfSample sample(const SurfacePoint& p, const Vec3& wo, const Vec2& u) const {
+        if (wo.z <= 0.0) return {};
+        const Vec3 m = facets_.sample_visible(wo, u);
+        const double cosine = glm::dot(wo, m), seen = facets_.projected_area(wo);
+        const Vec3 wi = 2.0 * cosine * m - wo;
+        const double pdf = facets_.density(m) / (4.0 * seen);
+        if (wi.z <= 0.0) return {wi, Rgb(0.0), pdf};
+        return {wi, reflectance_(p) * fresnel_(cosine) * (wi.z * seen / area(wo, wi)), pdf};
+    }
+    // Each facet is seen at most once, and F ≤ 1.
+    Rgb largest_albedo() const { return reflectance_.upper_bound(); }
+    bool is_constant() const { return reflectance_.is_constant(); }
+    bool is_grey() const { return reflectance_.is_grey() && fresnel_.is_grey(); }
+    Lobe lobe() const { return {Lobe::Kind::rough, facets_.alpha()}; }
+
+private:
+    // cosθi cosθo / G2.
+    double area(const Vec3& wo, const Vec3& wi) const {
+        const double o = facets_.projected_area(wo), i = facets_.projected_area(wi);
+        return masking_ == Masking::separable ? o * i : wo.z * i + wi.z * o - wo.z * wi.z;
+    }
+
+    Microfacets facets_;
+    ConductorFresnel fresnel_;
+    SurfaceFunction reflectance_;
+    Masking masking_;
+};
+
+}  // namespace neumann

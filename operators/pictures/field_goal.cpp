@@ -1,0 +1,98 @@
+#include "operators/pictures/field_goal.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <numeric>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::size_t fewest_patches = 500, most_patches = 250'000;
+constexpr std::uint32_t fewest_rays = 16, most_rays = 1024, most_samples = 1024;
+// A step multiplies no part by more than this: estimates from few samples are rough.
+constexpr double most_growth = 8.0;
+
+Checkpoint make_checkpoint(const FieldPictures& pictures, double seconds) {
+    Checkpoint checkpoint;
+    checkpoint.samples = pictures.samples;
+    checkpoint.rays = std::accumulate(pictures.rays.begin(), pictures.rays.end(), std::uint64_t{0});
+    checkpoint.seconds = seconds;
+    for (const FieldPicture& term : pictures.terms) checkpoint.term_error.push_back(picture_error(term.picture).all());
+    checkpoint.sum_error = picture_error(pictures.sums.back().picture).all();
+    return checkpoint;
+}
+
+// The errors that rays at the pixel make, that fields make by their rays, and that fields make by their patches.
+struct Parts {
+    double pixels = 0.0, rays = 0.0, patches = 0.0;
+};
+Parts largest_parts(const FieldPictures& pictures, FieldMethod method) {
+    Parts parts;
+    for (std::size_t i = 0; i < pictures.terms.size(); ++i) {
+        const PictureError error = picture_error(pictures.terms[i].picture);
+        const bool at_pixel = i < 2 && method != FieldMethod::patches;
+        (at_pixel ? parts.pixels : parts.rays) = std::max(at_pixel ? parts.pixels : parts.rays, error.sampling);
+        parts.patches = std::max(parts.patches, error.discretisation);
+    }
+    return parts;
+}
+
+std::uint32_t grow(std::uint32_t n, double factor, std::uint32_t most) {
+    return std::min(most, n * std::bit_ceil(static_cast<std::uint32_t>(std::ceil(std::clamp(factor, 1.0, most_growth)))));
+}
+
+// False where nothing can grow any more.
+bool grow(FieldSettings& settings, const Parts& parts, double target) {
+    const FieldSettings before = settings;
+    // Half the error's square for each of sampling and patches.
+    const double part = target * std::sqrt(0.5);
+    const auto square = [](double x) { return x * x; };
+    // Later bounces are noisy by both, the pixel's samples and the fields' rays: which of them, more of both tells.
+    settings.samples = grow(settings.samples, square(std::max(parts.pixels, parts.rays) / part), most_samples);
+    settings.rays = grow(settings.rays, square(parts.rays / part), most_rays);
+    settings.light_samples = std::min(settings.rays, 64u);
+    if (parts.patches > part)
+        settings.patching.patches =
+            std::min(most_patches, static_cast<std::size_t>(static_cast<double>(settings.patching.patches) *
+                                                            std::clamp(square(parts.patches / part), 1.5, most_growth)));
+    return settings.samples != before.samples || settings.rays != before.rays ||
+           settings.patching.patches != before.patching.patches;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+FieldRun render_fields_once(const Scene& scene, const FieldSettings& settings) {
+    FieldRun run{render_fields(scene, settings), settings, {}};
+    run.seconds = run.pictures.field_seconds + run.pictures.picture_seconds;
+    run.convergence.push_back(make_checkpoint(run.pictures, run.seconds));
+    return run;
+}
+
+FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, double relative_error, const RenderObserver& observer) {
+    const auto start = std::chrono::steady_clock::now();
+    settings.patching.patches = fewest_patches;
+    settings.rays = settings.light_samples = fewest_rays;
+    settings.samples = 1;
+    std::vector<Checkpoint> convergence;
+    for (;;) {
+        FieldRun run = render_fields_once(scene, settings);
+        run.seconds = seconds_since(start);
+        convergence.push_back(make_checkpoint(run.pictures, run.seconds));
+        run.convergence = convergence;
+        const auto& errors = convergence.back().term_error;
+        const double worst = *std::max_element(errors.begin(), errors.end());
+        observer.progress({run.pictures.samples, run.seconds, std::min(1.0, relative_error / worst), std::nullopt});
+        if (worst <= relative_error) run.outcome = Outcome::error_reached;
+        if (observer.interrupted()) run.outcome = Outcome::interrupted;
+        if (run.outcome != Outcome::samples_reached) return run;
+        if (!grow(settings, largest_parts(run.pictures, settings.method), relative_error)) return run;
+    }
+}
+
+}  // namespace neumann

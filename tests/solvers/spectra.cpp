@@ -1,0 +1,143 @@
+// Spectra: the cube patch by patch, mirrors with complex eigenvalues, norms that are not the spectral radius.
+#include "operators/spectrum/closure.h"
+#include "operators/spectrum/rounding.h"
+#include "operators/spectrum/spectrum.h"
+#include "tests/solvers/cube.h"
+#include "tests/solvers/small_problems.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+using namespace neumann;
+
+// λ₂(n) of n × n patches a face, threefold; of the whole cube. It grows on with n, towards 0.5945 of the corners, like 1/(ln n)².
+TEST(Spectra, CubeByPatches) {
+    const std::pair<int, double> rows[] = {
+        {2, 0.35378252258065523}, {4, 0.4473321313543558}, {8, 0.4969093656850799}, {16, 0.5253458862440682}};
+    for (const auto& [n, second] : rows) {
+        const Cube cube = make_cube(n);
+        const Eigenpairs found = leading_eigenpairs(cube.channel(1.0), 4);
+        ASSERT_TRUE(found.converged) << n;
+        ASSERT_EQ(found.pairs.size(), 4u);
+        EXPECT_NEAR(found.pairs[0].value.real(), 1.0, 1e-12) << n;
+        EXPECT_NEAR(found.pairs[1].value.real(), second, 1e-10) << n;
+        for (const Eigenpair& pair : found.pairs) {
+            EXPECT_NEAR(pair.value.imag(), 0.0, 1e-12);
+            EXPECT_LT(pair.residual, 1e-10);
+        }
+    }
+}
+
+TEST(Spectra, MixedAlbedos) {
+    const Cube cube = make_cube(16);
+    const DenseChannel K = cube.channel(cube.on_faces({.2, .5, .8, .9, .95, .7}));
+    EXPECT_NEAR(spectral_radius(K), 0.6622559026688091, 1e-11);
+    const Eigenpairs right = leading_eigenpairs(K, 1), left = leading_eigenpairs(K, 1, true);
+    EXPECT_NEAR(left.pairs[0].value.real(), 0.6622559026688091, 1e-11);
+    EXPECT_LT(right.pairs[0].residual, 1e-10);
+    const OperatorNorms norms = operator_norms(K);
+    EXPECT_NEAR(norms.sup, 0.95, 1e-12);
+    EXPECT_LE(norms.two * norms.two, norms.sup * norms.one * (1 + 1e-12));  // Riesz and Thorin
+    EXPECT_GE(norms.two, 0.6622559026688091);
+}
+
+// ‖K‖∞ = 1.6, spectral radius 0.9; ‖K‖₁ = 0.9; K = ρ 1ᵀ/2 has ‖K‖₂ = ‖ρ‖ ‖1‖ / 2 = √(1.6² + 0.2²) √2 / 2.
+TEST(Spectra, NormsAreNotTheSpectralRadius) {
+    const DenseChannel K = sphere_halves(1.6, 0.2);
+    const OperatorNorms norms = operator_norms(K);
+    EXPECT_NEAR(norms.sup, 1.6, 1e-15);
+    EXPECT_NEAR(norms.one, 0.9, 1e-15);
+    EXPECT_NEAR(norms.two, std::sqrt(2.6 / 2), 1e-14);
+    EXPECT_NEAR(spectral_radius(K), 0.9, 1e-15);
+    EXPECT_NEAR(spectral_radius(plates()), 0.9, 1e-15);
+}
+
+// A ring of n mirrors has the eigenvalues ρ e^{2πik/n}: by Arnoldi where n is large, a block of modulus ρ.
+TEST(Spectra, ComplexPairs) {
+    const Eigenpairs three = leading_eigenpairs(carousel(0.9), 3);
+    double imaginary = 0.0;
+    for (const Eigenpair& pair : three.pairs) {
+        EXPECT_NEAR(std::abs(pair.value), 0.9, 1e-14);
+        EXPECT_LT(pair.residual, 1e-14);
+        imaginary = std::max(imaginary, pair.value.imag());
+    }
+    EXPECT_NEAR(imaginary, 0.9 * std::sqrt(3.0) / 2, 1e-14);
+    // 40 turning pairs with moduli 0.9, 0.8, 0.79, …: 0.9 e^{±iπ/5} leads.
+    DenseChannel::Matrix K = DenseChannel::Matrix::Zero(80, 80);
+    for (int k = 0; k < 40; ++k) {
+        const double modulus = k == 0 ? 0.9 : 0.81 - 0.01 * k, angle = std::numbers::pi / 5;
+        K.block<2, 2>(2 * k, 2 * k) << modulus * std::cos(angle), -modulus * std::sin(angle), modulus * std::sin(angle),
+            modulus * std::cos(angle);
+    }
+    const Eigenpairs found = leading_eigenpairs(DenseChannel(K, Vector::Ones(80)), 2);
+    ASSERT_TRUE(found.converged);
+    EXPECT_NEAR(std::abs(found.pairs[0].value), 0.9, 1e-10);
+    EXPECT_NEAR(std::abs(found.pairs[0].value.imag()), 0.9 * std::sin(std::numbers::pi / 5), 1e-10);
+    EXPECT_LT(found.pairs[0].residual, 1e-9);
+}
+
+// Patch centre to patch centre, F ≈ G A / π: rows up to 1.27, and a series that diverges below albedo 1.
+TEST(Spectra, CentreToCentreFormFactorsDoNotClose) {
+    struct Row {
+        int n;
+        double largest_row, radius;
+    };
+    for (const Row& row :
+         {Row{2, 1.2729893039, 1.2729893039}, Row{4, 1.2428650171, 1.1431238396}, Row{8, 1.2391144812, 1.0754847461}}) {
+        Cube cube = make_cube(row.n);
+        for (Eigen::Index u = 0; u < cube.size(); ++u)
+            for (Eigen::Index v = 0; v < cube.size(); ++v) {
+                if (cube.face[u] == cube.face[v]) continue;
+                const Vec3 d = cube.patches[v].centre() - cube.patches[u].centre();
+                const double r2 = glm::dot(d, d);
+                cube.factors.F(u, v) = -glm::dot(d, cube.patches[u].normal()) * glm::dot(d, cube.patches[v].normal()) / (r2 * r2) *
+                                       cube.factors.area[v] / std::numbers::pi;
+            }
+        const DenseChannel F = cube.channel(1.0);
+        EXPECT_NEAR(row_sums(F).maxCoeff(), row.largest_row, 1e-9);
+        EXPECT_NEAR(closure_defect(F), row.largest_row - 1, 1e-9);
+        EXPECT_NEAR(spectral_radius(F), row.radius, 1e-9);
+    }
+}
+
+TEST(Spectra, DefectsAreSeen) {
+    // One entry of a reciprocal F off by 1%.
+    DenseChannel::Matrix F = DenseChannel::Matrix::Constant(3, 3, 1.0 / 3);
+    EXPECT_LT(reciprocity_defect(DenseChannel(F, Vector::Ones(3))), 1e-15);
+    F(0, 1) *= 1.01;
+    EXPECT_NEAR(closure_defect(DenseChannel(F, Vector::Ones(3))), 0.01 / 3, 1e-15);
+    EXPECT_GT(reciprocity_defect(DenseChannel(F, Vector::Ones(3))), 1e-4);
+    EXPECT_LT(adjoint_defect(DenseChannel(F, Vector::Ones(3))), 1e-15);
+}
+
+// A scalar furnace in float: where S_n stops changing, 138, 1241, 10392 with terms multiplied in float. Terms in double may move it
+// by a few. The estimate is within 10%.
+TEST(Spectra, WhereSumsStagnate) {
+    const std::pair<double, int> rows[] = {{0.9, 138}, {0.99, 1241}, {0.999, 10392}};
+    for (const auto& [rho, bounce] : rows) {
+        const DenseChannel K(DenseChannel::Matrix::Constant(1, 1, rho), Vector::Ones(1));
+        const auto found = stagnation<float>(K, Vector::Ones(1), 20000);
+        ASSERT_TRUE(found.has_value());
+        EXPECT_NEAR(*found, bounce, 0.01 * bounce);
+        EXPECT_NEAR(expected_stagnation(std::numeric_limits<float>::epsilon(), rho), bounce, 0.1 * bounce);
+    }
+    // The cube with 16 × 16 patches a face: 140 and 1201.
+    const Cube cube = make_symmetric_cube(16);
+    EXPECT_NEAR(*stagnation<float>(cube.channel(0.9), cube.ceiling(), 2000), 140, 2);
+    EXPECT_NEAR(*stagnation<float>(cube.channel(0.99), cube.ceiling(), 2000), 1201, 12);
+    // In double: ρ^n < 2^-53 / (1 − ρ), n = 326 at 0.9.
+    EXPECT_NEAR(*stagnation<double>(cube.channel(0.9), cube.ceiling(), 2000), 326, 10);
+    EXPECT_FALSE(stagnation<double>(cube.channel(0.9), cube.ceiling(), 100).has_value());
+}
+
+// What rounding ρ itself does to the furnace: 1/(1 − float(ρ)) against 1/(1 − ρ) stays below the floor, and is of its size.
+TEST(Spectra, RoundingFloor) {
+    const std::pair<double, double> rows[] = {{0.9, 2.4e-7}, {0.99, 9.5e-7}, {0.999, 1.3e-5}, {0.9999, 1.7e-4}, {0.999999, 1.3e-2}};
+    for (const auto& [rho, change] : rows) {
+        const double rounded = static_cast<double>(static_cast<float>(rho));
+        const double found = std::abs((1 - rho) / (1 - rounded) - 1);
+        EXPECT_NEAR(found, change, 0.05 * change);
+        EXPECT_LE(found, 1.02 * rounding_floor(std::numeric_limits<float>::epsilon(), rho));
+    }
+}

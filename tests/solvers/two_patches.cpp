@@ -1,0 +1,96 @@
+// Two unknowns, where everything can be written down: near-parallel plates (concentric spheres) and the dome over a disc.
+#include "operators/series/series_run.h"
+#include "operators/solvers/solvers.h"
+#include "operators/spectrum/spectrum.h"
+#include "tests/solvers/small_problems.h"
+
+#include <gtest/gtest.h>
+
+using namespace neumann;
+
+namespace {
+
+void expect_terms(const DenseChannel& K, const Vector& Le, const std::vector<std::array<double, 2>>& expected, double accuracy) {
+    TermSeries series(K, Le);
+    Vector sum = Vector::Zero(2);
+    for (const auto& t : expected) {
+        EXPECT_NEAR(series.term()[0], t[0], accuracy);
+        EXPECT_NEAR(series.term()[1], t[1], accuracy);
+        sum += Vector(series.term());
+        EXPECT_NEAR((series.sum() - sum).lpNorm<Eigen::Infinity>(), 0.0, 1e-15);
+        series.advance();
+    }
+}
+
+}  // namespace
+
+TEST(TwoPatches, DomeFromItsDisc) {
+    const DenseChannel K = dome();
+    expect_terms(K, vector({1, 0}),
+                 {{1, 0}, {0, .25}, {.175, .0625}, {.04375, .059375}, {.0415625, .02578125}, {.018046875, .0168359375}}, 1e-16);
+    expect_terms(K, vector({0, 1}), {{0, 1}, {.7, .25}, {.175, .2375}, {.16625, .103125}, {.0721875, .06734375}}, 1e-16);
+    const Eigenpairs found = leading_eigenpairs(K, 2);
+    ASSERT_TRUE(found.converged);
+    EXPECT_NEAR(found.pairs[0].value.real(), (0.25 + std::sqrt(0.0625 + 0.7)) / 2, 1e-14);
+    EXPECT_NEAR(found.pairs[1].value.real(), (0.25 - std::sqrt(0.0625 + 0.7)) / 2, 1e-14);
+}
+
+TEST(TwoPatches, NearParallelPlates) {
+    const DenseChannel K = plates();
+    expect_terms(K, vector({1, 0}),
+                 {{1, 0},
+                  {0, .88209},
+                  {.793881, .0157982319},
+                  {.01421840871, .7005574376233291},
+                  {.6305016938609962, .02508889984683773},
+                  {.022580009862153957, .5566085813341031},
+                  {.5009477232006928, .02988646059100118}},
+                 1e-15);
+    const Eigenpairs found = leading_eigenpairs(K, 2);
+    ASSERT_TRUE(found.converged);
+    EXPECT_NEAR(found.pairs[0].value.real(), 0.9, 1e-14);
+    EXPECT_NEAR(found.pairs[1].value.real(), -0.88209, 1e-14);
+}
+
+// L by Cramer's rule.
+TEST(TwoPatches, AllSolversSolveThem) {
+    const double rho_dome[] = {0.7, 0.5}, rho_plates[] = {0.9, 0.9};
+    for (const bool is_dome : {true, false}) {
+        const DenseChannel K = is_dome ? dome() : plates();
+        const Vector rho = Eigen::Map<const Vector>(is_dome ? rho_dome : rho_plates, 2);
+        const auto& m = K.matrix();
+        const double determinant = (1 - m(0, 0)) * (1 - m(1, 1)) - m(0, 1) * m(1, 0);
+        const Vector exact = vector({(1 - m(1, 1)) / determinant, m(1, 0) / determinant});
+        Problem problem;
+        problem.K = &K;
+        problem.Le = vector({1, 0});
+        problem.tolerance = 1e-10;
+        problem.radius = is_dome ? 0.5616062299 : 0.9;
+        problem.lowest = is_dome ? -0.3116062299 : -0.88209;
+        problem.reflectance = &rho;
+        for (const NamedSolver& solver : solvers()) {
+            const SolverResult result = solver.solve(problem);
+            EXPECT_EQ(result.verdict, Verdict::converged) << solver.name << ": " << result.why;
+            EXPECT_LE((result.x - exact).lpNorm<Eigen::Infinity>(), 1e-9 * exact.lpNorm<Eigen::Infinity>()) << solver.name;
+        }
+    }
+}
+
+// Ratios of neighbours jump between 0.018 and 44; every second term falls evenly, and encloses.
+TEST(TwoPatches, AlternatingTermsAreEnclosedInPairs) {
+    const DenseChannel K = plates();
+    const SeriesRun run = run_series(K, vector({1, 0}), {.tolerance = 1e-6, .norm = 0.9});
+    EXPECT_EQ(run.verdict, Verdict::converged) << run.why;
+    EXPECT_EQ(run.rows[1].enclosure_width, std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(run.rows[3].term.sup / run.rows[2].term.sup, 0.882446409, 1e-9);
+    EXPECT_NEAR(run.rows[4].term.sup / run.rows[3].term.sup, 0.9, 1e-12);
+    // From n on, with the error of the plain sum ‖t_{n+1} + …‖∞ as known exactly.
+    EXPECT_NEAR(run.rows[4].a_posteriori, 0.6305016938609962 * 9.0, 1e-12);
+    const Enclosure early = run_series(K, vector({1, 0}), {.tolerance = 0.0, .most_bounces = 12, .norm = 0.9}).enclosure;
+    const double determinant = (1 - .01791) - .9 * .88209;
+    ASSERT_TRUE(early.exists) << early.why;
+    EXPECT_LE(early.low[0], (1 - .01791) / determinant);
+    EXPECT_GE(early.high[0], (1 - .01791) / determinant);
+    EXPECT_LE(early.low[1], .88209 / determinant);
+    EXPECT_GE(early.high[1], .88209 / determinant);
+}
