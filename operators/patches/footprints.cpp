@@ -45,6 +45,23 @@ std::vector<Edge> outline_edges(const std::vector<Chart>& charts) {
     return edges;
 }
 
+bool is_corner(const Chart& chart, const Vec3& p) {
+    const auto& corners = chart.corners();
+    return std::find(corners.begin(), corners.end(), p) != corners.end();
+}
+
+// Of the quadrilateral, for a point in its plane.
+bool is_inside(const Chart& chart, const Vec3& p) {
+    const auto& corners = chart.corners();
+    const double size = glm::distance(corners[0], corners[2]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3 along = corners[(i + 1) % 4] - corners[i];
+        if (along == Vec3(0.0)) continue;
+        if (glm::dot(glm::cross(along, p - corners[i]), chart.normal()) <= 1e-6 * glm::length(along) * size) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::uint32_t Footprints::classes(const Vec2& p) const {
@@ -70,22 +87,22 @@ std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vec
         if (!chart.is_plane()) continue;
         const Vec3 origin = chart.corners()[0], normal = chart.normal();
         const auto height = [&](const Vec3& p) { return glm::dot(p - origin, normal); };
-        std::map<std::uint32_t, std::vector<Footprints::Segment>> outlines;  // by shape
+        struct Outline {
+            std::vector<Footprints::Segment> segments;
+            bool divides = false;  // the chart: not all of it is inside, or outside
+        };
+        std::map<std::uint32_t, Outline> outlines;  // by shape
         for (const Edge& edge : edges) {
             if (std::max(std::abs(height(edge.a)), std::abs(height(edge.b))) > near) continue;
-            const auto place = [&](const Vec3& p) { return chart.coordinates(geometry, p - normal * height(p)); };
-            outlines[edge.shape].push_back({place(edge.a), place(edge.b)});
+            const Vec3 a = edge.a - normal * height(edge.a), b = edge.b - normal * height(edge.b);
+            Outline& outline = outlines[edge.shape];
+            outline.segments.push_back({chart.coordinates(geometry, a), chart.coordinates(geometry, b)});
+            // Surfaces that go on from the chart's edge do not stand on it.
+            if (is_corner(chart, edge.a) || is_corner(chart, edge.b)) continue;
+            for (const Vec3& p : {a, 0.5 * (a + b), b}) outline.divides = outline.divides || is_inside(chart, p);
         }
-        for (auto& [shape, outline] : outlines) {
-            // Only what divides the chart: somewhere inside and somewhere not.
-            const bool crosses = std::any_of(outline.begin(), outline.end(), [](const Footprints::Segment& s) {
-                const auto within = [](double x) { return x > 1e-6 && x < 1.0 - 1e-6; };
-                const Vec2 middle = 0.5 * (s.a + s.b);
-                return (within(s.a.x) && within(s.a.y)) || (within(s.b.x) && within(s.b.y)) ||
-                       (within(middle.x) && within(middle.y));
-            });
-            if (crosses) result[i].add(std::move(outline));
-        }
+        for (auto& [shape, outline] : outlines)
+            if (outline.divides) result[i].add(std::move(outline.segments));
     }
     return result;
 }

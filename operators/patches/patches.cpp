@@ -60,8 +60,9 @@ Patches::Patches(const Geometry& geometry, const Patching& patching)
     : geometry_(&geometry),
       atlas_(geometry, positive_area(geometry) / static_cast<double>(std::max<std::size_t>(patching.patches, 1))) {
     if (patching.patches == 0) throw InputError("0 patches: at least one is needed");
-    const double width = choose_width(charts(), total_area(geometry), patching.patches);
-    footprints_ = find_footprints(geometry, charts(), near * width);
+    const double area = total_area(geometry), width = choose_width(charts(), area, patching.patches);
+    const auto cells = static_cast<double>(count_cells(charts(), width));
+    footprints_ = find_footprints(geometry, charts(), near * std::sqrt(area / cells));
     for (const Chart& chart : charts()) {
         const auto [across, along] = cells_of(chart, width);
         add_grid(axis(across, patching.grading, false), axis(along, patching.grading, chart.closed_in_t()));

@@ -38,6 +38,51 @@ double area(const Geometry& geometry) {
     return sum;
 }
 
+// A box that stands on the floor, turned, and a lamp close below the ceiling: their outlines divide floor and ceiling.
+Scene furnished_room() {
+    SceneMaker maker;
+    maker.add(room({0, 0, 0}, {1, 1, 1}), matte(0.5));
+    const Mat4 turn({0.8, 0.6, 0, 0}, {-0.6, 0.8, 0, 0}, {0, 0, 1, 0}, {0.4, 0.2, 0, 1});
+    maker.add(transformed(box({0, 0, 0}, {0.3, 0.3, 0.5}), turn), matte(0.5));
+    maker.add(parallelogram({0.6, 0.6, 0.999}, {0, 0.2, 0}, {0.3, 0, 0}), glowing(0.5, 1.0));
+    return maker.make();
+}
+
+TEST(Patches, EndAtTheOutlinesOfWhatStandsOnThem) {
+    const Scene scene = furnished_room();
+    const Patches patches(scene.geometry, {1500, 0.3});
+    EXPECT_NEAR(area(patches) / area(scene.geometry), 1.0, 1e-13);
+    const auto inside = [](const Vec3& p, bool& border) {
+        const Vec2 d(p.x - 0.4, p.y - 0.2), q(0.8 * d.x + 0.6 * d.y, -0.6 * d.x + 0.8 * d.y);
+        const double within = std::min({q.x, q.y, 0.3 - q.x, 0.3 - q.y});
+        border = std::abs(within) < 0.005;  // a sixteenth of a patch's width
+        return within > 0.0;
+    };
+    IndependentSampler random(3, 0);
+    random.start(0);
+    std::uint64_t divided = 0;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        if (patches.chart(i).normal().z < 0.5 || patches.chart(i).corners()[0].z > 0.1) continue;  // the floor
+        bool border = false, found = false, outside = false;
+        for (int k = 0; k < 64; ++k) {
+            const SurfacePoint p = patches.point(i, random.next2());
+            const bool in = inside(p.position, border);
+            if (border) continue;
+            (in ? found : outside) = true;
+            // Nor does interpolation look across.
+            const Patches::Reading r = patches.interpolate(p);
+            for (int n = 0; n < 4; ++n) {
+                if (r.weight[n] == 0.0) continue;
+                const bool same = inside(patches.point(r.patch[n], Vec2(0.5)).position, border) == in;
+                EXPECT_TRUE(same || border);
+            }
+        }
+        EXPECT_FALSE(found && outside) << "patch " << i;
+        divided += found;
+    }
+    EXPECT_GT(divided, 20u);
+}
+
 TEST(Patches, CoverTheSurfaces) {
     for (const Enclosure& e : surfaces()) {
         const Scene scene = e.maker.make();
@@ -82,7 +127,7 @@ TEST(Patches, PointsAreUniformByArea) {
         std::vector<double> share(fine.size());
         IndependentSampler random(7, 0);
         random.start(0);
-        constexpr int samples = 20000;
+        constexpr int samples = 4000;
         // Points of all coarse patches, weighted by area, against the area of the fine patches, eight groups of them.
         std::vector<double> found(8), expected(8), squares(8);
         for (std::uint32_t i = 0; i < coarse.size(); ++i) {
