@@ -1,12 +1,14 @@
 // The command line.
 #include "apps/compare.h"
+#include "apps/export.h"
+#include "apps/options.h"
 #include "apps/render.h"
+#include "apps/solve.h"
+#include "apps/spectrum.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -16,17 +18,6 @@
 namespace {
 
 constexpr int failed_while_running = 1, wrong_input = 2;
-
-std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& texts) {
-    std::map<std::string, std::string> definitions;
-    for (const std::string& text : texts) {
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0) throw neumann::InputError("-D " + text + ": expected name=value");
-        if (!definitions.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
-            throw neumann::InputError("-D " + text + ": '" + text.substr(0, equals) + "' is given twice");
-    }
-    return definitions;
-}
 
 // Not fmt::print, which throws where stderr cannot be written.
 void complain(const std::string& what) { std::fputs((what + "\n").c_str(), stderr); }
@@ -43,25 +34,11 @@ std::string join(int argc, char** argv) {
     return line;
 }
 
-// Validators without a description of their own, which CLI11 would put into the help.
-CLI::Validator above_zero() {
-    return CLI::Validator(
-        [](std::string& text) {
-            double value = 0.0;
-            const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
-            return good ? std::string() : "'" + text + "' is not a number above 0";
-        },
-        "", "above_zero");
-}
-CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
-    return CLI::Validator(
-        [=](std::string& text) {
-            std::uint64_t value = 0;
-            const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-            const bool good = digits && CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-            return good ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
-        },
-        "", "whole");
+// "render, compare, …, help"
+std::string commands(const CLI::App& app) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) names += (names.empty() ? "" : ", ") + command->get_name();
+    return names;
 }
 
 void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std::string>& definitions, std::string& direct) {
@@ -70,19 +47,21 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
     render->add_option("-o", request.output, "Folder for the pictures and tables; out/NAME without it")->type_name("DIR");
     auto* bounces = render->add_option("-n", request.bounces, "The last bounce with a picture of its own")
                         ->type_name("BOUNCES")
-                        ->check(whole_from(0, 100000));
+                        ->check(neumann::whole_from(0, 100000));
     render->add_option("--tail", request.tail, "As many bounces as it takes until the rest is below this part of the sum")
         ->type_name("EPS")
-        ->check(above_zero())
+        ->check(neumann::above_zero())
         ->excludes(bounces);
-    render->add_option("--spp", request.samples, "Samples a pixel")->type_name("N")->check(whole_from(1, std::uint64_t{1} << 40));
-    render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(above_zero());
+    render->add_option("--spp", request.samples, "Samples a pixel")
+        ->type_name("N")
+        ->check(neumann::whole_from(1, std::uint64_t{1} << 40));
+    render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(neumann::above_zero());
     render
         ->add_option("--error", request.relative_error,
                      "Sample until the relative standard error of every bounce is at most this, looked at when the samples are a "
                      "power of two")
         ->type_name("REL")
-        ->check(above_zero());
+        ->check(neumann::above_zero());
     render
         ->add_option(
             "--method", request.method,
@@ -99,22 +78,19 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
         ->check(CLI::IsMember({"light", "bsdf", "mis"}).description(""));
     render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
         ->type_name("N")
-        ->check(whole_from(0, std::uint64_t{1} << 40));
+        ->check(neumann::whole_from(0, std::uint64_t{1} << 40));
     render->add_option("--directions", request.directions, "Rays of a patch, of patches, matrix and gather")
         ->type_name("N")
-        ->check(whole_from(1, 1u << 20));
+        ->check(neumann::whole_from(1, 1u << 20));
     render
         ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
         ->type_name("DIR");
     render->add_option("--seed", request.seed, "Seed of the random numbers")
         ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
+        ->check(neumann::whole_from(0, ~std::uint64_t{0}))
         ->capture_default_str();
-    render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
-    render->add_option("-D", definitions, "Define $name in the scene file")
-        ->type_name("name=value")
-        ->allow_extra_args(false)
-        ->take_all();
+    render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(neumann::whole_from(1, 4096));
+    neumann::add_definitions(*render, definitions);
     render->add_flag("--quiet", request.quiet, "Print nothing but errors");
     render->add_flag("--json", request.json, "Print run.json");
 }
@@ -140,12 +116,18 @@ int main(int argc, char** argv) try {
     compare->add_option("A", a, "Picture or folder")->required();
     compare->add_option("B", b, "Reference picture or folder")->required();
     compare->add_flag("--json", json, "Print JSON");
+    neumann::SpectrumRequest spectrum_request;
+    auto* spectrum = neumann::add_spectrum(app, spectrum_request);
+    neumann::SolveRequest solve_request;
+    auto* solve = neumann::add_solve(app, solve_request);
+    neumann::ExportRequest export_request;
+    auto* export_matrices = neumann::add_export(app, export_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
 
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; }).empty())
-        throw neumann::InputError(fmt::format("no command is called '{}'; there are render, compare, help", argv[1]));
+        throw neumann::InputError(fmt::format("no command is called '{}'; there are {}", argv[1], commands(app)));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -157,15 +139,29 @@ int main(int argc, char** argv) try {
             fmt::print("{}", about->help("neumann"));
             return finish(0);
         }
-        if (!topic.empty()) throw neumann::InputError("no command is called '" + topic + "'; there are render, compare, help");
+        if (!topic.empty()) throw neumann::InputError(fmt::format("no command is called '{}'; there are {}", topic, commands(app)));
         app.clear();
         fmt::print("{}", app.help());
         return finish(0);
     }
     if (*compare) return finish(neumann::compare_command(a, b, json));
 
-    request.definitions = parse_definitions(definitions);
-    request.command_line = join(argc, argv);
+    const std::string command_line = join(argc, argv);
+    if (*spectrum) {
+        spectrum_request.patches.command_line = command_line;
+        return finish(neumann::spectrum_command(spectrum_request));
+    }
+    if (*solve) {
+        solve_request.patches.command_line = command_line;
+        return finish(neumann::solve_command(solve_request));
+    }
+    if (*export_matrices) {
+        export_request.patches.command_line = command_line;
+        return finish(neumann::export_command(export_request));
+    }
+
+    request.definitions = neumann::parse_definitions(definitions);
+    request.command_line = command_line;
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
     if (!direct.empty())

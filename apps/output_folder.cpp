@@ -63,8 +63,18 @@ std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
 }  // namespace
 
 bool is_output_name(std::string_view name) {
-    constexpr std::string_view names[] = {"rest.exr",        "contact-sheet.png", "bounces.gif", "series.csv",
-                                          "convergence.csv", "run.json",          "index.html"};
+    constexpr std::string_view names[] = {"rest.exr",        "contact-sheet.png",
+                                          "bounces.gif",     "series.csv",
+                                          "convergence.csv", "run.json",
+                                          "index.html",  // render
+                                          "T.mtx",           "R.mtx",
+                                          "R_r.mtx",         "R_g.mtx",
+                                          "R_b.mtx",         "K.mtx",
+                                          "K_r.mtx",  // export
+                                          "K_g.mtx",         "K_b.mtx",
+                                          "Le.mtx",          "b.mtx",
+                                          "measure.mtx",     "ray_measure.mtx",
+                                          "patches.csv"};
     return is_numbered(name, "bounce_") || is_numbered(name, "sum_") ||
            std::find(std::begin(names), std::end(names), name) != std::end(names);
 }

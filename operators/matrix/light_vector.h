@@ -17,5 +17,7 @@ ExitantVector<C> direct_light(const Scene& scene, const PatchSpace& space, std::
 
 // The rays of a facet that meet a light, on average over the scene, were every point as likely.
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays);
+// So many have to, for K Le to be T's own.
+constexpr double enough_rays = 8.0;
 
 }  // namespace neumann

@@ -10,9 +10,6 @@ namespace neumann {
 
 namespace {
 
-// T's rays that have to meet a light, for K Le to be T's own.
-constexpr double enough_rays = 8.0;
-
 // P and M.
 class Coarsening {
 public:

@@ -1,5 +1,7 @@
 #include "operators/spectrum/remaining.h"
 
+#include "operators/series/change_rate.h"
+
 namespace neumann {
 
 std::optional<int> bounces_until(const std::vector<SeriesRow>& rows, double fraction) {
@@ -21,6 +23,31 @@ std::optional<int> bounces_until(const std::vector<SeriesRow>& rows, double frac
     }
     if (!(allowed > 0.0)) return std::nullopt;
     return rows.back().bounce + static_cast<int>(std::ceil(std::log(allowed / after.back()) / std::log(rows.back().ratio)));
+}
+
+std::vector<SeriesRow> power_rows(const ChannelOperator& K, const Vector& Le, const Vector& b, double fraction, int most) {
+    std::vector<SeriesRow> rows;
+    ChangeRate rate;
+    Vector term = Le, next(Le.size());
+    double sum = 0.0, before = std::numeric_limits<double>::quiet_NaN();
+    for (int n = 0;; ++n) {
+        SeriesRow row;
+        row.bounce = n;
+        row.term = norms(term, K.measure());
+        row.ratio = row.term.power / before;
+        rows.push_back(row);
+        sum += row.term.power;
+        before = row.term.power;
+        rate.add(row.term.power);
+        const bool small = row.ratio < 1.0 && row.term.power * row.ratio <= fraction * (1.0 - row.ratio) * sum;
+        if (row.term.power == 0.0 || small || rate.not_falling() || n >= most) return rows;
+        if (n == 0) {
+            term = b;
+        } else {
+            K.apply(term, next);
+            std::swap(term, next);
+        }
+    }
 }
 
 }  // namespace neumann

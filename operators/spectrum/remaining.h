@@ -12,4 +12,8 @@ namespace neumann {
 // its ratio. Nothing where the rows end before, or where the ratio is not below 1. For K ≥ 0, Le ≥ 0 this is the power of L − S_n.
 std::optional<int> bounces_until(const std::vector<SeriesRow>& rows, double fraction);
 
+// Rows that hold the power alone, until what follows is below `fraction` of the whole, the terms do not get smaller, or there are
+// `most` bounces. `b`: K Le, where it is known better than K tells.
+std::vector<SeriesRow> power_rows(const ChannelOperator& K, const Vector& Le, const Vector& b, double fraction, int most);
+
 }  // namespace neumann

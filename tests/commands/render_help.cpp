@@ -43,11 +43,28 @@ TEST_F(RenderHelp, OptionsOfCompare) {
     EXPECT_EQ(options(printed({"help", "compare"})), (std::set<std::string>{"-h,--help", "--json"}));
 }
 
+TEST_F(RenderHelp, OptionsOfSpectrum) {
+    EXPECT_EQ(options(printed({"help", "spectrum"})),
+              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json",
+                                     "--eigenvalues", "--csv"}));
+}
+
+TEST_F(RenderHelp, OptionsOfSolve) {
+    EXPECT_EQ(options(printed({"help", "solve"})),
+              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json",
+                                     "--channel", "--error", "--most", "--csv"}));
+}
+
+TEST_F(RenderHelp, OptionsOfExport) {
+    EXPECT_EQ(options(printed({"help", "export"})), (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t",
+                                                                           "-D", "--quiet", "--json", "-o", "--with-K"}));
+}
+
 TEST_F(RenderHelp, TheCommands) {
     const std::string help = printed({"--help"});
     EXPECT_EQ(help.substr(0, help.find('\n')),
               "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
-    for (const char* command : {"\n  render ", "\n  compare ", "\n  help "})
+    for (const char* command : {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  help "})
         EXPECT_NE(help.find(command), std::string::npos) << help;
     EXPECT_EQ(printed({"help"}), help);
 }
@@ -57,7 +74,7 @@ TEST_F(RenderHelp, Version) { EXPECT_TRUE(std::regex_match(printed({"--version"}
 TEST_F(RenderHelp, UnknownCommands) {
     Finished done = run({"help", "rendr"});
     EXPECT_EQ(done.exit_code, 2);
-    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, help\n");
+    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, spectrum, solve, export, help\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);

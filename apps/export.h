@@ -1,0 +1,21 @@
+// `neumann export SCENE`: T, R, Le and the measures as files that SciPy reads.
+#pragma once
+
+#include "apps/patch_options.h"
+
+#include <string>
+
+namespace neumann {
+
+struct ExportRequest {
+    PatchOptions patches;
+    std::string output;  // a folder; empty: out/NAME-matrices
+    bool with_K = false;
+};
+
+CLI::App* add_export(CLI::App& app, ExportRequest& request);
+
+// All files or none. Exit code 0. Throws InputError, and RunError where a disk is full or Ctrl-C ended it.
+int export_command(const ExportRequest& request);
+
+}  // namespace neumann

@@ -1,0 +1,46 @@
+#include "apps/options.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace neumann {
+
+CLI::Validator above_zero() {
+    return CLI::Validator(
+        [](std::string& text) {
+            double value = 0.0;
+            const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+            return good ? std::string() : "'" + text + "' is not a number above 0";
+        },
+        "", "above_zero");
+}
+
+CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            std::uint64_t value = 0;
+            const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+            const bool good = digits && CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return good ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+        },
+        "", "whole");
+}
+
+void add_definitions(CLI::App& command, std::vector<std::string>& texts) {
+    command.add_option("-D", texts, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
+}
+
+std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& texts) {
+    std::map<std::string, std::string> definitions;
+    for (const std::string& text : texts) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) throw InputError("-D " + text + ": expected name=value");
+        if (!definitions.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
+            throw InputError("-D " + text + ": '" + text.substr(0, equals) + "' is given twice");
+    }
+    return definitions;
+}
+
+}  // namespace neumann

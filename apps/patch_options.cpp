@@ -1,0 +1,109 @@
+#include "apps/patch_options.h"
+
+#include "apps/options.h"
+#include "core/base/error.h"
+#include "core/geometry/ray_caster.h"
+#include "core/reader/read_scene.h"
+
+#include <fmt/format.h>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t largest_number = std::uint64_t{1} << 40, most_rays = 1 << 20;
+
+TracedSettings settings(const PatchOptions& options) {
+    if (options.patches == 0) throw InputError("--patches 0: expected at least 1");
+    const std::uint64_t rays = options.rays;
+    if (rays > most_rays) throw InputError(fmt::format("--directions {}: expected at most {}", rays, most_rays));
+    if (rays == 0) throw InputError("--directions 0: expected a power of two, such as 64");
+    if (!std::has_single_bit(rays))
+        throw InputError(fmt::format("--directions {}: expected a power of two, such as {} or {}", rays, std::bit_floor(rays),
+                                     std::bit_ceil(rays)));
+    return {options.patches, static_cast<std::uint32_t>(rays), options.seed};
+}
+
+}  // namespace
+
+void add_patch_options(CLI::App& command, PatchOptions& options) {
+    command.add_option("SCENE", options.scene, "Mitsuba 3 scene file, of diffuse surfaces")->required();
+    command.add_option("--patches", options.patches, "Patches that the surfaces are cut into, about")
+        ->type_name("N")
+        ->check(whole_from(0, largest_number))
+        ->capture_default_str();
+    command.add_option("--directions", options.rays, "Rays of T for each side of a patch, a power of two")
+        ->type_name("M")
+        ->check(whole_from(0, largest_number))
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Seed of the random numbers")
+        ->type_name("N")
+        ->check(whole_from(0, ~std::uint64_t{0}))
+        ->capture_default_str();
+    command.add_option("-t", options.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_definitions(command, options.definitions);
+    command.add_flag("--quiet", options.quiet, "Print no warnings");
+    command.add_flag("--json", options.json, "Print JSON");
+}
+
+Scene PatchScene::read(const PatchOptions& options) {
+    settings(options);  // before anything is read
+    return read_scene(options.scene, parse_definitions(options.definitions));
+}
+
+PatchScene::PatchScene(const PatchOptions& options)
+    : options_(options), definitions_(parse_definitions(options.definitions)), scene_(read(options)) {
+    if (options.threads > 0)
+        threads_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    try {
+        system_ = std::make_unique<TracedSystem>(scene_, settings(options));
+    } catch (const InputError& e) {
+        throw InputError(options.scene + ": " + e.what());
+    }
+}
+
+const char* PatchScene::channel_name(int c) const {
+    constexpr const char* names[] = {"red", "green", "blue"};
+    return system_->channels() == 1 ? "grey" : names[c];
+}
+const char* PatchScene::channel_letter(int c) const {
+    constexpr const char* letters[] = {"r", "g", "b"};
+    return system_->channels() == 1 ? "" : letters[c];
+}
+
+std::string PatchScene::title() const {
+    return fmt::format("{}: {} patches, {} unknowns, {} rays each, seed {}", options_.scene, system_->space().patches().size(),
+                       system_->space().size(), options_.rays, options_.seed);
+}
+
+nlohmann::ordered_json PatchScene::json() const {
+    nlohmann::ordered_json json;
+    json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
+    json["command"] = options_.command_line;
+    json["scene"] = {{"file", options_.scene}, {"hash", scene_.hash}, {"definitions", definitions_}};
+    json["options"] = {{"patches", options_.patches}, {"directions", options_.rays}, {"seed", options_.seed}};
+    json["patches"] = system_->space().patches().size();
+    json["unknowns"] = system_->space().size();
+    json["rays"] = system_->rays();
+    return json;
+}
+
+nlohmann::ordered_json number(double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); }
+
+void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
+    for (const std::string& text : warnings) {
+        if (!quiet) fmt::print(stderr, "warning: {}\n", text);
+    }
+}
+
+std::vector<std::string> texts(const Warnings& warnings) {
+    std::vector<std::string> result;
+    for (const auto& [text, count] : warnings.counts())
+        result.push_back(text + (count > 1 ? fmt::format(" ({} times)", count) : ""));
+    return result;
+}
+
+}  // namespace neumann

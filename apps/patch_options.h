@@ -1,0 +1,70 @@
+// What the commands that take a scene as matrices share: their options, and how a scene becomes space, table, R and channels.
+#pragma once
+
+#include "operators/matrix/traced_system.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace neumann {
+
+struct PatchOptions {
+    std::string scene;
+    std::vector<std::string> definitions;  // -D name=value
+    std::uint64_t patches = 2000;
+    std::uint64_t rays = 64;  // of a facet
+    std::uint64_t seed = 0;
+    int threads = 0;  // 0: all
+    bool quiet = false;
+    bool json = false;
+    std::string command_line;  // as typed
+};
+
+void add_patch_options(CLI::App& command, PatchOptions& options);
+
+// The scene of a command, read and traced; while it lives it holds the number of threads.
+class PatchScene {
+public:
+    // Throws InputError, with the option or the scene that is wrong, and what would do.
+    explicit PatchScene(const PatchOptions& options);
+
+    const Scene& scene() const { return scene_; }
+    const TracedSystem& system() const { return *system_; }
+
+    // "grey", or "red", "green", "blue"; and "", or "r", "g", "b", as in names of files.
+    const char* channel_name(int c) const;
+    const char* channel_letter(int c) const;
+
+    // One line: "scene.xml: 1994 patches, 2006 unknowns, 64 rays each, seed 0".
+    std::string title() const;
+    // Program, command, scene, options and sizes.
+    nlohmann::ordered_json json() const;
+
+private:
+    static Scene read(const PatchOptions& options);
+
+    PatchOptions options_;
+    std::optional<oneapi::tbb::global_control> threads_;
+    std::map<std::string, std::string> definitions_;
+    Scene scene_;
+    std::unique_ptr<TracedSystem> system_;
+};
+
+// JSON has no infinity: null.
+nlohmann::ordered_json number(double x);
+
+// On stderr, unless `quiet`.
+void print_warnings(const std::vector<std::string>& warnings, bool quiet);
+std::vector<std::string> texts(const Warnings& warnings);
+
+}  // namespace neumann

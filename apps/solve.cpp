@@ -1,0 +1,205 @@
+#include "apps/solve.h"
+
+#include "apps/interrupt.h"
+#include "apps/options.h"
+#include "core/base/error.h"
+#include "operators/solvers/side_by_side.h"
+#include "operators/spectrum/spectrum.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <string_view>
+
+namespace neumann {
+
+namespace {
+
+struct Chosen {
+    int channel = 0;
+    double radius = 0.0;
+    double applications = 0.0;  // to find the radius, of all channels looked at
+    std::string why;
+};
+
+// Throws InputError before the scene is read.
+void check_channel_name(const std::string& name) {
+    if (!name.empty() && name != "r" && name != "g" && name != "b") throw InputError("--channel " + name + ": expected r, g or b");
+}
+
+Chosen choose(const PatchScene& scene, const std::string& wanted) {
+    Chosen chosen;
+    const int channels = scene.system().channels();
+    const bool given = !wanted.empty() && channels > 1;
+    double applications = 0.0;
+    for (int c = 0; c < channels; ++c) {
+        if (given && wanted != scene.channel_letter(c)) continue;
+        const Eigenpairs leading = leading_eigenpairs(scene.system().channel(c), 1);
+        applications += leading.applications;
+        const double radius = leading.pairs.empty() ? std::numeric_limits<double>::quiet_NaN() : std::abs(leading.pairs[0].value);
+        if (given || c == 0 || radius > chosen.radius) chosen = {c, radius, 0.0, ""};
+    }
+    chosen.applications = applications;
+    chosen.why = channels == 1 ? "the scene is grey" : given ? "as asked for" : "it has the largest spectral radius";
+    return chosen;
+}
+
+bool is_reference(const SolverRow& row) { return std::string_view(row.solver->name) == "lu"; }
+
+std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : ""; }
+
+std::string applications_text(double n) { return n == std::floor(n) ? fmt::format("{:.0f}", n) : fmt::format("{:.1f}", n); }
+
+// `text` in lines of at most 100 columns, all but the first indented.
+std::string wrapped(const std::string& text, std::size_t indent) {
+    constexpr std::size_t width = 100;
+    std::string result;
+    std::size_t column = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        const auto columns =
+            static_cast<std::size_t>(std::count_if(word.begin(), word.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+        if (column > 0 && column + 1 + columns > width) {
+            result += "\n" + std::string(indent, ' ');
+            column = indent;
+        } else if (column > 0) {
+            result += " ";
+            ++column;
+        }
+        result += word;
+        column += columns;
+        begin = end + 1;
+    }
+    return result;
+}
+
+// What is the same for several solvers is said once.
+void print_notes(const SideBySide& all) {
+    const auto other = [](const SolverRow& a, const SolverRow& b) {
+        return a.result.verdict != b.result.verdict || a.result.why != b.result.why;
+    };
+    for (std::size_t i = 0; i < all.rows.size(); ++i) {
+        const SolverRow& row = all.rows[i];
+        if (row.result.verdict == Verdict::converged) continue;
+        std::string who;
+        bool said = false;
+        for (std::size_t k = 0; k < all.rows.size(); ++k) {
+            if (other(row, all.rows[k])) continue;
+            said = said || k < i;
+            who += (who.empty() ? "" : "; ") + std::string(all.rows[k].solver->title);
+        }
+        if (!said) fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}.", who, name(row.result.verdict), row.result.why), 4));
+    }
+    if (all.interrupted) fmt::print("Interrupted: the other solvers were not run.\n");
+}
+
+void print_table(const PatchScene& scene, const SolveRequest& request, const Chosen& chosen, const SideBySide& all) {
+    fmt::print("{}\n", scene.title());
+    fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n", scene.channel_name(chosen.channel),
+               chosen.why, chosen.radius, applications_text(chosen.applications));
+    if (scene.system().samples_lights())
+        fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
+    if (!all.no_reference.empty())
+        fmt::print("{}\n", wrapped("LU is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
+    fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>14}   {}\n", "solver", "applications", "seconds", "estimate", "error to LU",
+               "verdict");
+    for (const SolverRow& row : all.rows)
+        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>14}   {}\n", row.solver->title, applications_text(row.result.applications),
+                   row.seconds, short_number(row.estimate()),
+                   is_reference(row) && all.no_reference.empty() ? "reference" : short_number(row.error), name(row.result.verdict));
+    fmt::print(
+        "\nApplications are of K, setup included; at most {} were allowed. Errors are relative, in the\n"
+        "largest value; {:g} was asked for.\n",
+        request.most, request.tolerance);
+    print_notes(all);
+}
+
+void print_csv(const SideBySide& all) {
+    fmt::print("solver,applications,estimate,error,seconds\n");
+    const auto cell = [](double x) { return std::isnan(x) ? std::string() : fmt::format("{:.9g}", x); };
+    for (const SolverRow& row : all.rows)
+        for (const SolverStep& step : row.result.history)
+            fmt::print("{},{:.9g},{},{},{:.6f}\n", row.solver->name, step.applications, cell(step.estimate), cell(step.error),
+                       step.seconds);
+}
+
+nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const Chosen& chosen,
+                                  const SideBySide& all) {
+    using Json = nlohmann::ordered_json;
+    Json json = scene.json();
+    json["channel"] = {{"name", scene.channel_name(chosen.channel)}, {"why", chosen.why}};
+    json["spectral_radius"] = number(chosen.radius);
+    json["unknown"] = scene.system().samples_lights() ? "L - Le" : "L";
+    json["tolerance"] = request.tolerance;
+    json["most_applications"] = request.most;
+    json["reference"] = all.no_reference.empty() ? Json("lu") : Json(nullptr);
+    if (!all.no_reference.empty()) json["no_reference"] = all.no_reference;
+    json["interrupted"] = all.interrupted;
+    json["solvers"] = Json::array();
+    for (const SolverRow& row : all.rows) {
+        Json solver = {{"name", row.solver->name},
+                       {"title", row.solver->title},
+                       {"verdict", name(row.result.verdict)},
+                       {"why", row.result.why},
+                       {"applications", row.result.applications},
+                       {"setup_applications", row.result.setup},
+                       {"seconds", row.seconds},
+                       {"estimate", number(row.estimate())},
+                       {"error", number(row.error)},
+                       {"history", Json::array()}};
+        for (const SolverStep& step : row.result.history)
+            solver["history"].push_back({{"applications", step.applications},
+                                         {"estimate", number(step.estimate)},
+                                         {"error", number(step.error)},
+                                         {"seconds", step.seconds}});
+        json["solvers"].push_back(solver);
+    }
+    return json;
+}
+
+}  // namespace
+
+CLI::App* add_solve(CLI::App& app, SolveRequest& request) {
+    auto* command = app.add_subcommand("solve", "Solve L = Le + K L by the series and by all other solvers, side by side");
+    add_patch_options(*command, request.patches);
+    command->add_option("--channel", request.channel, "r, g or b; without it the one with the largest spectral radius")
+        ->type_name("NAME");
+    command->add_option("--error", request.tolerance, "Relative error that ends a solver")
+        ->type_name("REL")
+        ->check(above_zero())
+        ->capture_default_str();
+    command->add_option("--most", request.most, "Applications of K that a solver may take")
+        ->type_name("N")
+        ->check(whole_from(1, 1000000000))
+        ->capture_default_str();
+    command->add_flag("--csv", request.csv, "Print every step of every solver as CSV")->excludes("--json");
+    return command;
+}
+
+int solve_command(const SolveRequest& request) {
+    check_channel_name(request.channel);
+    const PatchScene scene(request.patches);
+    catch_interrupts();
+    const Chosen chosen = choose(scene, request.channel);
+    const TracedChannel K = scene.system().channel(chosen.channel);
+
+    Problem problem;
+    problem.K = &K;
+    problem.Le = scene.system().samples_lights() ? scene.system().direct(chosen.channel) : scene.system().emitted(chosen.channel);
+    problem.tolerance = request.tolerance;
+    problem.most = request.most;
+    if (std::isfinite(chosen.radius)) problem.radius = chosen.radius;
+    problem.reflectance = &K.albedo();
+    const SideBySide all = solve_side_by_side(problem, {request.csv || request.patches.json, interrupted});
+
+    print_warnings(texts(scene.scene().warnings), request.patches.quiet);
+    if (request.patches.json)
+        fmt::print("{}\n", solve_json(scene, request, chosen, all).dump(2));
+    else if (request.csv)
+        print_csv(all);
+    else
+        print_table(scene, request, chosen, all);
+    return 0;
+}
+
+}  // namespace neumann

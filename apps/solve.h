@@ -1,0 +1,24 @@
+// `neumann solve SCENE`: the series beside all other solvers of L = Le + K L.
+#pragma once
+
+#include "apps/patch_options.h"
+
+#include <string>
+
+namespace neumann {
+
+struct SolveRequest {
+    PatchOptions patches;
+    std::string channel;  // r, g, b; empty: the one with the largest spectral radius
+    double tolerance = 1e-6;
+    int most = 10000;  // applications of K
+    bool csv = false;
+};
+
+CLI::App* add_solve(CLI::App& app, SolveRequest& request);
+
+// Prints for each solver what it cost, how far it is from LU, and how it ended. Exit code 0, whatever the solvers say. Throws
+// InputError.
+int solve_command(const SolveRequest& request);
+
+}  // namespace neumann

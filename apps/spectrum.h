@@ -1,0 +1,20 @@
+// `neumann spectrum SCENE`: norms and leading eigenvalues of K, whether the series converges, and how fast.
+#pragma once
+
+#include "apps/patch_options.h"
+
+namespace neumann {
+
+struct SpectrumRequest {
+    PatchOptions patches;
+    int eigenvalues = 4;
+    bool csv = false;
+};
+
+CLI::App* add_spectrum(CLI::App& app, SpectrumRequest& request);
+
+// Prints what T keeps, then for each channel norms, eigenvalues, bounces and rounding, then the eigenvalues on coarser patches and
+// with fewer rays. Exit code 0, also where the series diverges. Throws InputError.
+int spectrum_command(const SpectrumRequest& request);
+
+}  // namespace neumann

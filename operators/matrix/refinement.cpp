@@ -1,0 +1,39 @@
+#include "operators/matrix/refinement.h"
+
+#include "operators/spectrum/spectrum.h"
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace neumann {
+
+std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings) {
+    std::vector<RefinementRow> rows;
+    const auto add = [&](const char* what, std::size_t patches, std::uint32_t rays) {
+        if (patches == 0 || rays == 0) return;
+        const TracedSystem system(scene, {patches, rays, settings.seed});
+        RefinementRow row{what, system.settings(), system.space().patches().size(), system.space().size(), {}};
+        for (int c = 0; c < system.channels(); ++c) {
+            auto& leading = row.leading.emplace_back();
+            for (const Eigenpair& pair : leading_eigenpairs(system.channel(c), 2).pairs) leading.push_back(pair.value);
+        }
+        rows.push_back(std::move(row));
+    };
+    add("patches / 16", settings.patches / 16, settings.rays);
+    add("patches / 4", settings.patches / 4, settings.rays);
+    add("rays / 16", settings.patches, settings.rays / 16);
+    add("rays / 4", settings.patches, settings.rays / 4);
+    return rows;
+}
+
+double radius_shift(const std::vector<RefinementRow>& rows, std::size_t channel, double radius) {
+    double shift = std::numeric_limits<double>::quiet_NaN();
+    for (const RefinementRow& row : rows) {
+        if (!std::string_view(row.what).ends_with(" / 4") || row.leading[channel].empty()) continue;
+        shift = std::fmax(shift, std::abs(std::abs(row.leading[channel][0]) - radius));
+    }
+    return shift;
+}
+
+}  // namespace neumann

@@ -1,0 +1,28 @@
+// Leading eigenvalues on coarser patches and with fewer rays, for comparison: K of a scene with edges is not compact, and
+// eigenvalues of its matrices need not converge when they are refined. C. Soler, R. Molazem, K. Subr, A theoretical analysis of
+// compactness of the light transport operator, SIGGRAPH 2022.
+#pragma once
+
+#include "operators/matrix/traced_system.h"
+
+#include <complex>
+#include <vector>
+
+namespace neumann {
+
+struct RefinementRow {
+    const char* what;  // "patches / 4"
+    TracedSettings settings;
+    std::size_t patches = 0, unknowns = 0;
+    std::vector<std::vector<std::complex<double>>> leading;  // of each channel: at most two, by falling modulus
+};
+
+// With a sixteenth and a quarter of the patches, and with a sixteenth and a quarter of the rays; where these are too few for that,
+// there are fewer rows.
+std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings);
+
+// How far the spectral radius of a channel moves when patches or rays are quartered; not a number where there is nothing to
+// compare.
+double radius_shift(const std::vector<RefinementRow>& rows, std::size_t channel, double radius);
+
+}  // namespace neumann

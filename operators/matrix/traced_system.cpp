@@ -1,0 +1,73 @@
+#include "operators/matrix/traced_system.h"
+
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "operators/matrix/light_vector.h"
+#include "operators/matrix/reflection_matrix.h"
+#include "operators/matrix/sides.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+// About what is needed for each patch, and for each ray with its entry in T and in the transpose of one channel.
+constexpr double bytes_of_patch = 160.0, bytes_of_ray = 16.0, part_of_memory = 0.5;
+
+constexpr const char* only_diffuse = "a surface reflects otherwise than diffusely; only diffuse scenes become matrices";
+
+void check_memory(const TracedSettings& settings, double facets_of_patch) {
+    const double bytes = bytes_of_patch + facets_of_patch * settings.rays * bytes_of_ray,
+                 fitting = part_of_memory * physical_memory() / bytes, patches = static_cast<double>(settings.patches);
+    if (patches > fitting)
+        throw InputError(fmt::format(
+            "{} patches of {} rays need about {:.1f} GiB, the machine has {:.1f}; at most {:.0f} patches of as many rays fit",
+            settings.patches, settings.rays, patches * bytes / 0x1p30, physical_memory() / 0x1p30, fitting));
+}
+
+PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {
+    for (const Bsdf& bsdf : scene.materials.bsdfs())
+        if (lobe(bsdf).kind != Lobe::Kind::diffuse) throw InputError(only_diffuse);
+    check_memory(settings, 1.0);
+    PatchSpace space(scene.geometry, {.patches = settings.patches}, side_directions(scene));
+    if (space.size() == 0) throw InputError("no surface faces another or shines: K is 0 and has no unknowns");
+    if (space.size() != space.facets().size()) throw InputError(only_diffuse);
+    check_memory(settings, static_cast<double>(space.facets().size()) / static_cast<double>(space.patches().size()));
+    return space;
+}
+
+}  // namespace
+
+TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      space_(make_space(scene, settings)),
+      table_(space_, settings.rays, settings.seed),
+      samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays) {
+    is_grey(scene) ? fill<1>() : fill<4>();
+}
+
+template <int C>
+void TracedSystem::fill() {
+    const Eigen::Index n = space_.size(), channels = std::min(C, 3);
+    albedo_ = ReflectionMatrix<C>(scene_->materials, space_).albedo().topRows(channels).matrix();
+    emitted_ = emitted_light<C>(*scene_, space_).topLeftCorner(channels, n).matrix();
+    if (samples_lights_) {
+        direct_ = direct_light<C>(*scene_, space_, settings_.rays, settings_.seed).topLeftCorner(channels, n).matrix();
+        return;
+    }
+    direct_.resize(channels, n);
+    Vector b(n);
+    for (int c = 0; c < channels; ++c) {
+        channel(c).apply(emitted(c), b);
+        direct_.row(c) = b.transpose();
+    }
+}
+
+std::size_t TracedSystem::rays_that_see_nothing() const {
+    return static_cast<std::size_t>(std::count(table_.seen().begin(), table_.seen().end(), space_.nothing()));
+}
+
+}  // namespace neumann

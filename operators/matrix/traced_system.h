@@ -1,0 +1,61 @@
+// A scene of diffuse surfaces as matrices: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/matrix/ray_table.h"
+#include "operators/matrix/traced_channel.h"
+
+#include <cstdint>
+
+namespace neumann {
+
+struct TracedSettings {
+    std::size_t patches = 2000;  // about as many; at least one a chart
+    std::uint32_t rays = 64;     // of a facet; a power of two. As many points on lights
+    std::uint64_t seed = 0;
+};
+
+class TracedSystem {
+public:
+    // The scene is kept by reference. Throws InputError where there is nothing to cut into patches, where no side of any surface
+    // faces another, and where more is asked for than memory holds.
+    TracedSystem(const Scene& scene, const TracedSettings& settings);
+    TracedSystem(const TracedSystem&) = delete;
+    TracedSystem& operator=(const TracedSystem&) = delete;
+
+    const Scene& scene() const { return *scene_; }
+    const TracedSettings& settings() const { return settings_; }
+    const PatchSpace& space() const { return space_; }
+    const RayTable& table() const { return table_; }
+
+    // 1 where the scene is grey, else red, green and blue.
+    int channels() const { return static_cast<int>(albedo_.rows()); }
+    // Of K; they refer to the table here.
+    TracedChannel channel(int c) const { return {table_, albedo(c)}; }
+    // With albedo 1 everywhere: a row is the mean of the rays of T, as 1 in T 1 for a closed scene.
+    TracedChannel transport() const { return {table_, Vector::Ones(space_.size())}; }
+
+    Vector albedo(int c) const { return albedo_.row(c).transpose(); }
+    double largest_albedo(int c) const { return scene_->materials.largest_albedo()[c]; }
+    Vector emitted(int c) const { return emitted_.row(c).transpose(); }
+    // b = K Le; sampled on the lights where the rays of T hardly meet them.
+    Vector direct(int c) const { return direct_.row(c).transpose(); }
+    bool samples_lights() const { return samples_lights_; }
+
+    std::size_t rays() const { return table_.seen().size(); }
+    std::size_t rays_that_see_nothing() const;
+
+private:
+    using Rows = Eigen::MatrixXd;  // one a channel
+    template <int C>
+    void fill();
+
+    const Scene* scene_;
+    TracedSettings settings_;
+    PatchSpace space_;
+    RayTable table_;
+    bool samples_lights_;
+    Rows albedo_, emitted_, direct_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,101 @@
+// A scene as matrices for the commands: channels, b, coarser spectra, and what they say of the series.
+#include "operators/matrix/traced_system.h"
+
+#include "core/base/error.h"
+#include "operators/matrix/refinement.h"
+#include "operators/spectrum/convergence.h"
+#include "operators/spectrum/remaining.h"
+#include "tests/physics/scene_maker.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace neumann {
+namespace {
+
+using namespace physics;
+
+Scene furnace(const Rgb& rho) {
+    SceneMaker maker;
+    maker.add(room({-1, -1, -1}, {1, 1, 1}), Surface{rho, AreaLight(Rgb(1.0)), false});
+    return maker.make();
+}
+
+TEST(TracedSystem, FurnaceChannels) {
+    const Scene scene = furnace(Rgb(0.25, 0.5, 0.75));
+    const TracedSystem system(scene, {200, 16, 0});
+    ASSERT_EQ(system.channels(), 3);
+    EXPECT_FALSE(system.samples_lights());
+    EXPECT_EQ(system.rays_that_see_nothing(), 0u);
+    EXPECT_EQ(system.rays(), 16u * system.space().size());
+    for (int c = 0; c < 3; ++c) {
+        const Vector expected = Vector::Constant(system.space().size(), 0.25 * (c + 1));
+        EXPECT_EQ(system.albedo(c), expected);
+        EXPECT_EQ(system.direct(c), expected);
+        EXPECT_EQ(system.emitted(c), Vector::Ones(system.space().size()));
+        EXPECT_EQ(system.largest_albedo(c), 0.25 * (c + 1));
+    }
+    EXPECT_EQ(TracedSystem(furnace(Rgb(0.5)), {200, 16, 0}).channels(), 1);
+}
+
+// A light of a hundredth of the room's area is met by hardly a ray of each patch; its power is found all the same.
+TEST(TracedSystem, SamplesLightsThatRaysHardlyMeet) {
+    SceneMaker maker;
+    maker.add(room({-1, -1, -1}, {1, 1, 1}), matte(0.5));
+    maker.add(parallelogram({-0.25, -0.25, 0.99}, {0, 0.5, 0}, {0.5, 0, 0}), glowing(0.5, 1.0));
+    const Scene scene = maker.make();
+    const TracedSystem system(scene, {400, 64, 0});
+    ASSERT_TRUE(system.samples_lights());
+    const TracedChannel K = system.channel(0);
+    const Vector Le = system.emitted(0), b = system.direct(0);
+    // All that the light sends meets a wall, which sends half of it on: 0.25 π · 1/2. Up to the noise of 64 points a patch.
+    EXPECT_NEAR(K.measure().dot(Le), 0.25 * pi, 1e-12);
+    EXPECT_NEAR(K.measure().dot(b), 0.125 * pi, 0.01 * 0.125 * pi);
+}
+
+TEST(TracedSystem, RefusesWhatDoesNotFit) {
+    const Scene scene = furnace(Rgb(0.5));
+    EXPECT_THROW(TracedSystem(scene, {std::size_t{1} << 40, 64, 0}), InputError);
+    EXPECT_THROW(TracedSystem(scene, {1000000, 1u << 31, 0}), InputError);
+    EXPECT_THROW(TracedSystem(SceneMaker().make(), {100, 16, 0}), InputError);
+}
+
+TEST(Refinement, FurnaceDoesNotMove) {
+    const auto rows = coarser_spectra(furnace(Rgb(0.9)), {160, 16, 0});
+    ASSERT_EQ(rows.size(), 4u);
+    for (const RefinementRow& row : rows) EXPECT_NEAR(std::abs(row.leading[0][0]), 0.9, 1e-12);
+    EXPECT_LE(radius_shift(rows, 0, 0.9), 1e-12);
+    EXPECT_NEAR(radius_shift(rows, 0, 0.95), 0.05, 1e-12);
+    EXPECT_EQ(coarser_spectra(furnace(Rgb(0.9)), {8, 8, 0}).size(), 2u);
+    EXPECT_TRUE(std::isnan(radius_shift({}, 0, 0.9)));
+}
+
+TEST(ConvergenceJudge, Radius) {
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(judge(0.99, 0.001), Convergence::converges);
+    EXPECT_EQ(judge(0.9999, 0.001), Convergence::undecided);
+    EXPECT_EQ(judge(1.0001, 0.001), Convergence::undecided);
+    EXPECT_EQ(judge(1.01, 0.001), Convergence::diverges);
+    EXPECT_EQ(judge(1.0 - 1e-14, 0.0), Convergence::at_one);
+    EXPECT_EQ(judge(0.99, unknown), Convergence::converges);
+    EXPECT_EQ(judge(unknown, 0.0), Convergence::undecided);
+}
+
+// After n bounces ρ^(n+1) of the power is left.
+TEST(PowerRows, Furnace) {
+    for (const double rho : {0.25, 0.9, 0.99}) {
+        const Scene scene = furnace(Rgb(rho));
+        const TracedSystem system(scene, {24, 16, 0});
+        const auto rows = power_rows(system.channel(0), system.emitted(0), system.direct(0), 1e-9, 100000);
+        for (const double part : {0.1, 0.01, 0.001})
+            EXPECT_EQ(bounces_until(rows, part), static_cast<int>(std::ceil(std::log(part) / std::log(rho) - 1.0))) << rho;
+    }
+    const Scene white = furnace(Rgb(1.0));
+    const TracedSystem system(white, {24, 16, 0});
+    const auto rows = power_rows(system.channel(0), system.emitted(0), system.direct(0), 1e-9, 100000);
+    EXPECT_LE(rows.size(), 40u);
+    EXPECT_EQ(bounces_until(rows, 0.1), std::nullopt);
+}
+
+}  // namespace
+}  // namespace neumann
