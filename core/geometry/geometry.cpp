@@ -1,6 +1,7 @@
 #include "core/geometry/geometry.h"
 
 #include "core/base/error.h"
+#include "core/base/frame.h"
 #include "core/sampling/warp.h"
 
 #include <algorithm>
@@ -73,6 +74,15 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
             const Vec3 extent(std::hypot(disk->u.x, disk->v.x), std::hypot(disk->u.y, disk->v.y), std::hypot(disk->u.z, disk->v.z));
             bounds.add(disk->center - extent);
             bounds.add(disk->center + extent);
+        } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+            if (!is_finite(cylinder->base) || !is_finite(cylinder->axis) || !is_finite({cylinder->length, cylinder->radius, 0.0}))
+                throw InputError("cylinder is not finite");
+            if (!cylinder->has_extent()) {
+                ++degenerate_count_;
+                continue;
+            }
+            bounds.add(cylinder->center() - cylinder->extent());
+            bounds.add(cylinder->center() + cylinder->extent());
         }
     }
     double scale = 1.0;
@@ -100,6 +110,8 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
         } else if (const auto* disk = std::get_if<Disk>(&shapes_[i])) {
             const double size = (glm::length(disk->u) + glm::length(disk->v)) * scale;
             error_[i] = hit_error(size) / scale;
+        } else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[i])) {
+            error_[i] = hit_error((cylinder->radius + cylinder->length) * scale) / scale;
         }
     }
 }
@@ -128,11 +140,35 @@ void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double e
     p.error = error;
 }
 
+// `across`: of any length, perpendicular to the axis. Points keep clear of the rims as hits of triangles do of edges, so that
+// rounding cannot push them past a disc that closes the end.
+void put_on_cylinder(const Cylinder& c, double along, const Vec3& across, double error, SurfacePoint& p) {
+    const Vec3 n = glm::normalize(across);
+    const double margin = std::min(error, 0.5 * c.length);
+    p.position = c.base + c.axis * std::clamp(along, margin, c.length - margin) + n * c.radius;
+    p.normal = c.flip_normals ? -n : n;
+    p.error = error;
+}
+
+// As hit_sphere, across the axis.
+void hit_cylinder(const Cylinder& c, const Vec3& origin, const Vec3& direction, double distance, double error, SurfacePoint& p) {
+    const Vec3 f = origin - c.base;
+    const double d_along = glm::dot(direction, c.axis), f_along = glm::dot(f, c.axis);
+    const Vec3 d_across = direction - c.axis * d_along, f_across = f - c.axis * f_along;
+    const double a = glm::dot(d_across, d_across), middle = -glm::dot(f_across, d_across) / a;
+    const Vec3 nearest = f_across + d_across * middle;
+    const double half = std::sqrt(std::max(c.radius * c.radius - glm::dot(nearest, nearest), 0.0) / a);
+    const double t = distance < middle ? middle - half : middle + half;
+    put_on_cylinder(c, f_along + d_along * t, f_across + d_across * t, error, p);
+}
+
 }  // namespace
 
 void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
         hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
+    else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[hit.shape]))
+        hit_cylinder(*cylinder, origin, direction, hit.distance, error_[hit.shape], p);
     else
         hit_disk(std::get<Disk>(shapes_[hit.shape]), origin, direction, error_[hit.shape], p);
     p.shape = hit.shape;
@@ -169,6 +205,8 @@ double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
     if (!triangles_[shape].empty()) return triangles_[shape][primitive].area();
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape]))
         return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
+    if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape]))
+        return cylinder->has_extent() ? 2.0 * pi * cylinder->radius * cylinder->length : 0.0;
     const Disk& disk = std::get<Disk>(shapes_[shape]);
     return pi * glm::length(glm::cross(disk.u, disk.v));
 }
@@ -183,6 +221,9 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
     SurfacePoint p;
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
         put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape])) {
+        const Vec2 turn = direction_on_circle(uv.x);
+        put_on_cylinder(*cylinder, uv.y * cylinder->length, Frame(cylinder->axis).to_world({turn, 0.0}), error_[shape], p);
     } else {
         const Disk& disk = std::get<Disk>(shapes_[shape]);
         const Vec2 d = uniform_disk(uv);

@@ -25,7 +25,7 @@ namespace neumann {
 
 class Geometry {
 public:
-    // Degenerate triangles, and spheres and discs without extent, are left out and counted. Throws InputError where a coordinate
+    // Degenerate triangles, and other shapes without extent, are left out and counted. Throws InputError where a coordinate
     // is not finite or an index is out of range.
     explicit Geometry(std::vector<Shape> shapes);
     Geometry(Geometry&&) noexcept;
@@ -128,7 +128,7 @@ private:
     double radius_ = 0.0;
     std::unique_ptr<RayCaster> caster_;
     std::vector<std::vector<Triangle>> triangles_;  // by shape; empty where the shape is no mesh
-    std::vector<double> error_;                     // by shape: spheres and discs
+    std::vector<double> error_;                     // by shape: spheres, discs and cylinders
 };
 
 }  // namespace neumann

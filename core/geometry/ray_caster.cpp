@@ -55,6 +55,29 @@ struct DiskData {
     }
 };
 
+struct CylinderData {
+    Vec3 base, axis;
+    double length, radius;
+    RTCBounds bounds;
+
+    // As the sphere, across the axis; of the two roots those on the cylinder count.
+    double intersect(const RTCRay& ray) const {
+        const Vec3 d = direction(ray), f = origin(ray) - base;
+        const double d_along = glm::dot(d, axis), f_along = glm::dot(f, axis);
+        const Vec3 d_across = d - axis * d_along, f_across = f - axis * f_along;
+        const double a = glm::dot(d_across, d_across), middle = -glm::dot(f_across, d_across) / a;
+        const Vec3 nearest = f_across + d_across * middle;
+        const double discriminant = radius * radius - glm::dot(nearest, nearest);
+        if (!(discriminant >= 0.0)) return std::nan("");
+        const double half = std::sqrt(discriminant / a);
+        for (const double t : {middle - half, middle + half}) {
+            const double along = f_along + t * d_along;
+            if (t > ray.tnear && t < ray.tfar && along >= 0.0 && along <= length) return t;
+        }
+        return std::nan("");
+    }
+};
+
 // The float box around center ± extent, rounded outwards.
 RTCBounds outward_bounds(const Vec3& center, const Vec3& extent) {
     const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -infinity); };
@@ -170,6 +193,7 @@ struct RayCaster::Impl {
     RTCScene scene = nullptr;
     std::vector<std::unique_ptr<SphereData>> spheres;
     std::vector<std::unique_ptr<DiskData>> disks;
+    std::vector<std::unique_ptr<CylinderData>> cylinders;
 
     ~Impl() {
         if (scene) rtcReleaseScene(scene);
@@ -231,6 +255,14 @@ struct RayCaster::Impl {
             DiskData{center, disk.normal, (u * vv - v * uv) / gram, (v * uu - u * uv) / gram, outward_bounds(center, extent)}));
         attach_user(disks.back().get(), id);
     }
+
+    void attach_cylinder(const Cylinder& cylinder, std::uint32_t id, const RayCaster& caster) {
+        const RTCBounds bounds = outward_bounds(caster.to_embree(cylinder.center()), cylinder.extent() * caster.scale_);
+        cylinders.push_back(
+            std::make_unique<CylinderData>(CylinderData{caster.to_embree(cylinder.base), cylinder.axis,
+                                                        cylinder.length * caster.scale_, cylinder.radius * caster.scale_, bounds}));
+        attach_user(cylinders.back().get(), id);
+    }
 };
 
 RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, double scale)
@@ -246,6 +278,8 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, doubl
             impl_->attach_sphere(*sphere, id, *this);
         if (const auto* disk = std::get_if<Disk>(&shapes[id]); disk && glm::length(glm::cross(disk->u, disk->v)) > 0.0)
             impl_->attach_disk(*disk, id, *this);
+        if (const auto* cylinder = std::get_if<Cylinder>(&shapes[id]); cylinder && cylinder->has_extent())
+            impl_->attach_cylinder(*cylinder, id, *this);
     }
     rtcCommitScene(impl_->scene);
     impl_->check("building the scene");

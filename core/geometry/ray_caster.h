@@ -1,5 +1,5 @@
-// The one place that knows Embree (3.13 or 4): closest hits and occlusion among triangles, spheres and discs, in floats and in
-// coordinates of about unit size. Spheres and discs are intersected in double, so they are as exact as the ray.
+// The one place that knows Embree (3.13 or 4): closest hits and occlusion among the shapes, in floats and in coordinates of about
+// unit size. Spheres, discs and cylinders are intersected in double, so they are as exact as the ray.
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -15,8 +15,8 @@ namespace neumann {
 
 class RayCaster {
 public:
-    // Coordinates are moved by −center and multiplied by scale before Embree sees them. Triangles, spheres and discs that have no
-    // extent must have been taken out.
+    // Coordinates are moved by −center and multiplied by scale before Embree sees them. Triangles without extent must have been
+    // taken out; other shapes without extent are left out here.
     RayCaster(const std::vector<Shape>& shapes, const Vec3& center, double scale);
     ~RayCaster();
 

@@ -1,4 +1,4 @@
-// The shapes: triangle meshes, and spheres and discs that are exact rather than tessellated. Scene units, double.
+// The shapes: triangle meshes, and spheres, discs and cylinders that are exact rather than tessellated. Scene units, double.
 #pragma once
 
 #include "core/base/vec.h"
@@ -29,7 +29,19 @@ struct Disk {
     Vec3 normal{0.0, 0.0, 1.0};
 };
 
-using Shape = std::variant<TriangleMesh, Sphere, Disk>;
+// The lateral surface around base + s·axis, 0 ≤ s ≤ length, open at both ends. Front side: outside, or inside when flipped.
+struct Cylinder {
+    Vec3 base{0.0}, axis{0.0, 0.0, 1.0};  // axis: unit length
+    double length = 1.0, radius = 1.0;
+    bool flip_normals = false;
+
+    bool has_extent() const { return radius > 0.0 && length > 0.0; }
+    // Half the size of the box around it.
+    Vec3 extent() const { return glm::abs(axis) * (0.5 * length) + radius * glm::sqrt(glm::max(1.0 - axis * axis, 0.0)); }
+    Vec3 center() const { return base + axis * (0.5 * length); }
+};
+
+using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder>;
 
 // Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed.
 TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals = false);

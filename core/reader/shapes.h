@@ -1,4 +1,4 @@
-// <shape>: obj, ply, rectangle, cube, disk, sphere.
+// <shape>: obj, ply, rectangle, cube, disk, sphere, cylinder.
 #pragma once
 
 #include "core/geometry/shape.h"

@@ -28,6 +28,10 @@ inline std::vector<Enclosure> enclosures(const Surface& surface) {
     SceneMaker& spheres = enclose("sphere in a sphere");
     spheres.add(Sphere{{0, 0, 0}, 1.0, true}, surface);
     spheres.add(Sphere{{0.4, 0.3, 0.2}, 0.3, false}, surface);
+    SceneMaker& tube = enclose("cylinder closed by discs");
+    tube.add(Cylinder{{0.2, -0.1, -0.6}, {0, 0, 1}, 1.4, 0.7, true}, surface);
+    tube.add(Disk{{0.2, -0.1, -0.6}, {0.7, 0, 0}, {0, 0.7, 0}, {0, 0, 1}}, surface);
+    tube.add(Disk{{0.2, -0.1, 0.8}, {0.7, 0, 0}, {0, 0.7, 0}, {0, 0, -1}}, surface);
     return all;
 }
 

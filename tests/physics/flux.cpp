@@ -52,7 +52,7 @@ TEST(Flux, WhatIsEmittedIsAbsorbed) {
     }
 }
 
-// The mean of z over all surfaces, exactly: a triangle's is that of its centroid, a sphere's that of its centre.
+// The mean of z over all surfaces, exactly: a triangle's is that of its centroid, that of round shapes is that of their centres.
 double mean_height(const Scene& scene) {
     double sum = 0.0, area = 0.0;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
@@ -62,14 +62,18 @@ double mean_height(const Scene& scene) {
             area += a;
             if (const auto* mesh = std::get_if<TriangleMesh>(&s))
                 for (const std::uint32_t vertex : mesh->triangles[i]) sum += a / 3.0 * mesh->vertices[vertex].z;
+            else if (const auto* sphere = std::get_if<Sphere>(&s))
+                sum += a * sphere->center.z;
+            else if (const auto* cylinder = std::get_if<Cylinder>(&s))
+                sum += a * cylinder->center().z;
             else
-                sum += a * std::get<Sphere>(s).center.z;
+                sum += a * std::get<Disk>(s).center.z;
         }
     }
     return sum / area;
 }
 
-// Le = 2 + z. 7 enclosures × 2 ways × 7 bounces: 98 comparisons.
+// Le = 2 + z. 8 enclosures × 2 ways × 7 bounces: 112 comparisons.
 TEST(Flux, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
     const double rho = 0.8;
     const AreaLight more_above([](const SurfacePoint& p, const Vec3&) { return grey(2.0 + p.position.z); }, grey(4.0));

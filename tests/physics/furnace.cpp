@@ -61,7 +61,7 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
     }
 }
 
-// 7 enclosures × 9 terms × 2 albedos: 126 comparisons.
+// 8 enclosures × 9 terms × 2 albedos: 144 comparisons.
 TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
     for (const double rho : {0.5, 0.9})
         for (const Enclosure& enclosure : enclosures(glowing(rho, 1.0))) {

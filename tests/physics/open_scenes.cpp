@@ -35,6 +35,8 @@ std::vector<Body> convex_bodies() {
         {"small icosphere far from the middle of the scene", moved(icosphere(3), {5.1, -4.3, 3.7}, 1e-3)},
         {"small cube far from the middle of the scene", moved(transformed(make_cube(Mat4(1.0)), skew), {5.1, -4.3, 3.7}, 1e-3)},
         {"flat floor of 200 strips", strips({-1, -1, 0.3}, {2, 0, 0}, {0, 2, 0}, 200)},
+        {"tube from outside", Cylinder{{0.1, -0.2, -0.9}, glm::normalize(Vec3(1, 2, 2)), 1.9, 0.4, false}},
+        {"wire, 10000 times as long as thick", Cylinder{{-0.3, -0.6, -0.7}, glm::normalize(Vec3(1, 2, 2)), 2.0, 1e-4, false}},
         {"disc", Disk{{0.1, 0.2, 0.3}, {1, 0, 0}, {0.3, 1, 0}, {0, 0, 1}}},
     };
 }
@@ -45,6 +47,8 @@ Shape placed(Shape shape, const Vec3& to, double scale) {
     } else if (auto* sphere = std::get_if<Sphere>(&shape)) {
         sphere->center = sphere->center * scale + to;
         sphere->radius *= scale;
+    } else if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        *cylinder = {cylinder->base * scale + to, cylinder->axis, cylinder->length * scale, cylinder->radius * scale};
     } else {
         auto& disk = std::get<Disk>(shape);
         disk = {disk.center * scale + to, disk.u * scale, disk.v * scale, disk.normal};
@@ -53,7 +57,7 @@ Shape placed(Shape shape, const Vec3& to, double scale) {
 }
 
 // A convex body sees only the sky: K^1 Le = ρ and K^i Le = 0 for i ≥ 2, exactly. Anything else is a ray that hits the surface it
-// starts on. 12 bodies at 4 places and scales, 65536 starts each and as many rays by light sampling: 6 million rays, none of which
+// starts on. 14 bodies at 4 places and scales, 65536 starts each and as many rays by light sampling: 7 million rays, none of which
 // may find the body again.
 TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
     const double rho = 0.5;
@@ -83,7 +87,7 @@ TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
         }
 }
 
-// Direct light by points on the sky: half of them are behind the surface, none may be hidden by it. 12 bodies × 2 ways: 24
+// Direct light by points on the sky: half of them are behind the surface, none may be hidden by it. 14 bodies × 2 ways: 28
 // comparisons, light sampling to 0.8%.
 TEST(OpenSceneSlow, AConvexBodyDoesNotHideTheSky) {
     const double rho = 0.5;

@@ -65,12 +65,13 @@ TEST(RoughConductor, TheDensityOfDirectionsIntegratesToOne) {
 // false-alarm rate of |z| > 4.5, 6.8e-6.
 TEST(RoughConductor, DirectionsAreDrawnWithTheirDensity) {
     constexpr int rings = 16, sectors = 24, count = 131072;
+    std::uint32_t stream = 0;
     for (const auto& [name, bsdf] : metals({Masking::separable}))
         for (const double mu : cosines) {
             const Vec3 wo = at_cosine(mu);
             const double alpha = lobe(bsdf).alpha;
             std::vector<double> found(rings * sectors);
-            IndependentSampler sampler(fixed_seed, 0);
+            IndependentSampler sampler(fixed_seed, stream++);
             for (int i = 0; i < count; ++i) {
                 sampler.start(static_cast<std::uint64_t>(i));
                 const Vec3 m = glm::normalize(wo + sample(bsdf, {}, wo, sampler.next2()).wi);

@@ -294,4 +294,32 @@ TEST_F(XmlAccepted, Spheres) {
     EXPECT_DOUBLE_EQ(small.radius, 1e-200);
 }
 
+TEST_F(XmlAccepted, Cylinders) {
+    const auto cylinder = [&](const std::string& inside) {
+        return std::get<Cylinder>(read("<shape type='cylinder'>" + inside + "</shape>").shapes.at(0));
+    };
+    const Cylinder plain = cylinder("");
+    EXPECT_EQ(plain.base, Vec3(0.0));
+    EXPECT_EQ(plain.axis, Vec3(0, 0, 1));
+    EXPECT_EQ(plain.length, 1.0);
+    EXPECT_EQ(plain.radius, 1.0);
+    EXPECT_FALSE(plain.flip_normals);
+    const Cylinder placed = cylinder(
+        "<point name='p0' x='1' y='2' z='3'/><point name='p1' x='1' y='2' z='7'/><float name='radius' value='0.5'/>"
+        "<boolean name='flip_normals' value='true'/>"
+        "<transform name='to_world'><scale value='3'/><rotate y='1' angle='90'/><translate z='10'/></transform>");
+    EXPECT_NEAR(glm::length(placed.base - Vec3(9.0, 6.0, 7.0)), 0.0, 1e-14);
+    EXPECT_NEAR(glm::length(placed.axis - Vec3(1, 0, 0)), 0.0, 1e-15);
+    EXPECT_DOUBLE_EQ(placed.length, 12.0);
+    EXPECT_DOUBLE_EQ(placed.radius, 1.5);
+    EXPECT_TRUE(placed.flip_normals);
+    // A scale along the axis makes it longer, one for all directions may be tiny.
+    const Cylinder longer = cylinder("<transform name='to_world'><scale z='5'/></transform>");
+    EXPECT_DOUBLE_EQ(longer.length, 5.0);
+    EXPECT_DOUBLE_EQ(longer.radius, 1.0);
+    const Cylinder small = cylinder("<transform name='to_world'><scale value='1e-200'/></transform>");
+    EXPECT_DOUBLE_EQ(small.length, 1e-200);
+    EXPECT_DOUBLE_EQ(small.radius, 1e-200);
+}
+
 }  // namespace neumann

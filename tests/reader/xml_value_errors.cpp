@@ -24,8 +24,9 @@ TEST_F(XmlValueErrors, UnknownTypes) {
               "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: conductor, diffuse, roughconductor, twosided");
     EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
     EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: path");
-    EXPECT_EQ(error("<shape type=\"cylinder\"/>"),
-              "scene.xml:2:8: shape type 'cylinder' is not supported; allowed: cube, disk, obj, ply, rectangle, sphere");
+    EXPECT_EQ(
+        error("<shape type=\"bsplinecurve\"/>"),
+        "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, obj, ply, rectangle, sphere");
     EXPECT_EQ(error("<sampler type=\"halton\"/>"),
               "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
               "ldsampler, multijitter, orthogonal, stratified");
@@ -198,6 +199,25 @@ TEST_F(XmlValueErrors, Spheres) {
         "scene.xml:3:1: to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
     EXPECT_EQ(error("<shape type='sphere'>\n<float name='radius' value='-1'/></shape>"),
               "scene.xml:3:22: radius is -1, expected more than 0");
+}
+
+TEST_F(XmlValueErrors, Cylinders) {
+    const std::string oblique =
+        "to_world of shape 'cylinder' makes it elliptic or oblique, expected the same scale all around the axis, rotations and "
+        "translations";
+    EXPECT_EQ(error("<shape type='cylinder'>\n<transform name='to_world'><scale x='2'/></transform></shape>"),
+              "scene.xml:3:1: " + oblique);
+    EXPECT_EQ(
+        error("<shape type='cylinder'>\n<transform name='to_world'><matrix value='1 0 0.5 0 1 0 0 0 1'/></transform></shape>"),
+        "scene.xml:3:1: " + oblique);
+    EXPECT_EQ(error("<shape type='cylinder'>\n<float name='radius' value='0'/></shape>"),
+              "scene.xml:3:22: radius is 0, expected more than 0");
+    EXPECT_EQ(error("<shape type='cylinder'>\n<point name='p1' x='0' y='0' z='0'/></shape>"),
+              "scene.xml:3:1: p0 and p1 of shape 'cylinder' are the same point");
+    EXPECT_EQ(error("<shape type='cylinder'>\n<float name='p0' value='1'/></shape>"),
+              "scene.xml:3:1: parameter 'p0' of shape 'cylinder' is a float, expected point or vector");
+    EXPECT_EQ(error("<shape type='cylinder'>\n<float name='height' value='1'/></shape>"),
+              "scene.xml:3:8: unknown parameter 'height' of shape 'cylinder'; allowed: flip_normals, to_world, p0, p1, radius");
 }
 
 TEST_F(XmlValueErrors, Meshes) {
