@@ -5,7 +5,6 @@
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <algorithm>
 #include <filesystem>
 
@@ -58,7 +57,5 @@ void Reference::judge(const std::function<Image(std::size_t)>& term, const Image
     for (std::size_t i = 0; i < terms_.size(); ++i) checkpoint.true_term_error.push_back(relative_error(term(i), terms_[i]));
     checkpoint.true_sum_error = relative_error(sum, sum_);
 }
-
-double memory_of_machine() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
 
 }  // namespace neumann

@@ -41,7 +41,4 @@ private:
     Image sum_;
 };
 
-// The machine's, bytes.
-double memory_of_machine();
-
 }  // namespace neumann

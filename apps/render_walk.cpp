@@ -4,6 +4,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress_line.h"
 #include "core/base/error.h"
+#include "core/base/memory.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -33,7 +34,7 @@ void check_memory(const Film& film, int bounces) {
     const double nodes = 6.0;  // of the tree of replicates, at most, with the result
     const double bytes =
         nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
-    const double memory = memory_of_machine();
+    const double memory = physical_memory();
     if (bytes > 0.8 * memory)
         throw InputError(fmt::format(
             "{} bounces of {}×{} pixels need about {:.1f} GiB, the machine has {:.1f}; take fewer bounces or a smaller film",

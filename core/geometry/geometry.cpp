@@ -222,8 +222,8 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
         put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
     } else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape])) {
-        const Vec2 turn = direction_on_circle(uv.x);
-        put_on_cylinder(*cylinder, uv.y * cylinder->length, Frame(cylinder->axis).to_world({turn, 0.0}), error_[shape], p);
+        const Vec2 turn = direction_on_circle(uv.y);
+        put_on_cylinder(*cylinder, uv.x * cylinder->length, Frame(cylinder->axis).to_world({turn, 0.0}), error_[shape], p);
     } else {
         const Disk& disk = std::get<Disk>(shapes_[shape]);
         const Vec2 d = uniform_disk(uv);
@@ -234,10 +234,17 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
 }
 
 Vec2 Geometry::round_coordinates(std::uint32_t shape, const Vec3& position) const {
+    const auto turn = [](double x, double y) {
+        const double part = std::atan2(y, x) * (0.5 * inv_pi);
+        return part < 0.0 ? part + 1.0 : part;
+    };
     if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
         const Vec3 n = (position - sphere->center) / sphere->radius;
-        const double turn = std::atan2(n.y, n.x) * (0.5 * inv_pi);
-        return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), turn < 0.0 ? turn + 1.0 : turn};
+        return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), turn(n.x, n.y)};
+    }
+    if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape])) {
+        const Vec3 p = Frame(cylinder->axis).to_local(position - cylinder->base);
+        return {std::clamp(p.z / cylinder->length, 0.0, 1.0), turn(p.x, p.y)};
     }
     const Disk& disk = std::get<Disk>(shapes_[shape]);
     const Vec3 x = position - disk.center;

@@ -1,28 +1,15 @@
 #include "operators/matrix/ray_table.h"
 
-#include "core/base/error.h"
 #include "core/base/hot.h"
 #include "core/sampling/sobol_sampler.h"
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <unistd.h>
 #include <array>
 #include <map>
 
 namespace neumann {
 
 namespace {
-
-void check_memory(const PatchSpace& space, std::size_t entries) {
-    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-    const double bytes = static_cast<double>(entries) * sizeof(std::uint32_t);
-    if (bytes > 0.5 * memory)
-        throw InputError(fmt::format(
-            "{} patches with {} rays in all need {:.1f} GiB, the machine has {:.1f}; at most {:.0f} patches of as many rays fit",
-            space.patches().size(), entries, bytes / 0x1p30, memory / 0x1p30,
-            0.5 * memory / bytes * static_cast<double>(space.patches().size())));
-}
 
 struct Departure {
     SurfacePoint x;
@@ -68,7 +55,6 @@ RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t se
         sobol.try_emplace(n, n);
         first_.push_back(first_.back() + n);
     }
-    check_memory(space, first_.back());
     seen_.resize(first_.back());
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 16),
                               [&](const auto& range) {

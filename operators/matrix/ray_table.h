@@ -13,7 +13,7 @@ namespace neumann {
 class RayTable {
 public:
     // `rays`: of a facet; a power of two. Facets with more directions than that have one ray for each. The space is kept by
-    // reference. Throws InputError where the table is larger than memory.
+    // reference.
     RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed);
 
     const PatchSpace& space() const { return *space_; }

@@ -1,10 +1,10 @@
 #include "operators/matrix/traced_system.h"
 
 #include "core/base/error.h"
-#include "core/base/memory.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/sides.h"
+#include "operators/patches/patch_memory.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,17 +14,12 @@ namespace neumann {
 namespace {
 
 // About what is needed for each patch, and for each ray with its entry in T and in the transpose of one channel.
-constexpr double bytes_of_patch = 160.0, bytes_of_ray = 16.0, part_of_memory = 0.5;
+constexpr double bytes_of_patch = 160.0, bytes_of_ray = 16.0;
 
 constexpr const char* only_diffuse = "a surface reflects otherwise than diffusely; only diffuse scenes become matrices";
 
 void check_memory(const TracedSettings& settings, double facets_of_patch) {
-    const double bytes = bytes_of_patch + facets_of_patch * settings.rays * bytes_of_ray,
-                 fitting = part_of_memory * physical_memory() / bytes, patches = static_cast<double>(settings.patches);
-    if (patches > fitting)
-        throw InputError(fmt::format(
-            "{} patches of {} rays need about {:.1f} GiB, the machine has {:.1f}; at most {:.0f} patches of as many rays fit",
-            settings.patches, settings.rays, patches * bytes / 0x1p30, physical_memory() / 0x1p30, fitting));
+    check_patch_memory(settings.patches, settings.rays, bytes_of_patch + facets_of_patch * settings.rays * bytes_of_ray);
 }
 
 PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {

@@ -1,6 +1,6 @@
 // The charts of all surfaces, and which of them a point is on. Two triangles that make up a plane convex quadrilateral share a
 // chart; any other triangle has three of them, one at each corner, where it is larger than a patch is to be, and one where it is
-// not. A sphere or a disc has one.
+// not. A sphere, a cylinder or a disc has one.
 #pragma once
 
 #include "operators/patches/chart.h"

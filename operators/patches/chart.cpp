@@ -37,6 +37,9 @@ Chart::Chart(const Geometry& geometry, std::uint32_t shape) : shape_(shape), are
     if (const auto* sphere = std::get_if<Sphere>(&geometry.shapes()[shape])) {
         lengths_ = {pi * sphere->radius, 1.5 * pi * sphere->radius};
         closed_in_t_ = true;
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry.shapes()[shape])) {
+        lengths_ = {cylinder->length, 2.0 * pi * cylinder->radius};
+        closed_in_t_ = true;
     } else {
         const Disk& disk = std::get<Disk>(geometry.shapes()[shape]);
         lengths_ = {glm::length(disk.u) * 1.8, glm::length(disk.v) * 1.8};

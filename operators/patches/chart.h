@@ -52,7 +52,7 @@ private:
 
 class Chart {
 public:
-    // A sphere or a disc.
+    // A sphere, a cylinder or a disc.
     Chart(const Geometry& geometry, std::uint32_t shape);
     // The quadrilateral a b c d: of the triangles `lower`, on b's side of the diagonal a c, and `upper`; they may be the same.
     Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);

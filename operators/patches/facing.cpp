@@ -19,6 +19,8 @@ Facing::Facing(const Geometry& geometry) : geometry_(geometry) {
                 for (const std::uint32_t index : triangle) balls_.push_back({mesh->vertices[index], 0.0});
         } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
             balls_.push_back({sphere->center, sphere->radius});
+        } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+            balls_.push_back({cylinder->center(), glm::length(cylinder->extent())});
         } else {
             const Disk& disk = std::get<Disk>(shape);
             balls_.push_back({disk.center, std::sqrt(glm::dot(disk.u, disk.u) + glm::dot(disk.v, disk.v))});
@@ -43,6 +45,7 @@ bool Facing::nothing(const Chart& chart, bool front) const {
             return glm::distance(ball.center, sphere->center) + ball.radius <= sphere->radius + slack;
         });
     }
+    if (std::holds_alternative<Cylinder>(geometry_.shapes()[chart.shape()])) return false;
     const SurfacePoint p = chart.point(geometry_, Vec2(0.5));
     const Vec3 normal = front ? p.normal : -p.normal;
     return std::all_of(balls_.begin(), balls_.end(),

@@ -2,6 +2,7 @@
 
 #include "operators/matrix/sides.h"
 #include "operators/matrix/traced_series.h"
+#include "operators/patches/patch_memory.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -105,6 +106,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     FieldPictures result;
     result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
+    // Both sides of a patch: a row of T, and for all replicates the quantities of the finer and the coarser field.
+    check_patch_memory(settings.patching.patches, settings.rays,
+                       2.0 * (4.0 * settings.rays + 15.0 * settings.replicates * (settings.bounces + 2.0)) + 300.0);
     const PatchSpace space(scene.geometry, settings.patching, side_directions(scene)), coarser = space.coarser();
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;

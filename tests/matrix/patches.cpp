@@ -22,6 +22,7 @@ std::vector<Enclosure> surfaces() {
     add("long triangle", triangle({0, 0, 0}, {5, 0, 1}, {0, 0.4, 2}));
     add("kite that is no convex quadrilateral",
         TriangleMesh{{{0, 0, 0}, {2, 2, 0}, {0.5, 0.5, 1e-3}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    add("slanted cylinder", Cylinder{{1, 2, 3}, glm::normalize(Vec3(1, 2, -2)), 1.5, 0.4, true});
     add("slanted disc", make_disk(Mat4({2, 0, 0.5, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 2, 3, 1})));
     return all;
 }
