@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <numeric>
 
 namespace neumann {
@@ -17,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double default_error = 0.02;
+constexpr double default_seconds = 20.0, default_error = 0.02;
 
 FieldMethod field_method(const std::string& name) {
     return name == "patches" ? FieldMethod::patches : name == "matrix" ? FieldMethod::matrix : FieldMethod::gather;
@@ -64,11 +65,17 @@ RenderResult render_by_fields(const RenderJob& job) {
     ProgressLine line(settings.bounces, request.quiet);
     RenderObserver observer;
     observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
-    observer.interrupted = interrupted;
+    // Without any goal, what a short wait gives.
+    const auto start = std::chrono::steady_clock::now();
+    observer.interrupted = [&] {
+        const bool waited = std::chrono::steady_clock::now() - start > std::chrono::duration<double>(default_seconds);
+        return interrupted() || (!request.relative_error && waited);
+    };
     FieldRun run = has_given_settings(request)
                        ? render_fields_once(scene, settings)
                        : render_fields_to_error(scene, settings, request.relative_error.value_or(default_error), observer);
     line.clear();
+    if (run.outcome == Outcome::interrupted && !interrupted()) run.outcome = Outcome::time_reached;
     if (reference)
         reference->judge([&](std::size_t i) { return run.pictures.terms[i].picture.mean; }, run.pictures.sums.back().picture.mean,
                          run.convergence.back());

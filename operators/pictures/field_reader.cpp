@@ -28,18 +28,24 @@ void add(float* to, std::size_t bounce, const Rgb& x) {
     for (int c = 0; c < 3; ++c) to[3 * bounce + static_cast<std::size_t>(c)] += static_cast<float>(x[c]);
 }
 
-// Bounces of a field at a point, from the `first`-th float on.
+// Quantities of a field at a point, from the `first`-th float on.
 void add_interpolated(const FieldStack& field, const SurfacePoint& p, const Patches::Place& place, const Vec3& w, std::size_t first,
-                      float* to) {
+                      float* __restrict to) {
     const PatchSpace::Reading reading = field.space().read(p, place, w);
-    const float* a = field[reading.unknown[0]];
-    const float* b = field[reading.unknown[1]];
-    const float* c = field[reading.unknown[2]];
-    const float* d = field[reading.unknown[3]];
-    float weight[4];
-    for (std::size_t i = 0; i < 4; ++i) weight[i] = static_cast<float>(reading.weight[i]);
-    for (std::size_t k = first; k < field.stride(); ++k)
-        to[k] += (weight[0] * a[k] + weight[1] * b[k]) + (weight[2] * c[k] + weight[3] * d[k]);
+    const float* __restrict a = field[reading.unknown[0]];
+    const float* __restrict b = field[reading.unknown[1]];
+    const float* __restrict c = field[reading.unknown[2]];
+    const float* __restrict d = field[reading.unknown[3]];
+    const auto wa = static_cast<float>(reading.weight[0]), wb = static_cast<float>(reading.weight[1]),
+               wc = static_cast<float>(reading.weight[2]), wd = static_cast<float>(reading.weight[3]);
+    const std::size_t end = field.stride();
+    for (std::size_t k = first; k < end; ++k) to[k] += (wa * a[k] + wb * b[k]) + (wc * c[k] + wd * d[k]);
+}
+
+// to[k] += weight[k] · from[k − 3]: each quantity from the one before it.
+void add_reflected(const float* __restrict weight, const float* __restrict from, std::size_t first, std::size_t end,
+                   float* __restrict to) {
+    for (std::size_t k = first; k < end; ++k) to[k] += weight[k] * from[k - 3];
 }
 
 void add_constant(const FieldStack& field, const SurfacePoint& p, const Vec3& w, float* to) {
@@ -188,15 +194,14 @@ std::uint64_t FieldReader::find_lights_nearby(std::vector<Look>& looks) const {
     return asking.size();
 }
 
-std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& looks) const {
-    std::vector<float> arriving(stride_);
+NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& looks) const {
+    std::vector<float> arriving(stride_), weight(stride_);
     const auto reflect = [&](const FieldStack& field, const Look& l, const Patches::Place& place, float* to) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
         add_interpolated(field, l.y, place, -l.wi, 0, arriving.data());
         // Bounce i is R T of bounce i − 1, and the rest that of bounce N and the rest.
         for (std::size_t k = stride_ - 3; k < stride_; ++k) arriving[k - 3] += arriving[k];
-        for (std::size_t k = from_field_; k < stride_; ++k)
-            to[k] += static_cast<float>(l.weight[static_cast<int>(k % 3)]) * arriving[k - 3];
+        add_reflected(weight.data(), arriving.data(), from_field_, stride_, to);
     };
     std::uint64_t rays = 0;
     std::vector<Look*> asking;
@@ -218,6 +223,8 @@ std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& lo
             [&](std::size_t i) {
                 const Look& l = *asking[i];
                 const Patches::Place place = fields.fine.space().patches().place(l.y);
+                for (std::size_t k = 0; k < stride_; k += 3)
+                    for (int c = 0; c < 3; ++c) weight[k + static_cast<std::size_t>(c)] = static_cast<float>(l.weight[c]);
                 reflect(fields.fine, l, place, l.sample->fine);
                 reflect(fields.coarse, l, place, l.sample->coarse);
             });

@@ -30,17 +30,17 @@ TEST(Cylinder, HasItsAreaAndIsCoveredEvenly) {
         const Geometry geometry({c});
         EXPECT_DOUBLE_EQ(geometry.area(0), 2.0 * pi * 0.6 * 2.3);
         EXPECT_EQ(geometry.primitive_count(0), 1u);
-        // A square of parameters: v runs along the axis, u around it, at the same pace everywhere.
-        const Vec3 start = across(c, geometry.point(0, 0, {0.0, 0.5}).position);
+        // A square of parameters: u runs along the axis, v around it, at the same pace everywhere.
+        const Vec3 start = across(c, geometry.point(0, 0, {0.5, 0.0}).position);
         for (int i = 0; i < 16; ++i)
             for (int j = 0; j < 16; ++j) {
-                const Vec2 uv(i / 16.0, (j + 0.5) / 16.0);
+                const Vec2 uv((j + 0.5) / 16.0, i / 16.0);
                 const SurfacePoint p = geometry.point(0, 0, uv);
                 expect_on(c, p, "point");
-                EXPECT_NEAR(along(c, p.position), uv.y * c.length, 1e-14);
-                EXPECT_NEAR(glm::dot(across(c, p.position), start), c.radius * c.radius * std::cos(2.0 * pi * uv.x), 1e-12);
+                EXPECT_NEAR(along(c, p.position), uv.x * c.length, 1e-14);
+                EXPECT_NEAR(glm::dot(across(c, p.position), start), c.radius * c.radius * std::cos(2.0 * pi * uv.y), 1e-12);
                 EXPECT_NEAR(glm::dot(glm::cross(start, across(c, p.position)), c.axis),
-                            c.radius * c.radius * std::sin(2.0 * pi * uv.x), 1e-12);
+                            c.radius * c.radius * std::sin(2.0 * pi * uv.y), 1e-12);
             }
     }
 }

@@ -1,0 +1,187 @@
+// How much faster fields on patches are than the walk, for the same error of all bounce pictures: scenes/mitsuba-cornell at 256²,
+// bounces 0 … 8, from the scene loaded to the pictures in memory, both in this run. The error is relMSE (metrics.h) averaged over
+// bounces 1 … 6, less what the reference's own noise adds.
+//
+//     bench_matrix [samples]     of the reference, 4096 without; it is kept in $XDG_CACHE_HOME/neumann or ~/.cache/neumann
+//
+// Then: one application of K beside copying memory, tracing T beside bare Embree's rays, and both by number of patches.
+#include "core/image/image_io.h"
+#include "core/reader/read_scene.h"
+#include "operators/matrix/light_vector.h"
+#include "operators/matrix/reflection_matrix.h"
+#include "operators/matrix/sides.h"
+#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/render.h"
+#include "operators/series/product.h"
+#include "operators/statistics/metrics.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <sys/resource.h>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace neumann {
+namespace {
+
+constexpr int bounces = 8;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+RenderedSeries walk(const Scene& scene, std::uint64_t samples, std::uint64_t seed) {
+    PictureSampler::Settings settings;
+    settings.walk.bounces = bounces;
+    settings.walk.rest_probability = 0.0;
+    settings.replicate_size = replicate_size(samples);
+    settings.seed = seed;
+    return render_series(scene, settings, {samples, {}, {}});
+}
+
+std::vector<Estimate> reference(const Scene& scene, std::uint64_t samples) {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    const std::filesystem::path folder =
+        (cache ? std::filesystem::path(cache) : std::filesystem::path(home ? home : ".") / ".cache") / "neumann" /
+        fmt::format("mitsuba-cornell-{}-{}", scene.hash, samples);
+    const auto file = [&](int i) { return (folder / fmt::format("{}.exr", i)).string(); };
+    std::vector<Estimate> result;
+    if (!std::filesystem::exists(file(bounces))) {
+        fmt::print("The reference, {} samples a pixel: kept in {}\n", samples, folder.string());
+        std::filesystem::create_directories(folder);
+        const auto series = walk(scene, samples, 4242).moments.result();
+        for (int i = 0; i <= bounces; ++i)
+            std::ofstream(file(i), std::ios::binary) << encode_exr(series.term(static_cast<std::size_t>(i)));
+    }
+    for (int i = 0; i <= bounces; ++i) result.push_back(read_exr(file(i)));
+    return result;
+}
+
+// Mean of relMSE over bounces 1 … 6, and what the reference's own noise adds to it.
+struct Error {
+    double found = 0.0, noise = 0.0;
+    double corrected() const { return found - noise; }
+};
+template <class Term>
+Error error(const std::vector<Estimate>& reference, const Term& term) {
+    Error e;
+    for (std::size_t i = 1; i <= 6; ++i) {
+        const Estimate& r = reference[i];
+        const Metrics m = compare(term(i), r.mean);
+        e.found += m.rel_mse / 6.0;
+        double noise = 0.0;
+        for (std::size_t pixel = 0; pixel < r.mean.pixels.size(); ++pixel)
+            for (int c = 0; c < 3; ++c) {
+                const double value = r.mean.pixels[pixel][c], se = r.standard_error.pixels[pixel][c];
+                noise += se * se / (value * value + metrics_epsilon * m.reference_mean * m.reference_mean);
+            }
+        e.noise += noise / (3.0 * static_cast<double>(r.mean.pixels.size())) / 6.0;
+    }
+    return e;
+}
+
+void compare_methods(const Scene& scene, std::uint64_t samples) {
+    const std::vector<Estimate> exact = reference(scene, samples);
+    const double start = now();
+    const RenderedSeries walked = walk(scene, 64, 11);
+    const double walk_seconds = now() - start;
+    const auto result = walked.moments.result();
+    const Error walk_error = error(exact, [&](std::size_t i) { return result.term(i).mean; });
+    fmt::print("walk, 64 Sobol' samples: relMSE {:.4f} (noise of the reference {:.5f} subtracted) in {:.3f} s\n",
+               walk_error.corrected(), walk_error.noise, walk_seconds);
+    // The walk's relMSE falls as 1 / samples.
+    const auto walk_needs = [&](double target) { return walk_seconds * walk_error.corrected() / target; };
+    fmt::print("{:>8}  {:>8} {:>6} {:>6} {:>7}  {:>8}  {:>9}  {:>9}  {:>9}\n", "method", "patches", "rays", "spp", "gather",
+               "relMSE", "fields s", "all s", "of walk's");
+    const auto measure = [&](FieldMethod method, std::size_t patches, std::uint32_t rays, std::uint32_t spp, std::uint32_t gather,
+                             int N = bounces) {
+        FieldSettings settings;
+        settings.method = method;
+        settings.bounces = N;
+        settings.patching = {patches, 0.5};
+        settings.rays = rays;
+        settings.light_samples = std::min(rays, 64u);
+        settings.samples = spp;
+        settings.gather_rays = gather;
+        settings.replicates = 2;
+        settings.rest = false;
+        double best = 1e9, fields = 0.0;
+        FieldPictures pictures;
+        for (int i = 0; i < 5; ++i) {
+            const double begin = now();
+            pictures = *render_fields(scene, settings);
+            const double seconds = now() - begin;
+            if (seconds < best) {
+                best = seconds;
+                fields = pictures.field_seconds;
+            }
+        }
+        const Error e = error(exact, [&](std::size_t i) { return pictures.terms[i].picture.mean; });
+        fmt::print("{:>8}  {:>8} {:>6} {:>6} {:>7}  {:>8.5f}  {:>9.4f}  {:>9.4f}  1/{:<7.0f}\n",
+                   method == FieldMethod::matrix ? "matrix" : "gather", pictures.patches, rays * 2, spp * 2,
+                   method == FieldMethod::gather ? fmt::format("{}", gather) : "", e.corrected(), fields, best,
+                   walk_needs(e.corrected()) / best);
+        return best;
+    };
+    measure(FieldMethod::matrix, 1000, 32, 4, 0);
+    measure(FieldMethod::matrix, 2000, 64, 4, 0);
+    measure(FieldMethod::matrix, 4000, 128, 16, 0);
+    measure(FieldMethod::gather, 500, 32, 2, 16);
+    measure(FieldMethod::gather, 1000, 64, 4, 32);
+    const double nine = measure(FieldMethod::matrix, 1000, 32, 4, 0), many = measure(FieldMethod::matrix, 1000, 32, 4, 0, 64);
+    fmt::print("65 pictures in {:.2f} times the time of nine\n", many / nine);
+}
+
+// Bytes a second that all threads copy.
+double copy_bandwidth() {
+    constexpr std::size_t size = std::size_t{256} << 20;
+    std::vector<char> from(size, 1), to(size, 2);
+    double best = 0.0;
+    for (int i = 0; i < 5; ++i) {
+        const double begin = now();
+        oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{64},
+                                  [&](std::size_t k) { std::memcpy(&to[k * size / 64], &from[k * size / 64], size / 64); });
+        best = std::max(best, static_cast<double>(size) / (now() - begin));
+    }
+    return best;
+}
+
+void measure_operators(const Scene& scene) {
+    const double bandwidth = copy_bandwidth();
+    fmt::print("memory copies {:.1f} GB/s\n{:>8} {:>9} {:>6}  {:>8} {:>8}  {:>10} {:>12} {:>9}  {:>9}\n", bandwidth * 1e-9,
+               "patches", "unknowns", "rays", "trace s", "Mrays/s", "K ms", "index GB/s", "of copy", "peak MiB");
+    for (const std::size_t patches : {1000u, 4000u, 16000u, 64000u, 250000u}) {
+        constexpr std::uint32_t rays = 64;
+        const PatchSpace space(scene.geometry, {patches, 0.5}, side_directions(scene));
+        double begin = now();
+        const RayTable table(space, rays, 1);
+        const double trace = now() - begin;
+        const ReflectionMatrix<4> R(scene.materials, space);
+        const auto K = R * TransportMatrix<4>(table);
+        ExitantVector<4> x = emitted_light<4>(scene, space);
+        const int times = static_cast<int>(std::max<std::size_t>(4, 400'000 / patches));
+        double best = 1e9;
+        for (int run = 0; run < 5; ++run) {
+            begin = now();
+            for (int i = 0; i < times; ++i) x = K(std::move(x));
+            best = std::min(best, (now() - begin) / times);
+        }
+        const auto entries = static_cast<double>(table.seen().size());
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        fmt::print("{:>8} {:>9} {:>6}  {:>8.3f} {:>8.2f}  {:>10.3f} {:>12.2f} {:>9.2f}  {:>9}\n", space.patches().size(),
+                   space.size(), rays, trace, entries / trace * 1e-6, best * 1e3, entries * 4.0 / best * 1e-9,
+                   entries * 4.0 / best / bandwidth, usage.ru_maxrss / 1024);
+    }
+}
+
+}  // namespace
+}  // namespace neumann
+
+int main(int argc, char** argv) {
+    const neumann::Scene scene = neumann::read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml");
+    neumann::measure_operators(scene);
+    neumann::compare_methods(scene, argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 4096);
+}

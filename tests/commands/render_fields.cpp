@@ -1,0 +1,113 @@
+// render --method patches, matrix and gather: the same files, with the error of the patches beside the noise.
+#include "tests/commands/render_output.h"
+
+namespace neumann {
+namespace {
+
+class RenderFields : public RenderTest {
+protected:
+    static constexpr int N = 3;
+    void render_plates(const std::string& output, std::vector<std::string> options) const {
+        write("scene.xml", plates());
+        options.insert(options.end(), {"-n", std::to_string(N), "--quiet"});
+        render("scene.xml", output, options);
+    }
+    void expect_refused(const std::vector<std::string>& options, const std::string& message) const {
+        write("scene.xml", plates());
+        std::vector<std::string> arguments{"render", "scene.xml", "-o", "refused", "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Finished done = run(arguments);
+        EXPECT_EQ(done.exit_code, 2);
+        EXPECT_EQ(done.err, message + "\n");
+        EXPECT_FALSE(std::filesystem::exists(path("refused")));
+    }
+};
+
+TEST_F(RenderFields, WriteTheFilesOfAnyRender) {
+    for (const char* method : {"patches", "matrix", "gather"}) {
+        render_plates(method, {"--method", method, "--patches", "400", "--directions", "64", "--spp", "8"});
+        EXPECT_EQ(names(method), output_names(N)) << method;
+        expect_complete(method);
+        expect_finite(method);
+        const auto run = run_json(method);
+        EXPECT_EQ(run.at("options").at("method"), method);
+        EXPECT_EQ(run.at("samples").at("per_pixel"), 8);
+        EXPECT_EQ(run.at("rest").at("verdict"), "measured");
+        // Rays at the pixel know no patches; what is read from them errs.
+        for (int i = 0; i <= N; ++i) {
+            const Estimate bounce = picture(method, numbered("bounce", i));
+            ASSERT_FALSE(bounce.discretisation.pixels.empty());
+            double largest = 0.0;
+            for (const Rgb& d : bounce.discretisation.pixels) largest = std::max(largest, max_component(d));
+            EXPECT_EQ(largest > 0.0, i >= 2 || (method == std::string("patches") && i > 0)) << method << " " << i;
+            EXPECT_NEAR(run.at("bounces")[static_cast<std::size_t>(i)].at("discretisation").at("worst").get<double>(), largest,
+                        1e-6 * largest);
+        }
+        const Table table(path(method) / "series.csv");
+        EXPECT_GT(table.number(2, "discretisation_worst"), table.number(2, "discretisation_mean"));
+    }
+}
+
+// Means of the pictures, against the walk: noise of both, and what the patches are said to get wrong.
+TEST_F(RenderFields, AgreeWithTheWalk) {
+    render_plates("walk", {"--spp", "512", "--seed", "5"});
+    for (const char* method : {"matrix", "gather"}) {
+        render_plates(method, {"--method", method, "--patches", "8000", "--directions", "512", "--spp", "256"});
+        const auto found = run_json(method), walk = run_json("walk");
+        for (std::size_t i = 0; i <= N; ++i) {
+            const auto& a = found.at("bounces")[i];
+            const auto& b = walk.at("bounces")[i];
+            const double allowed = a.at("interval95").get<double>() + 2.3 * b.at("interval95").get<double>() +
+                                   a.at("discretisation").at("mean").get<double>();
+            EXPECT_LE(std::abs(a.at("mean").get<double>() - b.at("mean").get<double>()), allowed) << method << " " << i;
+            EXPECT_LE(allowed, 0.08 * b.at("mean").get<double>()) << "what this test can see";
+        }
+    }
+}
+
+TEST_F(RenderFields, SameSeedSameBitsOnAnyThreads) {
+    for (const char* threads : {"1", "2", "7"})
+        render_plates(threads, {"--method", "gather", "--patches", "300", "--directions", "64", "--spp", "8", "-t", threads});
+    expect_same_pictures("1", "2");
+    expect_same_pictures("1", "7");
+}
+
+TEST_F(RenderFields, ReachTheErrorThatIsAskedFor) {
+    render_plates("goal", {"--method", "matrix", "--error", "0.05"});
+    const auto run = run_json("goal");
+    EXPECT_EQ(run.at("samples").at("outcome"), "error reached");
+    const Table table(path("goal") / "convergence.csv");
+    for (int i = 0; i <= N; ++i) EXPECT_LE(table.last(fmt::format("relative_stderr_{:03}", i)), 0.05);
+}
+
+TEST_F(RenderFields, AClosedRoomOfAlbedoOneHasNoRest) {
+    write("room.xml", closed_room("1"));
+    render("room.xml", "room",
+           {"--method", "matrix", "--patches", "100", "--directions", "64", "--spp", "4", "-n", "4", "--quiet"});
+    EXPECT_EQ(run_json("room").at("rest").at("verdict"), "not converging");
+    EXPECT_FALSE(std::filesystem::exists(path("room") / "rest.exr"));
+}
+
+TEST_F(RenderFields, Refusals) {
+    expect_refused({"--method", "matrix", "--time", "3"},
+                   "--time belongs to --method walk and pointwise; matrix takes --error, or --spp, --patches and --directions");
+    expect_refused({"--method", "gather", "--direct", "light"}, "--direct belongs to --method walk; gather finds lights by itself");
+    expect_refused({"--patches", "100"}, "--patches and --directions belong to --method patches, matrix and gather, not to walk");
+    expect_refused(
+        {"--method", "matrix", "--error", "0.1", "--spp", "4"},
+        "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
+    expect_refused({"--method", "matrix", "--patches", "0"}, "0 patches: at least one is needed");
+}
+
+TEST_F(RenderFields, MorePatchesThanMemoryHoldsAreRefused) {
+    write("scene.xml", plates());
+    const Finished done =
+        run({"render", "scene.xml", "-o", "refused", "--quiet", "--method", "matrix", "--patches", "1000000000000"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_NE(done.err.find("1000000000000 patches of 32 rays need about "), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find(" patches of as many rays fit\n"), std::string::npos) << done.err;
+    EXPECT_FALSE(std::filesystem::exists(path("refused")));
+}
+
+}  // namespace
+}  // namespace neumann
