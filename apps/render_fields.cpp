@@ -77,7 +77,7 @@ RenderResult render_by_fields(const RenderJob& job) {
     line.clear();
     if (run.outcome == Outcome::interrupted && !interrupted()) run.outcome = Outcome::time_reached;
     if (reference)
-        reference->judge([&](std::size_t i) { return run.pictures.terms[i].picture.mean; }, run.pictures.sums.back().picture.mean,
+        reference->judge([&](std::size_t i) { return run.pictures.term_mean(i); }, run.pictures.sum(run.pictures.bounces()).mean,
                          run.convergence.back());
 
     RenderResult result;
@@ -88,7 +88,7 @@ RenderResult render_by_fields(const RenderJob& job) {
     result.series.rays = run.convergence.back().rays;
     result.series.seconds = run.seconds;
     result.series.degrees_of_freedom = run.settings.replicates - 1.0;
-    if (run.pictures.rest_converges) result.series.rest = run.pictures.rest.picture;
+    if (run.pictures.rest_converges) result.series.rest = run.pictures.rest();
     const auto& errors = run.convergence.back().term_error;
     const double worst = *std::max_element(errors.begin(), errors.end());
     if (!has_given_settings(request) && run.outcome == Outcome::samples_reached)
@@ -103,8 +103,8 @@ RenderResult render_by_fields(const RenderJob& job) {
     if (!run.pictures.rest_converges) result.rest["why"] = "the terms do not fall, or too slowly to add them up";
     result.non_finite = {{"count", 0}, {"first", Json::array()}};
     const auto pictures = std::make_shared<FieldPictures>(std::move(run.pictures));
-    result.series.term = [pictures](std::size_t i) { return pictures->terms[i].picture; };
-    result.series.sum = [pictures](std::size_t i) { return pictures->sums[i].picture; };
+    result.series.term = [pictures](std::size_t i) { return pictures->term(i); };
+    result.series.sum = [pictures](std::size_t i) { return pictures->sum(i); };
     return result;
 }
 

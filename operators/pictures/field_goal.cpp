@@ -22,8 +22,8 @@ Checkpoint make_checkpoint(const FieldPictures& pictures, double seconds) {
     checkpoint.samples = pictures.samples;
     checkpoint.rays = std::accumulate(pictures.rays.begin(), pictures.rays.end(), std::uint64_t{0});
     checkpoint.seconds = seconds;
-    for (const FieldPicture& term : pictures.terms) checkpoint.term_error.push_back(picture_error(term.picture).all());
-    checkpoint.sum_error = picture_error(pictures.sums.back().picture).all();
+    for (std::size_t i = 0; i <= pictures.bounces(); ++i) checkpoint.term_error.push_back(picture_error(pictures.term(i)).all());
+    checkpoint.sum_error = picture_error(pictures.sum(pictures.bounces())).all();
     return checkpoint;
 }
 
@@ -33,8 +33,8 @@ struct Parts {
 };
 Parts largest_parts(const FieldPictures& pictures, FieldMethod method) {
     Parts parts;
-    for (std::size_t i = 0; i < pictures.terms.size(); ++i) {
-        const PictureError error = picture_error(pictures.terms[i].picture);
+    for (std::size_t i = 0; i <= pictures.bounces(); ++i) {
+        const PictureError error = picture_error(pictures.term(i));
         const bool at_pixel = i < 2 && method != FieldMethod::patches;
         (at_pixel ? parts.pixels : parts.rays) = std::max(at_pixel ? parts.pixels : parts.rays, error.sampling);
         parts.patches = std::max(parts.patches, error.discretisation);

@@ -28,82 +28,70 @@ struct Workspace {
     std::array<std::uint64_t, 3> rays{};
 };
 
-// Puts the replicates of a pixel's quantities together.
-class Development {
-public:
-    Development(const FieldSettings& settings, int width, int height)
-        : settings_(settings), quantities_(static_cast<std::size_t>(settings.bounces) + 2) {
-        const Image black(width, height);
-        const FieldPicture empty{{black, black, settings.replicates - 1.0, black, false}, {}};
-        terms_.assign(quantities_, empty);
-        sums_.assign(quantities_ - 1, empty);
-    }
-    std::size_t quantities() const { return quantities_; }
-
-    // `fine` and `coarse`: of the pixel. `means`: replicate by replicate, of all terms and then of all sums; added to.
-    void develop(std::size_t pixel, float* fine, float* coarse, double* means) {
-        for (std::size_t q = 0; q < quantities_; ++q) put(terms_[q], q, pixel, fine, coarse, means + q);
-        for (std::uint32_t r = 0; r < settings_.replicates; ++r)
-            for (std::size_t k = 3; k < 3 * (quantities_ - 1); ++k) {
-                fine[r * 3 * quantities_ + k] += fine[r * 3 * quantities_ + k - 3];
-                coarse[r * 3 * quantities_ + k] += coarse[r * 3 * quantities_ + k - 3];
-            }
-        for (std::size_t q = 0; q + 1 < quantities_; ++q) put(sums_[q], q, pixel, fine, coarse, means + quantities_ + q);
-    }
-    std::size_t means_of_replicate() const { return 2 * quantities_; }
-
-    void finish(FieldPictures& result, const std::vector<double>& means) {
-        for (std::size_t q = 0; q < quantities_; ++q) terms_[q].mean = mean(means, q);
-        for (std::size_t q = 0; q + 1 < quantities_; ++q) sums_[q].mean = mean(means, quantities_ + q);
-        result.rest = std::move(terms_.back());
-        terms_.pop_back();
-        result.terms = std::move(terms_);
-        result.sums = std::move(sums_);
-    }
-
-private:
-    void put(FieldPicture& out, std::size_t q, std::size_t pixel, const float* fine, const float* coarse, double* means) {
-        const auto n = static_cast<double>(settings_.replicates);
-        Rgb sum(0.0), difference(0.0), squares(0.0);
-        const auto at = [&](const float* values, std::uint32_t r) {
-            const float* v = values + 3 * (r * quantities_ + q);
-            return Rgb(v[0], v[1], v[2]);
-        };
-        for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
-            const Rgb value = at(fine, r);
-            sum += value;
-            difference += value - at(coarse, r);
-            means[r * means_of_replicate()] += mean_component(value);
-        }
-        const Rgb mean = sum / n;
-        for (std::uint32_t r = 0; r < settings_.replicates; ++r) squares += (at(fine, r) - mean) * (at(fine, r) - mean);
-        out.picture.mean.pixels[pixel] = mean;
-        out.picture.standard_error.pixels[pixel] =
-            settings_.replicates > 1 ? glm::sqrt(squares / (n * (n - 1.0))) : Rgb(std::numeric_limits<double>::infinity());
-        out.picture.discretisation.pixels[pixel] = glm::abs(difference) / n;
-    }
-    MeanWithError mean(const std::vector<double>& means, std::size_t at) const {
-        const auto n = static_cast<double>(settings_.replicates), pixels = static_cast<double>(sums_[0].picture.mean.pixels.size());
-        double sum = 0.0, squares = 0.0;
-        for (std::uint32_t r = 0; r < settings_.replicates; ++r) sum += means[r * means_of_replicate() + at] / pixels;
-        for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
-            const double d = means[r * means_of_replicate() + at] / pixels - sum / n;
-            squares += d * d;
-        }
-        return {sum / n, n > 1.0 ? std::sqrt(squares / (n * (n - 1.0))) : std::numeric_limits<double>::infinity(), n - 1.0};
-    }
-
-    const FieldSettings& settings_;
-    std::size_t quantities_;
-    std::vector<FieldPicture> terms_, sums_;
-};
-
 }  // namespace
+
+FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
+    : width_(film.crop_width),
+      height_(film.crop_height),
+      replicates_(settings.replicates),
+      quantities_(static_cast<std::size_t>(settings.bounces) + 2),
+      stride_(3 * quantities_ * (replicates_ + 1)),
+      values_(
+          std::make_unique_for_overwrite<float[]>(stride_ * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_))) {
+}
+
+Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
+    const Image black(width_, height_);
+    Estimate result{black, black, replicates_ - 1.0, black, false};
+    const auto n = static_cast<double>(replicates_);
+    oneapi::tbb::parallel_for(std::size_t{0}, black.pixels.size(), [&](std::size_t pixel) {
+        const auto value = [&](std::size_t replicate) {
+            const float* v = values_.get() + pixel * stride_ + 3 * quantities_ * replicate;
+            Rgb sum(0.0);
+            for (std::size_t q = first; q <= last; ++q) sum += Rgb(v[3 * q], v[3 * q + 1], v[3 * q + 2]);
+            return sum;
+        };
+        Rgb sum(0.0), squares(0.0);
+        for (std::uint32_t r = 0; r < replicates_; ++r) sum += value(r);
+        const Rgb mean = sum / n;
+        for (std::uint32_t r = 0; r < replicates_; ++r) squares += (value(r) - mean) * (value(r) - mean);
+        result.mean.pixels[pixel] = mean;
+        result.standard_error.pixels[pixel] =
+            replicates_ > 1 ? glm::sqrt(squares / (n * (n - 1.0))) : Rgb(std::numeric_limits<double>::infinity());
+        result.discretisation.pixels[pixel] = glm::abs(value(replicates_));
+    });
+    return result;
+}
+
+Image FieldPictures::term_mean(std::size_t i) const {
+    Image result(width_, height_);
+    oneapi::tbb::parallel_for(std::size_t{0}, result.pixels.size(), [&](std::size_t pixel) {
+        Rgb sum(0.0);
+        for (std::uint32_t r = 0; r < replicates_; ++r) {
+            const float* v = values_.get() + pixel * stride_ + 3 * (quantities_ * r + i);
+            sum += Rgb(v[0], v[1], v[2]);
+        }
+        result.pixels[pixel] = sum / static_cast<double>(replicates_);
+    });
+    return result;
+}
+
+MeanWithError FieldPictures::mean(std::size_t first, std::size_t last) const {
+    const auto n = static_cast<double>(replicates_), pixels = static_cast<double>(width_) * height_;
+    double sum = 0.0, squares = 0.0;
+    std::vector<double> of_replicate(replicates_);
+    for (std::uint32_t r = 0; r < replicates_; ++r) {
+        for (std::size_t q = first; q <= last; ++q) of_replicate[r] += sums[r * quantities_ + q] / pixels;
+        sum += of_replicate[r];
+    }
+    for (const double x : of_replicate) squares += (x - sum / n) * (x - sum / n);
+    return {sum / n, n > 1.0 ? std::sqrt(squares / (n * (n - 1.0))) : std::numeric_limits<double>::infinity(), n - 1.0};
+}
 
 std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings,
                                            const std::function<bool()>& interrupted) {
     const auto start = std::chrono::steady_clock::now();
-    FieldPictures result;
+    FieldPictures result(scene.film, settings);
     result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     // Both sides of a patch: a row of T, and for all replicates the quantities of the finer and the coarser field.
@@ -127,14 +115,13 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const auto then = std::chrono::steady_clock::now();
     const int width = scene.film.crop_width, height = scene.film.crop_height;
     const auto pixels = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
-    Development development(settings, width, height);
-    const std::size_t stride = 3 * development.quantities(), all = stride * settings.replicates;
+    const std::size_t stride = 3 * result.quantities(), all = stride * settings.replicates;
     const SobolPoints sobol(settings.samples);
     const FieldReader reader(scene, settings.method, settings.bounces, settings.gather_rays);
     const std::uint32_t pixels_at_once = std::max(1u, samples_at_once / settings.samples);
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
-    const std::size_t means_of_group = development.means_of_replicate() * settings.replicates;
-    std::vector<double> means(groups * means_of_group);
+    const std::size_t sums_of_group = result.quantities() * settings.replicates;
+    std::vector<double> sums(groups * sums_of_group);
 
     const auto render = [&](std::uint32_t group, Workspace& work) {
         const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
@@ -160,15 +147,21 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
             for (std::size_t k = 0; k < 3; ++k) work.rays[k] += rays[k];
         }
         const float scale = 1.0f / static_cast<float>(settings.samples);
+        double* const group_sums = sums.data() + group * sums_of_group;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
             float *fine = work.fine.data() + (pixel - begin) * all, *coarse = work.coarse.data() + (pixel - begin) * all;
-            for (std::uint32_t r = 0; r < settings.replicates; ++r)
+            float *values = result.values(pixel), *difference = values + all;
+            std::fill_n(difference, stride, 0.0f);
+            for (std::uint32_t r = 0; r < settings.replicates; ++r) {
                 reader.copy_what_needs_no_patches(fine + r * stride, coarse + r * stride);
-            for (std::size_t k = 0; k < all; ++k) {
-                fine[k] *= scale;
-                coarse[k] *= scale;
+                for (std::size_t k = 0; k < stride; ++k) {
+                    values[r * stride + k] = fine[r * stride + k] * scale;
+                    difference[k] +=
+                        (fine[r * stride + k] - coarse[r * stride + k]) * (scale / static_cast<float>(settings.replicates));
+                }
             }
-            development.develop(pixel, fine, coarse, means.data() + group * means_of_group);
+            for (std::size_t q = 0; q < sums_of_group; ++q)
+                group_sums[q] += (double{values[3 * q]} + values[3 * q + 1] + values[3 * q + 2]) / 3.0;
         }
     };
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
@@ -179,9 +172,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     });
     if (interrupted()) return std::nullopt;
     // In a fixed order, so that threads do not matter.
+    result.sums.assign(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(sums_of_group));
     for (std::uint32_t group = 1; group < groups; ++group)
-        for (std::size_t k = 0; k < means_of_group; ++k) means[k] += means[group * means_of_group + k];
-    development.finish(result, means);
+        for (std::size_t k = 0; k < sums_of_group; ++k) result.sums[k] += sums[group * sums_of_group + k];
     for (const Workspace& work : workspaces)
         for (std::size_t k = 0; k < 3; ++k) result.rays[std::min(k, later)] += work.rays[k];
     result.picture_seconds = seconds_since(then);

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -28,21 +29,46 @@ struct FieldSettings {
     bool rest = true;  // Σ_{k>N} is wanted as well
 };
 
-// A bounce, or a sum of bounces. All pixels share the fields, so their errors go together; the mean's is from whole replicates.
-struct FieldPicture {
-    Estimate picture;
-    MeanWithError mean;  // over pixels and channels
-};
+// What all replicates found in each pixel, from which the pictures are made as they are asked for.
+class FieldPictures {
+public:
+    FieldPictures(const Film& film, const FieldSettings& settings);
 
-struct FieldPictures {
-    std::vector<FieldPicture> terms, sums;  // 0 … N
-    FieldPicture rest;                      // beyond N
+    std::size_t bounces() const { return quantities_ - 2; }  // N
+    // K^i Le, and Σ_{k≤i} K^k Le, 0 … N; and Σ_{k>N} K^k Le.
+    Estimate term(std::size_t i) const { return picture(i, i); }
+    Estimate sum(std::size_t i) const { return picture(0, i); }
+    Estimate rest() const { return picture(quantities_ - 1, quantities_ - 1); }
+    // The mean of term(i) alone.
+    Image term_mean(std::size_t i) const;
+
+    // Over pixels and channels. All pixels share the fields, so their errors go together; these are from whole replicates.
+    MeanWithError mean_of_term(std::size_t i) const { return mean(i, i); }
+    MeanWithError mean_of_sum(std::size_t i) const { return mean(0, i); }
+    MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
+
     bool rest_converges = false;
     std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; those for all of them are counted for bounce 2, or the
                                       // rest where there is none
     std::size_t patches = 0, unknowns = 0;
     std::uint64_t samples = 0;  // a pixel, of the camera
     double field_seconds = 0.0, picture_seconds = 0.0;
+
+    // For whoever fills them in: a pixel's values, three floats for each quantity, replicate by replicate, and after them the mean
+    // difference to those from coarser patches.
+    float* values(std::size_t pixel) { return values_.get() + pixel * stride_; }
+    std::size_t quantities() const { return quantities_; }
+    // Sums over all pixels, replicate by replicate.
+    std::vector<double> sums;
+
+private:
+    Estimate picture(std::size_t first, std::size_t last) const;
+    MeanWithError mean(std::size_t first, std::size_t last) const;
+
+    int width_, height_;
+    std::uint32_t replicates_;
+    std::size_t quantities_, stride_;
+    std::unique_ptr<float[]> values_;
 };
 
 // Nothing where `interrupted` answers true meanwhile; asked from any thread.

@@ -68,19 +68,19 @@ SeriesReport report_series(const Scene& scene, const FieldPictures& series) {
     SeriesReport report;
     const double seconds = series.field_seconds + series.picture_seconds;
     const auto all_rays = static_cast<double>(std::accumulate(series.rays.begin(), series.rays.end(), std::uint64_t{0}));
-    for (std::size_t i = 0; i < series.terms.size(); ++i) {
+    for (std::size_t i = 0; i <= series.bounces(); ++i) {
         BounceReport bounce;
-        bounce.mean = series.terms[i].mean;
+        bounce.mean = series.mean_of_term(i);
         if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
         bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
         bounce.rays = series.rays[i];
         bounce.seconds = seconds * static_cast<double>(bounce.rays) / all_rays;
-        bounce.discretisation = report_discretisation(series.terms[i].picture);
+        bounce.discretisation = report_discretisation(series.term(i));
         report.bounces.push_back(bounce);
     }
-    report.sum = series.sums.back().mean;
-    report.sum_discretisation = report_discretisation(series.sums.back().picture);
-    report.rest = series.rest.mean;
+    report.sum = series.mean_of_sum(series.bounces());
+    report.sum_discretisation = report_discretisation(series.sum(series.bounces()));
+    report.rest = series.mean_of_rest();
     report.rest_verdict = series.rest_converges ? RestVerdict::measured : RestVerdict::not_converging;
     return report;
 }

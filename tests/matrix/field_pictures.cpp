@@ -38,7 +38,7 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalkOnTheCornellBox) {
     const FieldPictures found = *render_fields(scene, settings);
     const double t = student_t_quantile(0.95, settings.replicates - 1.0);
     for (int i = 0; i <= N; ++i) {
-        const Estimate& picture = found.terms[static_cast<std::size_t>(i)].picture;
+        const Estimate picture = found.term(static_cast<std::size_t>(i));
         const Estimate exact = walked.term(static_cast<std::size_t>(i));
         double within = 0.0, all = 0.0, reported = 0.0, error = 0.0;
         for (std::size_t pixel = 0; pixel < exact.mean.pixels.size(); ++pixel)
