@@ -71,10 +71,12 @@ RenderResult render_by_fields(const RenderJob& job) {
         const bool waited = std::chrono::steady_clock::now() - start > std::chrono::duration<double>(default_seconds);
         return interrupted() || (!request.relative_error && waited);
     };
-    FieldRun run = has_given_settings(request)
-                       ? render_fields_once(scene, settings)
-                       : render_fields_to_error(scene, settings, request.relative_error.value_or(default_error), observer);
+    auto rendered = has_given_settings(request)
+                        ? render_fields_once(scene, settings, interrupted)
+                        : render_fields_to_error(scene, settings, request.relative_error.value_or(default_error), observer);
     line.clear();
+    if (!rendered) throw RunError("interrupted before the pictures were finished: nothing was written");
+    FieldRun& run = *rendered;
     if (run.outcome == Outcome::interrupted && !interrupted()) run.outcome = Outcome::time_reached;
     if (reference)
         reference->judge([&](std::size_t i) { return run.pictures.term_mean(i); }, run.pictures.sum(run.pictures.bounces()).mean,

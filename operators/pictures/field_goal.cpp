@@ -75,10 +75,12 @@ FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::ve
 
 }  // namespace
 
-FieldRun render_fields_once(const Scene& scene, const FieldSettings& settings) {
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings,
+                                           const std::function<bool()>& interrupted) {
     const auto start = std::chrono::steady_clock::now();
-    FieldPictures pictures = *render_fields(scene, settings);
-    return make_run(std::move(pictures), settings, {}, seconds_since(start));
+    auto pictures = render_fields(scene, settings, interrupted);
+    if (!pictures) return std::nullopt;
+    return make_run(std::move(*pictures), settings, {}, seconds_since(start));
 }
 
 FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, double relative_error, const RenderObserver& observer) {
@@ -86,7 +88,7 @@ FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, doub
     settings.patching.patches = fewest_patches;
     settings.rays = settings.light_samples = fewest_rays;
     settings.samples = 1;
-    FieldRun run = render_fields_once(scene, settings);
+    FieldRun run = *render_fields_once(scene, settings, [] { return false; });
     for (;;) {
         const auto& errors = run.convergence.back().term_error;
         const double worst = *std::max_element(errors.begin(), errors.end());

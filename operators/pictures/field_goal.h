@@ -22,7 +22,8 @@ struct FieldRun {
 // returns what the render before reached; the first one is short and is not interrupted. observer.judge is not asked.
 FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, double relative_error, const RenderObserver& observer);
 
-// What the settings of a single render reach; it is not interrupted.
-FieldRun render_fields_once(const Scene& scene, const FieldSettings& settings);
+// What the settings of a single render reach; nothing where it is interrupted.
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings,
+                                           const std::function<bool()>& interrupted);
 
 }  // namespace neumann

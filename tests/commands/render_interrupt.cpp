@@ -54,6 +54,19 @@ TEST_F(RenderInterrupt, AtTheBeginning) {
     }
 }
 
+// Fields on patches have no pictures before they are finished.
+TEST_F(RenderInterrupt, FieldsAreFinishedOrNotWritten) {
+    RunningCommand command = start({"render", "scene.xml", "-o", "a", "-n", "2", "--method", "gather", "--patches", "500",
+                                    "--directions", "64", "--spp", "65536", "-t", "1"});
+    wait_for_folder();
+    std::this_thread::sleep_for(milliseconds(500));
+    command.signal(SIGINT);
+    const Finished done = command.wait();
+    EXPECT_EQ(done.exit_code, 1);
+    EXPECT_EQ(done.err, "neumann: interrupted before the pictures were finished: nothing was written\n");
+    EXPECT_FALSE(std::filesystem::exists(path("a")));
+}
+
 // Before and while the program begins: the signal ends it as any program, or as above.
 TEST_F(RenderInterrupt, WithinTheFirstMoments) {
     for (const int number : {SIGINT, SIGTERM})
