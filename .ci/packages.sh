@@ -28,6 +28,7 @@ libgtest-dev        | GoogleTest                              | gtest/gtest.h
 libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h
 python3             | Python 3                                | python3
 python3-numpy       | NumPy                                   |
+python3-scipy       | SciPy, which reads what export writes    |
 python3-openimageio | the Python module of OpenImageIO        |
 '
 

@@ -4,11 +4,11 @@
 #include "apps/render_method.h"
 #include "apps/run_json.h"
 #include "apps/series_files.h"
+#include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -58,7 +58,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
 }  // namespace
 
 int render_command(const RenderRequest& request) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     catch_interrupts();
     std::optional<oneapi::tbb::global_control> threads;
     if (request.threads > 0)
@@ -76,7 +76,7 @@ int render_command(const RenderRequest& request) {
     if (!unlabelled.empty()) warnings.add(unlabelled);
     folder.write("series.csv", series_table(result.series.report));
     folder.write("convergence.csv", convergence_table(result.series.convergence));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = watch.seconds();
     const auto json = run_json(job, result, warnings, seconds);
     folder.write("run.json", json.dump(2) + "\n");
     folder.commit();

@@ -4,12 +4,12 @@
 #include "apps/interrupt.h"
 #include "apps/progress_line.h"
 #include "core/base/error.h"
+#include "core/base/stopwatch.h"
 #include "operators/pictures/field_goal.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <numeric>
 
 namespace neumann {
@@ -66,11 +66,8 @@ RenderResult render_by_fields(const RenderJob& job) {
     RenderObserver observer;
     observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
     // Without any goal, what a short wait gives.
-    const auto start = std::chrono::steady_clock::now();
-    observer.interrupted = [&] {
-        const bool waited = std::chrono::steady_clock::now() - start > std::chrono::duration<double>(default_seconds);
-        return interrupted() || (!request.relative_error && waited);
-    };
+    const Stopwatch watch;
+    observer.interrupted = [&] { return interrupted() || (!request.relative_error && watch.seconds() > default_seconds); };
     auto rendered = has_given_settings(request)
                         ? render_fields_once(scene, settings, interrupted)
                         : render_fields_to_error(scene, settings, request.relative_error.value_or(default_error), observer);

@@ -9,7 +9,7 @@ namespace neumann {
 std::vector<SideDirections> side_directions(const Scene& scene) {
     for (const Bsdf& bsdf : scene.materials.bsdfs())
         if (lobe(bsdf).kind != Lobe::Kind::diffuse)
-            throw InputError("patches cannot hold the directions of conductor and roughconductor yet; use --method walk");
+            throw InputError("a surface reflects otherwise than diffusely; only diffuse scenes become matrices");
     std::vector<SideDirections> sides;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const SurfacePoint somewhere{{}, {}, 0.0, shape, 0};

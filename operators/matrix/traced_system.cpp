@@ -16,19 +16,14 @@ namespace {
 // About what is needed for each patch, and for each ray with its entry in T and in the transpose of one channel.
 constexpr double bytes_of_patch = 160.0, bytes_of_ray = 16.0;
 
-constexpr const char* only_diffuse = "a surface reflects otherwise than diffusely; only diffuse scenes become matrices";
-
 void check_memory(const TracedSettings& settings, double facets_of_patch) {
     check_patch_memory(settings.patches, settings.rays, bytes_of_patch + facets_of_patch * settings.rays * bytes_of_ray);
 }
 
 PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {
-    for (const Bsdf& bsdf : scene.materials.bsdfs())
-        if (lobe(bsdf).kind != Lobe::Kind::diffuse) throw InputError(only_diffuse);
     check_memory(settings, 1.0);
     PatchSpace space(scene.geometry, {.patches = settings.patches}, side_directions(scene));
     if (space.size() == 0) throw InputError("no surface faces another or shines: K is 0 and has no unknowns");
-    if (space.size() != space.facets().size()) throw InputError(only_diffuse);
     check_memory(settings, static_cast<double>(space.facets().size()) / static_cast<double>(space.patches().size()));
     return space;
 }

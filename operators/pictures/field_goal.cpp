@@ -1,8 +1,9 @@
 #include "operators/pictures/field_goal.h"
 
+#include "core/base/stopwatch.h"
+
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <numeric>
 
 namespace neumann {
@@ -17,24 +18,14 @@ constexpr std::uint32_t most_light_samples = 64;
 
 double square(double x) { return x * x; }
 
-Checkpoint make_checkpoint(const FieldPictures& pictures, double seconds) {
-    Checkpoint checkpoint;
-    checkpoint.samples = pictures.samples;
-    checkpoint.rays = std::accumulate(pictures.rays.begin(), pictures.rays.end(), std::uint64_t{0});
-    checkpoint.seconds = seconds;
-    for (std::size_t i = 0; i <= pictures.bounces(); ++i) checkpoint.term_error.push_back(picture_error(pictures.term(i)).all());
-    checkpoint.sum_error = picture_error(pictures.sum(pictures.bounces())).all();
-    return checkpoint;
-}
-
 // The largest error of any term that rays at the pixel make, that fields make by their rays, and that fields make by their patches.
 struct Parts {
     double pixels = 0.0, rays = 0.0, patches = 0.0;
 };
-Parts largest_parts(const FieldPictures& pictures, FieldMethod method) {
+Parts largest_parts(const std::vector<PictureError>& errors, FieldMethod method) {
     Parts parts;
-    for (std::size_t i = 0; i <= pictures.bounces(); ++i) {
-        const PictureError error = picture_error(pictures.term(i));
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const PictureError& error = errors[i];
         const bool at_pixel = i < 2 && method != FieldMethod::patches;
         (at_pixel ? parts.pixels : parts.rays) = std::max(at_pixel ? parts.pixels : parts.rays, error.sampling);
         parts.patches = std::max(parts.patches, error.discretisation);
@@ -62,14 +53,19 @@ bool grow(FieldSettings& settings, const Parts& parts, double target) {
            settings.patching.patches != before.patching.patches;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::vector<Checkpoint> before, double seconds) {
-    FieldRun run{std::move(pictures), settings, std::move(before)};
+    FieldRun run{std::move(pictures), settings, std::move(before), {}};
     run.seconds = seconds;
-    run.convergence.push_back(make_checkpoint(run.pictures, seconds));
+    Checkpoint checkpoint;
+    checkpoint.samples = run.pictures.samples;
+    checkpoint.rays = std::accumulate(run.pictures.rays.begin(), run.pictures.rays.end(), std::uint64_t{0});
+    checkpoint.seconds = seconds;
+    for (std::size_t i = 0; i <= run.pictures.bounces(); ++i) {
+        run.term_errors.push_back(picture_error(run.pictures.term(i)));
+        checkpoint.term_error.push_back(run.term_errors.back().all());
+    }
+    checkpoint.sum_error = picture_error(run.pictures.sum(run.pictures.bounces())).all();
+    run.convergence.push_back(std::move(checkpoint));
     return run;
 }
 
@@ -77,14 +73,14 @@ FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::ve
 
 std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings,
                                            const std::function<bool()>& interrupted) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     auto pictures = render_fields(scene, settings, interrupted);
     if (!pictures) return std::nullopt;
-    return make_run(std::move(*pictures), settings, {}, seconds_since(start));
+    return make_run(std::move(*pictures), settings, {}, watch.seconds());
 }
 
 FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, double relative_error, const RenderObserver& observer) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     settings.patching.patches = fewest_patches;
     settings.rays = settings.light_samples = fewest_rays;
     settings.samples = 1;
@@ -97,13 +93,13 @@ FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, doub
             run.outcome = Outcome::error_reached;
             return run;
         }
-        if (!grow(settings, largest_parts(run.pictures, settings.method), relative_error)) return run;
+        if (!grow(settings, largest_parts(run.term_errors, settings.method), relative_error)) return run;
         auto next = render_fields(scene, settings, observer.interrupted);
         if (!next) {
             run.outcome = Outcome::interrupted;
             return run;
         }
-        run = make_run(std::move(*next), settings, std::move(run.convergence), seconds_since(start));
+        run = make_run(std::move(*next), settings, std::move(run.convergence), watch.seconds());
     }
 }
 

@@ -11,8 +11,9 @@ namespace neumann {
 
 struct FieldRun {
     FieldPictures pictures;
-    FieldSettings settings;               // that the pictures were made with
-    std::vector<Checkpoint> convergence;  // one for each render
+    FieldSettings settings;                 // that the pictures were made with
+    std::vector<Checkpoint> convergence;    // one for each render
+    std::vector<PictureError> term_errors;  // of the pictures
     Outcome outcome = Outcome::samples_reached;
     double seconds = 0.0;
 };

@@ -1,5 +1,6 @@
 #include "operators/pictures/field_pictures.h"
 
+#include "core/base/stopwatch.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/patches/patch_memory.h"
@@ -7,7 +8,7 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
-#include <chrono>
+#include <atomic>
 #include <numeric>
 
 namespace neumann {
@@ -16,10 +17,6 @@ namespace {
 
 constexpr std::uint64_t picture_stream = 0x706963747572ull;  // another seed than the series'
 constexpr std::uint32_t samples_at_once = 64;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 struct Workspace {
     std::vector<SobolSampler> samplers;
@@ -90,14 +87,14 @@ MeanWithError FieldPictures::mean(std::size_t first, std::size_t last) const {
 
 std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings,
                                            const std::function<bool()>& interrupted) {
-    const auto start = std::chrono::steady_clock::now();
-    FieldPictures result(scene.film, settings);
-    result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
-    const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
+    const Stopwatch field_watch;
     // Both sides of a patch: a row of T, and for all replicates the quantities of the finer and the coarser field.
     check_patch_memory(settings.patching.patches, settings.rays,
                        2.0 * (4.0 * settings.rays + 15.0 * settings.replicates * (settings.bounces + 2.0)) + 300.0);
     const PatchSpace space(scene.geometry, settings.patching, side_directions(scene)), coarser = space.coarser();
+    FieldPictures result(scene.film, settings);
+    result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
+    const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
@@ -110,9 +107,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     result.patches = space.patches().size();
     result.unknowns = space.size();
     result.samples = std::uint64_t{settings.samples} * settings.replicates;
-    result.field_seconds = seconds_since(start);
+    result.field_seconds = field_watch.seconds();
 
-    const auto then = std::chrono::steady_clock::now();
+    const Stopwatch picture_watch;
     const int width = scene.film.crop_width, height = scene.film.crop_height;
     const auto pixels = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
     const std::size_t stride = 3 * result.quantities(), all = stride * settings.replicates;
@@ -164,20 +161,22 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                 group_sums[q] += (double{values[3 * q]} + values[3 * q + 1] + values[3 * q + 2]) / 3.0;
         }
     };
+    std::atomic<bool> dropped = false;
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
-        if (interrupted()) return;
+        if (interrupted()) dropped = true;
+        if (dropped) return;
         Workspace& work = workspaces.local();
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) render(group, work);
     });
-    if (interrupted()) return std::nullopt;
+    if (dropped) return std::nullopt;
     // In a fixed order, so that threads do not matter.
     result.sums.assign(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(sums_of_group));
     for (std::uint32_t group = 1; group < groups; ++group)
         for (std::size_t k = 0; k < sums_of_group; ++k) result.sums[k] += sums[group * sums_of_group + k];
     for (const Workspace& work : workspaces)
         for (std::size_t k = 0; k < 3; ++k) result.rays[std::min(k, later)] += work.rays[k];
-    result.picture_seconds = seconds_since(then);
+    result.picture_seconds = picture_watch.seconds();
     return result;
 }
 

@@ -62,6 +62,17 @@ struct FieldReader::Look {
     const Bsdf* bsdf;  // of the side that is seen; null where it absorbs
     Rgb weight;
     double pdf;
+
+    Frame frame() const { return Frame(glm::dot(x.normal, wo) > 0.0 ? x.normal : -x.normal); }
+    // Draws wi, with its weight and pdf, from the material; false where nothing is reflected.
+    bool choose_direction() {
+        const Frame local = frame();
+        const BsdfSample sampled = neumann::sample(*bsdf, x, local.to_local(wo), sample->sampler->next2());
+        wi = local.to_world(sampled.wi);
+        weight = sampled.weight;
+        pdf = sampled.pdf;
+        return pdf != 0.0;
+    }
 };
 
 FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays)
@@ -140,7 +151,7 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
         const Vec3 towards = d * (1.0 / std::sqrt(distance2));
         const double cos_light = -glm::dot(light.point.normal, towards);
         if (!(cos_light > 0.0)) continue;
-        const Frame frame(glm::dot(l.x.normal, l.wo) > 0.0 ? l.x.normal : -l.x.normal);
+        const Frame frame = l.frame();
         const Vec3 wo = frame.to_local(l.wo), wi = frame.to_local(towards);
         const double angle_per_area = cos_light / distance2;
         const double pdf_other = near_lights(l.x.position) ? pdf(*l.bsdf, l.x, wo, wi) * angle_per_area : 0.0;
@@ -171,13 +182,7 @@ std::uint64_t FieldReader::find_lights_nearby(std::vector<Look>& looks) const {
     std::vector<Look*> asking;
     for (Look& l : looks) {
         if (emitters.empty() || !near_lights(l.x.position)) continue;
-        const Frame frame(glm::dot(l.x.normal, l.wo) > 0.0 ? l.x.normal : -l.x.normal);
-        const BsdfSample sampled = sample(*l.bsdf, l.x, frame.to_local(l.wo), l.sample->sampler->next2());
-        if (sampled.pdf == 0.0) continue;
-        l.wi = frame.to_world(sampled.wi);
-        l.weight = sampled.weight;
-        l.pdf = sampled.pdf;
-        asking.push_back(&l);
+        if (l.choose_direction()) asking.push_back(&l);
     }
     for_hits(
         scene_.geometry, asking.size(),
@@ -208,11 +213,8 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::vect
     for (std::uint32_t r = 0; r < gather_rays_; ++r) {
         asking.clear();
         for (Look& l : looks) {
-            const Frame frame(glm::dot(l.x.normal, l.wo) > 0.0 ? l.x.normal : -l.x.normal);
-            const BsdfSample sampled = sample(*l.bsdf, l.x, frame.to_local(l.wo), l.sample->sampler->next2());
-            if (sampled.pdf == 0.0) continue;
-            l.wi = frame.to_world(sampled.wi);
-            l.weight = sampled.weight / static_cast<double>(gather_rays_);
+            if (!l.choose_direction()) continue;
+            l.weight /= static_cast<double>(gather_rays_);
             asking.push_back(&l);
         }
         rays += asking.size();

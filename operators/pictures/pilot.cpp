@@ -1,10 +1,10 @@
 #include "operators/pictures/pilot.h"
 
+#include "core/base/stopwatch.h"
 #include "core/sampling/independent_sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
-#include <chrono>
 
 namespace neumann {
 
@@ -19,7 +19,7 @@ constexpr std::uint64_t enough_rays = 4'000'000;
 Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
     constexpr std::size_t quantities = bounces + 2;
     const WalkSettings settings{.bounces = bounces, .direct = direct, .rest_probability = 1.0, .give_up = give_up};
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
 
     // For each walk the tails Σ_{k>i}, of which mean and variance are wanted; in batches of fixed order.
     struct Batch {
@@ -82,7 +82,7 @@ Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
         rest_.push_back({mean, std::sqrt(variance), n - 1.0});
         rays_.push_back(static_cast<double>(rays[q]) / n);
     }
-    seconds_per_walk_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / n;
+    seconds_per_walk_ = watch.seconds() / n;
 }
 
 MeanWithError Pilot::rest(int i) const { return rest_[static_cast<std::size_t>(i)]; }

@@ -1,10 +1,10 @@
 #include "operators/pictures/render.h"
 
+#include "core/base/stopwatch.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <numeric>
 #include <thread>
 
@@ -15,14 +15,6 @@ namespace {
 // An interrupted render goes on to a number of samples that can be repeated, and to the end of its first replicate, only if it has
 // not run for longer, seconds.
 constexpr double patience = 3.0;
-
-class Stopwatch {
-public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Checkpoint make_checkpoint(const RenderedSeries& series, const RenderObserver& observer) {
     Checkpoint checkpoint;

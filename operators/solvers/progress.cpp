@@ -33,8 +33,7 @@ double Progress::true_error(const Vector& x) const {
 }
 
 bool Progress::record(double estimate, double error) {
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-    result_.history.push_back({result_.applications, estimate, error, seconds.count()});
+    result_.history.push_back({result_.applications, estimate, error, watch_.seconds()});
     if (problem_.observer) problem_.observer(result_.history.back());
     return estimate <= problem_.tolerance;
 }

@@ -1,10 +1,9 @@
 // What all solvers share: counting, recording, and the gates at the end.
 #pragma once
 
+#include "core/base/stopwatch.h"
 #include "operators/series/change_rate.h"
 #include "operators/solvers/solver.h"
-
-#include <chrono>
 
 namespace neumann {
 
@@ -39,7 +38,7 @@ public:
 private:
     const Problem& problem_;
     SolverResult result_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Stopwatch watch_;
 };
 
 double largest(const Vector& x);  // ‖x‖∞, 0 without values, not a number where one is not

@@ -1,8 +1,8 @@
 #include "operators/solvers/side_by_side.h"
 
+#include "core/base/stopwatch.h"
 #include "operators/solvers/progress.h"
 
-#include <chrono>
 #include <string_view>
 
 namespace neumann {
@@ -12,9 +12,9 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 SolverRow run(const NamedSolver& solver, const Problem& problem) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     SolverRow row{&solver, solver.solve(problem), 0.0, unknown};
-    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    row.seconds = watch.seconds();
     return row;
 }
 

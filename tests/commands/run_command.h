@@ -118,6 +118,13 @@ protected:
     Finished run(const std::vector<std::string>& arguments, std::optional<rlim_t> largest_file = std::nullopt) const {
         return RunningCommand(neumann(arguments), folder(), base_ / "log", largest_file).wait();
     }
+    // What a command says that is wrong: exit code 2, and nothing printed.
+    std::string refused(const std::vector<std::string>& arguments) const {
+        const Finished done = run(arguments);
+        EXPECT_EQ(done.exit_code, 2);
+        EXPECT_EQ(done.out, "");
+        return done.err;
+    }
     // Runs a program other than neumann.
     Finished run_program(const std::vector<std::string>& command) const {
         return RunningCommand(command, folder(), base_ / "log").wait();

@@ -18,10 +18,7 @@ protected:
     }
     std::string refusal(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), "solve");
-        const Finished done = run(arguments);
-        EXPECT_EQ(done.exit_code, 2);
-        EXPECT_EQ(done.out, "");
-        return done.err;
+        return refused(arguments);
     }
     static const std::set<std::string>& all() {
         static const std::set<std::string> names = {

@@ -21,10 +21,7 @@ protected:
     }
     std::string refusal(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), "spectrum");
-        const Finished done = run(arguments);
-        EXPECT_EQ(done.exit_code, 2);
-        EXPECT_EQ(done.out, "");
-        return done.err;
+        return refused(arguments);
     }
 };
 
