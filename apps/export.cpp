@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 constexpr double bytes_of_entry = 90.0;
 
 void check_memory(const ExportRequest& request, const TracedSystem& system) {
-    const auto rays = static_cast<double>(system.rays());
+    // R of a rough side has an entry for each ray and direction.
+    const auto rays = static_cast<double>(std::max(system.rays(), entries(system.table(), system.reflection(0))));
     const double fitting = std::min(0.5 * physical_memory() / bytes_of_entry, double{std::numeric_limits<int>::max()});
     if (rays > fitting)
         throw InputError(fmt::format(
@@ -39,13 +40,13 @@ void check_folder(const std::string& output) {
 }
 
 std::string patches_table(const PatchSpace& space) {
-    std::string csv = "unknown,patch,side,shape,x,y,z,nx,ny,nz,area\n";
+    std::string csv = "unknown,directions,patch,side,shape,x,y,z,nx,ny,nz,area\n";
     for (const Facet& facet : space.facets()) {
         const SurfacePoint p = space.patches().point(facet.patch, Vec2(0.5));
         const Vec3 n = facet.front ? p.normal : -p.normal;
-        csv += fmt::format("{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", facet.first, facet.patch,
-                           facet.front ? "front" : "back", p.shape, p.position.x, p.position.y, p.position.z, n.x, n.y, n.z,
-                           space.patches().area(facet.patch));
+        csv += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", facet.first,
+                           facet.cells.size(), facet.patch, facet.front ? "front" : "back", p.shape, p.position.x, p.position.y,
+                           p.position.z, n.x, n.y, n.z, space.patches().area(facet.patch));
     }
     return csv;
 }
@@ -135,7 +136,7 @@ int export_command(const ExportRequest& request) {
     for (int c = 0; c < system.channels(); ++c) {
         const std::string letter = scene.channel_letter(c), suffix = (letter.empty() ? "" : "_" + letter) + ".mtx",
                           channel = letter.empty() ? "" : std::string(", ") + scene.channel_name(c);
-        const auto R = reflection_matrix(system.table(), system.albedo(c));
+        const auto R = reflection_matrix(system.table(), system.reflection(c));
         files.write("R" + suffix, R, "what the rays bring to what the unknowns send" + channel);
         if (!request.with_K) continue;
         const Eigen::SparseMatrix<double, Eigen::RowMajor> K = R * T;
@@ -148,8 +149,8 @@ int export_command(const ExportRequest& request) {
     files.write("measure.mtx", columns(1, [&](int) { return system.transport().measure(); }),
                 "area times projected solid angle of an unknown");
     files.write("ray_measure.mtx", columns(1, [&](int) { return ray_measures(system.table()); }), "the same of a ray");
-    files.add("patches.csv", patches_table(system.space()), fmt::format("{} rows", system.space().size()),
-              "unknown, patch, side, shape, centre, normal, area");
+    files.add("patches.csv", patches_table(system.space()), fmt::format("{} rows", system.space().facets().size()),
+              "first unknown of a side, how many directions, patch, shape, …");
 
     const std::vector<std::string> warnings = texts(scene.scene().warnings);
     nlohmann::ordered_json json = scene.json();

@@ -30,7 +30,7 @@ TracedSettings settings(const PatchOptions& options) {
 }  // namespace
 
 void add_patch_options(CLI::App& command, PatchOptions& options) {
-    command.add_option("SCENE", options.scene, "Mitsuba 3 scene file, of diffuse surfaces")->required();
+    command.add_option("SCENE", options.scene, "Mitsuba 3 scene file")->required();
     command.add_option("--patches", options.patches, "Patches that the surfaces are cut into, about")
         ->type_name("N")
         ->check(whole_from(0, largest_number))

@@ -189,7 +189,7 @@ int solve_command(const SolveRequest& request) {
     problem.tolerance = request.tolerance;
     problem.most = request.most;
     if (std::isfinite(chosen.radius)) problem.radius = chosen.radius;
-    problem.reflectance = &K.albedo();
+    problem.reflectance = &K.reflectance();
     const SideBySide all = solve_side_by_side(problem, {request.csv || request.patches.json, interrupted});
 
     print_warnings(texts(scene.scene().warnings), request.patches.quiet);

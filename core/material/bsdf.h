@@ -32,8 +32,13 @@ inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
 }
 
-// ∫ fs |cosθ| dω of a diffuse material, which is the same in all directions.
-inline Rgb diffuse_albedo(const Bsdf& bsdf, const SurfacePoint& p) { return std::get<Diffuse>(bsdf).albedo(p); }
+// fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1.
+inline Rgb reflectance(const Bsdf& bsdf, const SurfacePoint& p) {
+    return std::visit([&](const auto& b) { return b.reflectance(p); }, bsdf);
+}
+inline Bsdf white(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) -> Bsdf { return b.white(); }, bsdf);
+}
 
 // Known to be the same all over a surface.
 inline bool is_constant(const Bsdf& bsdf) {

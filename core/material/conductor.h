@@ -22,6 +22,8 @@ public:
         if (wo.z <= 0.0) return {};
         return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p) * fresnel_(wo.z), delta_pdf};
     }
+    Rgb reflectance(const SurfacePoint& p) const { return reflectance_(p); }
+    Conductor white() const { return Conductor(fresnel_); }
     // F reaches 1 at grazing angles.
     Rgb largest_albedo() const { return reflectance_.upper_bound(); }
     bool is_constant() const { return reflectance_.is_constant(); }

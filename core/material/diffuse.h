@@ -22,7 +22,8 @@ public:
         const Vec3 wi = cosine_hemisphere(u);
         return {wi, reflectance_(p), wi.z * inv_pi};
     }
-    Rgb albedo(const SurfacePoint& p) const { return reflectance_(p); }
+    Rgb reflectance(const SurfacePoint& p) const { return reflectance_(p); }
+    Diffuse white() const { return Diffuse(Rgb(1.0)); }
     Rgb largest_albedo() const { return reflectance_.upper_bound(); }
     bool is_constant() const { return reflectance_.is_constant(); }
     bool is_grey() const { return reflectance_.is_grey(); }

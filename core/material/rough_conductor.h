@@ -49,6 +49,8 @@ public:
         if (wi.z <= 0.0) return {wi, Rgb(0.0), pdf};
         return {wi, reflectance_(p) * fresnel_(cosine) * (wi.z * seen / area(wo, wi)), pdf};
     }
+    Rgb reflectance(const SurfacePoint& p) const { return reflectance_(p); }
+    RoughConductor white() const { return RoughConductor(facets_, fresnel_, Rgb(1.0), masking_); }
     // Each facet is seen at most once, and F ≤ 1.
     Rgb largest_albedo() const { return reflectance_.upper_bound(); }
     bool is_constant() const { return reflectance_.is_constant(); }

@@ -1,5 +1,5 @@
-// The adjoints in ⟨f, g⟩: R* spreads what a facet is worth over its rays, T* takes what each ray is worth to where it comes from,
-// and K* = T* R* carries importance from the camera. ⟨We, K^i Le⟩ = ⟨K*^i We, Le⟩.
+// The adjoints in ⟨f, g⟩: R* spreads what a facet's cells are worth over its rays, T* takes what each ray is worth to where it
+// comes from, and K* = T* R* carries importance from the camera. ⟨We, K^i Le⟩ = ⟨K*^i We, Le⟩.
 #pragma once
 
 #include "operators/matrix/reflection_matrix.h"
@@ -42,10 +42,10 @@ public:
 
     Range operator()(const Domain& g) const {
         Range result(*table_);
-        for (std::uint32_t f = 0; f < table_->space().facets().size(); ++f) {
-            const Channels<C> value = R_->albedo().col(f) * g.col(table_->space().facets()[f].first);
-            for (std::size_t ray = table_->first_ray(f); ray < table_->first_ray(f + 1); ++ray) result[ray] = value;
-        }
+        const ExitantVector<C> worth = R_->of_means(g);  // B = Bᵀ
+        for (std::uint32_t f = 0; f < table_->space().facets().size(); ++f)
+            for (std::size_t ray = table_->first_ray(f); ray < table_->first_ray(f + 1); ++ray)
+                result[ray] = worth.col(table_->arrives_in(f, ray));
         return result;
     }
 

@@ -25,15 +25,16 @@ struct Segment {
     SurfacePoint from, to;
 };
 
-// The mean of fs Le V G / pdf over the samples of a diffuse facet.
-NEUMANN_HOT Rgb direct_light_of(const Scene& scene, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
-                                std::uint32_t number) {
+// Adds to the cells of a facet what the lights bring on average.
+template <int C>
+NEUMANN_HOT void light_facet(const Scene& scene, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
+                             std::uint32_t number, ExitantVector<C>& means) {
     const Facet& facet = space.facets()[number];
     SobolSampler sampler(points, seed ^ direct_stream, number);
     constexpr std::uint32_t packet = RayCaster::packet_size;
     std::array<Segment, packet> segments;
     std::array<Rgb, packet> light;
-    Rgb sum(0.0);
+    std::array<std::uint32_t, packet> arrives_in;
     std::uint32_t waiting = 0;
     const auto look = [&] {
         const std::uint32_t seen = space.geometry().visible(
@@ -41,31 +42,26 @@ NEUMANN_HOT Rgb direct_light_of(const Scene& scene, const PatchSpace& space, con
             [&](std::size_t i) { return std::pair<const SurfacePoint&, const SurfacePoint&>(segments[i].from, segments[i].to); },
             RayCaster::Rays::alike);
         for (std::uint32_t i = 0; i < waiting; ++i)
-            if (seen >> i & 1u) sum += light[i];
+            if (seen >> i & 1u) means.col(arrives_in[i]) += to_channels<C>(light[i]);
         waiting = 0;
     };
+    const double of_sample = inv_pi * facet.cells.size() / points.size();
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
         const LightSample y = scene.emitters.sample(scene.geometry, sampler.next2());
         const SurfacePoint x = space.patches().point(facet.patch, sampler.next2());
-        const Bsdf* bsdf = scene.materials.at(x, facet.front);
-        if (!bsdf) return Rgb(0.0);
         const Vec3 d = y.point.position - x.position;
         const double distance2 = glm::dot(d, d);
         const Vec3 w = d * (1.0 / std::sqrt(distance2));
-        const Frame frame = PatchSpace::frame(facet, x);
-        const Vec3 wi = frame.to_local(w);
+        const Vec3 wi = PatchSpace::frame(facet, x).to_local(w);
         const double cos_light = -glm::dot(y.point.normal, w);
         if (!(cos_light > 0.0) || !(wi.z > 0.0)) continue;
-        // A diffuse material looks alike from everywhere.
-        const Rgb f = eval(*bsdf, x, {0.0, 0.0, 1.0}, wi) * scene.emitters.emitted(y.point, -w);
-        if (is_black(f)) continue;
         segments[waiting] = {x, y.point};
-        light[waiting] = f * (wi.z * cos_light / (distance2 * y.pdf_area));
+        light[waiting] = scene.emitters.emitted(y.point, -w) * (of_sample * wi.z * cos_light / (distance2 * y.pdf_area));
+        arrives_in[waiting] = facet.first + facet.cells.cell(wi);
         if (++waiting == packet) look();
     }
     look();
-    return sum / static_cast<double>(points.size());
 }
 
 }  // namespace
@@ -94,14 +90,15 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
 }
 
 template <int C>
-ExitantVector<C> direct_light(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed) {
-    ExitantVector<C> b = ExitantVector<C>::Zero(C, space.size() + 1);
-    if (scene.emitters.empty()) return b;
+ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed) {
+    const PatchSpace& space = R.space();
+    ExitantVector<C> means = ExitantVector<C>::Zero(C, space.size() + 1);
+    if (scene.emitters.empty()) return means;
     const SobolPoints points(samples);
     for_facets(space, [&](std::uint32_t f) {
-        b.col(space.facets()[f].first) = to_channels<C>(direct_light_of(scene, space, points, seed, f));
+        if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(scene, space, points, seed, f, means);
     });
-    return b;
+    return R.of_means(std::move(means));
 }
 
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
@@ -116,7 +113,7 @@ double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
 
 template ExitantVector<1> emitted_light<1>(const Scene&, const PatchSpace&);
 template ExitantVector<4> emitted_light<4>(const Scene&, const PatchSpace&);
-template ExitantVector<1> direct_light<1>(const Scene&, const PatchSpace&, std::uint32_t, std::uint64_t);
-template ExitantVector<4> direct_light<4>(const Scene&, const PatchSpace&, std::uint32_t, std::uint64_t);
+template ExitantVector<1> direct_light<1>(const Scene&, const ReflectionMatrix<1>&, std::uint32_t, std::uint64_t);
+template ExitantVector<4> direct_light<4>(const Scene&, const ReflectionMatrix<4>&, std::uint32_t, std::uint64_t);
 
 }  // namespace neumann

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "operators/matrix/patch_field.h"
-#include "operators/matrix/ray_table.h"
+#include "operators/matrix/reflection_matrix.h"
 
 namespace neumann {
 
@@ -11,9 +10,10 @@ namespace neumann {
 template <int C>
 ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space);
 
-// K Le from `samples` points on lights and as many on each facet: Σ fs Le V G / pdf.
+// K Le as R of the means of T Le over the cells, which `samples` points on lights and as many on each facet tell:
+// Σ Le V G / pdf / (projected solid angle of the cell).
 template <int C>
-ExitantVector<C> direct_light(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed);
+ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed);
 
 // The rays of a facet that meet a light, on average over the scene, were every point as likely.
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays);

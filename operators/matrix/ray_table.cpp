@@ -47,11 +47,11 @@ NEUMANN_HOT void trace_facet(const PatchSpace& space, const SobolPoints& sobol, 
 
 }  // namespace
 
-RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed) : space_(&space), rays_(rays) {
+RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed) : space_(&space) {
     std::map<std::uint32_t, SobolPoints> sobol;  // by number of rays
     first_.push_back(0);
     for (const Facet& facet : space.facets()) {
-        const std::uint32_t n = this->rays(facet);
+        const std::uint32_t n = RayTable::rays(facet, rays);
         sobol.try_emplace(n, n);
         first_.push_back(first_.back() + n);
     }
@@ -59,9 +59,15 @@ RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t se
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 16),
                               [&](const auto& range) {
                                   for (std::uint32_t f = range.begin(); f < range.end(); ++f)
-                                      trace_facet(space, sobol.at(this->rays(space.facets()[f])), seed, f,
+                                      trace_facet(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f,
                                                   seen_.data() + first_[f]);
                               });
+}
+
+std::size_t RayTable::size(const PatchSpace& space, std::uint32_t rays) {
+    std::size_t all = 0;
+    for (const Facet& facet : space.facets()) all += RayTable::rays(facet, rays);
+    return all;
 }
 
 }  // namespace neumann

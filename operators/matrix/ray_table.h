@@ -15,9 +15,11 @@ public:
     // `rays`: of a facet; a power of two. Facets with more directions than that have one ray for each. The space is kept by
     // reference.
     RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed);
+    // How many rays that would be in all.
+    static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 
     const PatchSpace& space() const { return *space_; }
-    std::uint32_t rays(const Facet& facet) const { return std::max(rays_, facet.cells.size()); }
+    static std::uint32_t rays(const Facet& facet, std::uint32_t rays) { return std::max(rays, facet.cells.size()); }
     // Unknowns seen by the rays of a facet; PatchSpace::nothing() where there is none.
     std::span<const std::uint32_t> row(std::uint32_t facet) const {
         return {seen_.data() + first_[facet], seen_.data() + first_[facet + 1]};
@@ -25,6 +27,11 @@ public:
     std::span<const std::uint32_t> seen() const { return seen_; }
     // Of its rays among seen(); for the number of facets, the end.
     std::size_t first_ray(std::uint32_t facet) const { return first_[facet]; }
+    // The unknown in whose cell of directions the ray of a facet arrives.
+    std::uint32_t arrives_in(std::uint32_t facet, std::size_t ray) const {
+        const Facet& of = space_->facets()[facet];
+        return of.first + static_cast<std::uint32_t>((ray - first_[facet]) * of.cells.size() / row(facet).size());
+    }
     // Area times projected solid angle that a ray of a facet stands for.
     double measure(std::uint32_t facet) const {
         return space_->patches().area(space_->facets()[facet].patch) * pi / static_cast<double>(row(facet).size());
@@ -32,7 +39,6 @@ public:
 
 private:
     const PatchSpace* space_;
-    std::uint32_t rays_;
     std::vector<std::size_t> first_;  // of each facet, and the end
     std::vector<std::uint32_t> seen_;
 };

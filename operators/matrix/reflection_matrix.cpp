@@ -4,6 +4,8 @@
 #include "core/sampling/sobol_sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <map>
+#include <utility>
 
 namespace neumann {
 
@@ -24,41 +26,52 @@ struct Lanes<4> {
     typedef double Type __attribute__((vector_size(32), aligned(8), may_alias));
 };
 
-// The means of what the rays of the facets [begin, end) bring, times albedo. Four partial sums: additions wait for each other.
+// The mean of what `rays` bring. Four partial sums: additions wait for each other.
 template <int C>
-NEUMANN_HOT void reflect(const RayTable& table, const double* source, const double* albedo, std::uint32_t begin, std::uint32_t end,
-                         double* result) {
+void mean(const double* source, std::span<const std::uint32_t> rays, typename Lanes<C>::Type& result) {
     using Lane = typename Lanes<C>::Type;
     const auto at = [&](std::uint32_t unknown) -> const Lane& {
         return *reinterpret_cast<const Lane*>(source + std::size_t{C} * unknown);
     };
+    Lane sum[4] = {};
+    std::size_t i = 0;
+    for (; i + 4 <= rays.size(); i += 4)
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += at(rays[i + k]);
+    for (; i < rays.size(); ++i) sum[0] += at(rays[i]);
+    result = ((sum[0] + sum[1]) + (sum[2] + sum[3])) / static_cast<double>(rays.size());
+}
+
+// The means over the cells of facets [begin, end), times the reflectance of those that have but one.
+template <int C>
+NEUMANN_HOT void find_means(const RayTable& table, const double* source, const double* reflectance, std::uint32_t begin,
+                            std::uint32_t end, double* result) {
+    using Lane = typename Lanes<C>::Type;
     for (std::uint32_t f = begin; f < end; ++f) {
+        const Facet& facet = table.space().facets()[f];
         const auto row = table.row(f);
-        const std::uint32_t* seen = row.data();
-        const std::size_t n = row.size();
-        Lane sum[4] = {};
-        std::size_t i = 0;
-        for (; i + 4 <= n; i += 4)
-            for (std::size_t k = 0; k < 4; ++k) sum[k] += at(seen[i + k]);
-        for (; i < n; ++i) sum[0] += at(seen[i]);
-        const Lane& a = *reinterpret_cast<const Lane*>(albedo + std::size_t{C} * f);
-        const std::size_t u = table.space().facets()[f].first;
-        *reinterpret_cast<Lane*>(result + C * u) = ((sum[0] + sum[1]) + (sum[2] + sum[3])) / static_cast<double>(n) * a;
+        const auto at = [&](double* to, std::size_t i) -> Lane& { return *reinterpret_cast<Lane*>(to + C * i); };
+        if (facet.cells.k == 1) {
+            Lane& value = at(result, facet.first);
+            mean<C>(source, row, value);
+            value *= *reinterpret_cast<const Lane*>(reflectance + std::size_t{C} * f);
+            continue;
+        }
+        const std::size_t cells = facet.cells.size(), each = row.size() / cells;
+        for (std::size_t j = 0; j < cells; ++j) mean<C>(source, row.subspan(j * each, each), at(result, facet.first + j));
     }
 }
 
-Rgb mean_albedo(const Materials& materials, const PatchSpace& space, const Facet& facet, const SobolPoints& points,
-                std::uint32_t number) {
+// The mean over a patch.
+Rgb mean_reflectance(const Bsdf& bsdf, const PatchSpace& space, const Facet& facet, const SobolPoints& points,
+                     std::uint32_t number) {
     Rgb sum(0.0);
     SobolSampler sampler(points, 0, number);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
         const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
-        const Bsdf* bsdf = materials.at(p, facet.front);
-        if (!bsdf) return Rgb(0.0);
-        const Rgb albedo = diffuse_albedo(*bsdf, p);
-        if (is_constant(*bsdf)) return albedo;
-        sum += albedo;
+        const Rgb rho = reflectance(bsdf, p);
+        if (is_constant(bsdf)) return rho;
+        sum += rho;
     }
     return sum / static_cast<double>(points.size());
 }
@@ -67,21 +80,80 @@ Rgb mean_albedo(const Materials& materials, const PatchSpace& space, const Facet
 
 template <int C>
 ReflectionMatrix<C>::ReflectionMatrix(const Materials& materials, const PatchSpace& space)
-    : albedo_(C, static_cast<Eigen::Index>(space.facets().size())) {
+    : space_(&space),
+      reflectance_(Reflectance::Zero(C, static_cast<Eigen::Index>(space.facets().size()))),
+      blocks_(space.facets().size()) {
+    const auto bsdf_of = [&](const Facet& facet) {
+        return materials.at({{}, {}, 0.0, space.patches().chart(facet.patch).shape(), 0}, facet.front);
+    };
     const SobolPoints points(16);
     oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(space.facets().size()), [&](std::uint32_t f) {
-        albedo_.col(f) = to_channels<C>(mean_albedo(materials, space, space.facets()[f], points, f));
+        const Facet& facet = space.facets()[f];
+        if (const Bsdf* bsdf = bsdf_of(facet))
+            reflectance_.col(f) = to_channels<C>(mean_reflectance(*bsdf, space, facet, points, f));
     });
+    std::map<std::pair<const Bsdf*, std::uint32_t>, std::shared_ptr<const ReflectionBlock>> known;
+    for (std::size_t f = 0; f < blocks_.size(); ++f) {
+        const Facet& facet = space.facets()[f];
+        const Bsdf* bsdf = bsdf_of(facet);
+        if (facet.cells.k == 1 || !bsdf) continue;
+        auto& block = known[{bsdf, facet.cells.k}];
+        if (!block) block = std::make_shared<ReflectionBlock>(*bsdf, facet.cells);
+        blocks_[f] = block;
+    }
+}
+
+template <int C>
+ReflectionMatrix<C> ReflectionMatrix<C>::identity(const PatchSpace& space) {
+    Blocks blocks;
+    std::map<std::uint32_t, std::shared_ptr<const ReflectionBlock>> known;
+    for (const Facet& facet : space.facets()) {
+        auto& block = known[facet.cells.k];
+        if (facet.cells.k > 1 && !block) block = std::make_shared<ReflectionBlock>(facet.cells);
+        blocks.push_back(block);
+    }
+    return {space, Reflectance::Ones(C, static_cast<Eigen::Index>(space.facets().size())), std::move(blocks), 0};
+}
+
+template <int C>
+ReflectionMatrix<1> ReflectionMatrix<C>::channel(int c) const {
+    return {*space_, reflectance_.row(C == 1 ? 0 : c), blocks_, channel_ + c};
+}
+
+// In place.
+template <int C>
+void ReflectionMatrix<C>::reflect_cells(std::uint32_t f, double* values) const {
+    const auto cells = static_cast<Eigen::Index>(space_->facets()[f].cells.size());
+    Eigen::Map<Eigen::Array<double, C, Eigen::Dynamic>> of_facet(values, C, cells);
+    if (cells == 1) {
+        of_facet.col(0) *= reflectance_.col(f);
+        return;
+    }
+    for (int c = 0; c < std::min(C, 3); ++c) {
+        Eigen::VectorXd means = of_facet.row(c).transpose();
+        if (const auto* B = block(f, c)) means = *B * means;
+        of_facet.row(c) = means.transpose() * reflectance_(c, f);
+    }
+}
+
+template <int C>
+ExitantVector<C> ReflectionMatrix<C>::of_means(Range means) const {
+    for (std::uint32_t f = 0; f < space_->facets().size(); ++f)
+        reflect_cells(f, means.data() + C * std::size_t{space_->facets()[f].first});
+    return means;
 }
 
 template <int C>
 ExitantVector<C> ReflectionMatrix<C>::operator()(const Domain& g) const {
     const RayTable& table = g.table();
-    const auto facets = static_cast<std::uint32_t>(table.space().facets().size());
-    ExitantVector<C> result(C, table.space().size() + 1);
-    result.col(table.space().nothing()).setZero();
+    const auto facets = static_cast<std::uint32_t>(space_->facets().size());
+    ExitantVector<C> result(C, space_->size() + 1);
+    result.col(space_->nothing()).setZero();
     const auto work = [&](std::uint32_t begin, std::uint32_t end) {
-        reflect<C>(table, g.source().data(), albedo_.data(), begin, end, result.data());
+        find_means<C>(table, g.source().data(), reflectance_.data(), begin, end, result.data());
+        for (std::uint32_t f = begin; f < end; ++f)
+            if (const Facet& facet = space_->facets()[f]; facet.cells.k > 1)
+                reflect_cells(f, result.data() + C * std::size_t{facet.first});
     };
     if (table.seen().size() <= rays_at_once) {
         work(0, facets);

@@ -1,21 +1,31 @@
 #include "operators/matrix/sides.h"
 
-#include "core/base/error.h"
-
 #include <algorithm>
 
 namespace neumann {
 
+namespace {
+
+constexpr std::uint32_t coarsest = 4, finest = 16;
+
+// Slopes that spread by α turn a reflected direction by about 2 α, to either side; cells are 2/k wide, so four to the lobe.
+std::uint32_t directions_of(const Bsdf& bsdf) {
+    const Lobe lobe = neumann::lobe(bsdf);
+    if (lobe.kind == Lobe::Kind::diffuse) return 1;
+    std::uint32_t k = coarsest;
+    while (k < finest && k * lobe.alpha < 2.0) k *= 2;
+    return k;
+}
+
+}  // namespace
+
 std::vector<SideDirections> side_directions(const Scene& scene) {
-    for (const Bsdf& bsdf : scene.materials.bsdfs())
-        if (lobe(bsdf).kind != Lobe::Kind::diffuse)
-            throw InputError("a surface reflects otherwise than diffusely; only diffuse scenes become matrices");
     std::vector<SideDirections> sides;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const SurfacePoint somewhere{{}, {}, 0.0, shape, 0};
         const bool emits = scene.emitters.is_emitter(somewhere);
-        sides.push_back(
-            {emits || scene.materials.at(somewhere, true) ? 1u : 0u, scene.materials.at(somewhere, false) ? 1u : 0u, emits});
+        const Bsdf *front = scene.materials.at(somewhere, true), *back = scene.materials.at(somewhere, false);
+        sides.push_back({front ? directions_of(*front) : emits ? 1u : 0u, back ? directions_of(*back) : 0u, emits});
     }
     return sides;
 }

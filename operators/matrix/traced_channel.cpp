@@ -18,55 +18,109 @@ void in_blocks(Eigen::Index n, const Each& each) {
     });
 }
 
-}  // namespace
+// Unknowns seen by the rays that arrive in the cell of an unknown of facet f.
+std::span<const std::uint32_t> rays_in_cell(const RayTable& table, std::uint32_t f, std::uint32_t arriving) {
+    const Facet& facet = table.space().facets()[f];
+    const std::size_t each = table.row(f).size() / facet.cells.size();
+    return table.row(f).subspan((arriving - facet.first) * each, each);
+}
 
-TracedChannel::TracedChannel(const RayTable& table, Vector albedo)
-    : table_(&table),
-      albedo_(std::move(albedo)),
-      measure_(table.space().size()),
-      seers_(table),
-      facet_of_ray_(table.seen().size()) {
+// Calls each(v, R_uv) for the unknowns v of facet f in whose cells arrives what u sends.
+template <class Each>
+void for_row(const ReflectionMatrix<1>& R, std::uint32_t f, std::uint32_t u, const Each& each) {
+    const double rho = R.reflectance()(0, f);
+    const std::uint32_t first = R.space().facets()[f].first;
+    if (const auto* B = R.block(f))
+        for (ReflectionBlock::Matrix::InnerIterator entry(*B, u - first); entry; ++entry)
+            each(first + static_cast<std::uint32_t>(entry.col()), rho * entry.value());
+    else
+        each(u, rho);
+}
+
+// Calls each(u, v, f, R_uv) for all facets.
+template <class Each>
+void for_entries(const RayTable& table, const ReflectionMatrix<1>& R, const Each& each) {
     for (std::uint32_t f = 0; f < facets(table); ++f) {
-        measure_[table.space().facets()[f].first] = table.space().measure(table.space().facets()[f]);
-        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray) facet_of_ray_[ray] = f;
+        const Facet& facet = table.space().facets()[f];
+        for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u)
+            for_row(R, f, u, [&](std::uint32_t v, double a) { each(u, v, f, a); });
     }
 }
 
-double TracedChannel::row(Eigen::Index u, const Vector& x) const {
-    const auto seen = table_->row(static_cast<std::uint32_t>(u));
+}  // namespace
+
+TracedChannel::TracedChannel(const RayTable& table, const ReflectionMatrix<1>& R)
+    : table_(&table),
+      R_(&R),
+      measure_(table.space().size()),
+      seers_(table),
+      facet_of_unknown_(table.space().size()),
+      arrives_in_(table.seen().size()) {
+    const PatchSpace& space = table.space();
+    for (std::uint32_t f = 0; f < facets(table); ++f) {
+        const Facet& facet = space.facets()[f];
+        for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) {
+            measure_[u] = space.measure(facet);
+            facet_of_unknown_[u] = f;
+        }
+        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray) arrives_in_[ray] = table.arrives_in(f, ray);
+    }
+    if (space.size() == space.facets().size()) reflectance_ = R.reflectance().matrix().transpose();
+}
+
+// Of what arrives in the cell of an unknown.
+double TracedChannel::mean(std::uint32_t arriving, const Vector& x) const {
+    const auto seen = rays_in_cell(*table_, facet_of_unknown_[arriving], arriving);
     double sum = 0.0;
     for (const std::uint32_t v : seen)
         if (v != table_->space().nothing()) sum += x[v];
-    return sum / static_cast<double>(seen.size()) * albedo_[u];
+    return sum / static_cast<double>(seen.size());
+}
+
+double TracedChannel::row(Eigen::Index u, const Vector& x) const {
+    double sum = 0.0;
+    for_row(*R_, facet_of_unknown_[static_cast<std::size_t>(u)], static_cast<std::uint32_t>(u),
+            [&](std::uint32_t v, double a) { sum += a * mean(v, x); });
+    return sum;
 }
 
 void TracedChannel::apply(const Vector& x, Vector& y) const {
-    y.resize(size());
-    in_blocks(size(), [&](Eigen::Index u) { y[u] = row(u, x); });
+    ExitantVector<1> f(1, size() + 1);
+    f << x.transpose().array(), 0.0;
+    y = (*R_)(TransportMatrix<1>(*table_)(std::move(f))).leftCols(size()).transpose();
 }
 
 void TracedChannel::apply_adjoint(const Vector& x, Vector& y) const {
     y.resize(size());
+    ExitantVector<1> f(1, size() + 1);
+    f << x.transpose().array(), 0.0;
+    const ExitantVector<1> worth = R_->of_means(std::move(f));  // B = Bᵀ
     in_blocks(size(), [&](Eigen::Index u) {
         double sum = 0.0;
         for (const std::uint64_t ray : seers_.of(static_cast<std::uint32_t>(u))) {
-            const std::uint32_t f = facet_of_ray_[ray];
-            sum += table_->measure(f) * albedo_[f] * x[f];
+            const std::uint32_t v = arrives_in_[ray];
+            sum += table_->measure(facet_of_unknown_[v]) * worth(0, v);
         }
         y[u] = sum / measure_[u];
     });
 }
 
 double TracedChannel::diagonal(Eigen::Index u) const {
-    const auto seen = table_->row(static_cast<std::uint32_t>(u));
-    return albedo_[u] * static_cast<double>(std::count(seen.begin(), seen.end(), static_cast<std::uint32_t>(u))) /
-           static_cast<double>(seen.size());
+    const std::uint32_t f = facet_of_unknown_[static_cast<std::size_t>(u)];
+    double sum = 0.0;
+    for_row(*R_, f, static_cast<std::uint32_t>(u), [&](std::uint32_t v, double a) {
+        const auto seen = rays_in_cell(*table_, f, v);
+        sum += a * static_cast<double>(std::count(seen.begin(), seen.end(), static_cast<std::uint32_t>(u))) /
+               static_cast<double>(seen.size());
+    });
+    return sum;
 }
 
 void TracedChannel::add_column(Eigen::Index u, double a, Vector& y) const {
     for (const std::uint64_t ray : seers_.of(static_cast<std::uint32_t>(u))) {
-        const std::uint32_t f = facet_of_ray_[ray];
-        y[f] += a * albedo_[f] / static_cast<double>(table_->row(f).size());
+        const std::uint32_t v = arrives_in_[ray], f = facet_of_unknown_[v];
+        const double part = a / static_cast<double>(rays_in_cell(*table_, f, v).size());
+        for_row(*R_, f, v, [&](std::uint32_t w, double b) { y[w] += part * b; });  // B = Bᵀ
     }
 }
 
@@ -80,14 +134,25 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& ta
     return T;
 }
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const Vector& albedo) {
-    Eigen::SparseMatrix<double, Eigen::RowMajor> R(table.space().size(), static_cast<Eigen::Index>(table.seen().size()));
-    Triplets entries;
-    for (std::uint32_t f = 0; f < facets(table); ++f)
-        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray)
-            entries.emplace_back(static_cast<int>(f), static_cast<int>(ray), albedo[f] / static_cast<double>(table.row(f).size()));
-    R.setFromTriplets(entries.begin(), entries.end());
-    return R;
+Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R) {
+    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(table.space().size(), static_cast<Eigen::Index>(table.seen().size()));
+    Triplets all;
+    all.reserve(entries(table, R));
+    for_entries(table, R, [&](std::uint32_t u, std::uint32_t v, std::uint32_t f, double a) {
+        const auto seen = rays_in_cell(table, f, v);
+        const auto first = static_cast<std::size_t>(seen.data() - table.seen().data());
+        for (std::size_t ray = first; ray < first + seen.size(); ++ray)
+            all.emplace_back(static_cast<int>(u), static_cast<int>(ray), a / static_cast<double>(seen.size()));
+    });
+    matrix.setFromTriplets(all.begin(), all.end());
+    return matrix;
+}
+
+std::size_t entries(const RayTable& table, const ReflectionMatrix<1>& R) {
+    std::size_t count = 0;
+    for_entries(table, R,
+                [&](std::uint32_t, std::uint32_t v, std::uint32_t f, double) { count += rays_in_cell(table, f, v).size(); });
+    return count;
 }
 
 }  // namespace neumann

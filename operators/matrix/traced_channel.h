@@ -10,12 +10,8 @@ namespace neumann {
 
 class TracedChannel : public ChannelOperator {
 public:
-    // `channel`: of R, 0 … 2. The table is kept by reference.
-    template <int C>
-    TracedChannel(const RayTable& table, const ReflectionMatrix<C>& R, int channel)
-        : TracedChannel(table, Vector(R.albedo().row(C == 1 ? 0 : channel).transpose().matrix())) {}
-    // `albedo`: of each facet.
-    TracedChannel(const RayTable& table, Vector albedo);
+    // The table and R are kept by reference.
+    TracedChannel(const RayTable& table, const ReflectionMatrix<1>& R);
 
     Eigen::Index size() const override { return measure_.size(); }
     void apply(const Vector& x, Vector& y) const override;
@@ -25,17 +21,23 @@ public:
     void add_column(Eigen::Index u, double a, Vector& y) const override;
     const Vector& measure() const override { return measure_; }
 
-    const Vector& albedo() const { return albedo_; }
+    // ρ of each unknown with K = diag(ρ) F; empty where a side is not diffuse.
+    const Vector& reflectance() const { return reflectance_; }
 
 private:
+    double mean(std::uint32_t arriving, const Vector& x) const;
+
     const RayTable* table_;
-    Vector albedo_, measure_;
+    const ReflectionMatrix<1>* R_;
+    Vector reflectance_, measure_;
     Seers seers_;
-    std::vector<std::uint32_t> facet_of_ray_;
+    std::vector<std::uint32_t> facet_of_unknown_, arrives_in_;  // an unknown, for each ray
 };
 
 // T and R as matrices, for whoever wants to hold them: rows of T are rays, R has a row an unknown and a column a ray; K = R T.
 Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& table);
-Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const Vector& albedo);
+Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R);
+// Entries of it.
+std::size_t entries(const RayTable& table, const ReflectionMatrix<1>& R);
 
 }  // namespace neumann

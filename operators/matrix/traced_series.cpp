@@ -51,7 +51,7 @@ TracedSeries trace(const Scene& scene, const PatchSpace& space, const PatchSpace
     TracedSeries series{FieldStack(space, settings.bounces), FieldStack(coarser, settings.bounces), table.seen().size()};
     ExitantVector<C> term = emitted_light<C>(scene, space), coarse_term = coarsening.mean<C>(term);
     const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
-    const auto direct = [&] { return direct_light<C>(scene, space, settings.light_samples, settings.seed); };
+    const auto direct = [&] { return direct_light<C>(scene, R, settings.light_samples, settings.seed); };
     if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
     series.rays += series.light_rays;
     for (int i = 0;; ++i) {

@@ -13,18 +13,15 @@ namespace neumann {
 
 namespace {
 
-// About what is needed for each patch, and for each ray with its entry in T and in the transpose of one channel.
-constexpr double bytes_of_patch = 160.0, bytes_of_ray = 16.0;
-
-void check_memory(const TracedSettings& settings, double facets_of_patch) {
-    check_patch_memory(settings.patches, settings.rays, bytes_of_patch + facets_of_patch * settings.rays * bytes_of_ray);
-}
+// About what is needed for each unknown, and for each ray with its entry in T and in the transpose of one channel.
+constexpr double bytes_of_unknown = 160.0, bytes_of_ray = 16.0;
 
 PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {
-    check_memory(settings, 1.0);
+    check_patch_memory(settings.patches, settings.rays, bytes_of_unknown + settings.rays * bytes_of_ray);
     PatchSpace space(scene.geometry, {.patches = settings.patches}, side_directions(scene));
     if (space.size() == 0) throw InputError("no surface faces another or shines: K is 0 and has no unknowns");
-    check_memory(settings, static_cast<double>(space.facets().size()) / static_cast<double>(space.patches().size()));
+    const double bytes = space.size() * bytes_of_unknown + static_cast<double>(RayTable::size(space, settings.rays)) * bytes_of_ray;
+    check_patch_memory(settings.patches, settings.rays, bytes / static_cast<double>(space.patches().size()));
     return space;
 }
 
@@ -35,17 +32,19 @@ TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings)
       settings_(settings),
       space_(make_space(scene, settings)),
       table_(space_, settings.rays, settings.seed),
-      samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays) {
+      samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays),
+      identity_(ReflectionMatrix<1>::identity(space_)) {
     is_grey(scene) ? fill<1>() : fill<4>();
 }
 
 template <int C>
 void TracedSystem::fill() {
     const Eigen::Index n = space_.size(), channels = std::min(C, 3);
-    albedo_ = ReflectionMatrix<C>(scene_->materials, space_).albedo().topRows(channels).matrix();
+    const ReflectionMatrix<C> R(scene_->materials, space_);
+    for (int c = 0; c < channels; ++c) R_.push_back(R.channel(c));
     emitted_ = emitted_light<C>(*scene_, space_).topLeftCorner(channels, n).matrix();
     if (samples_lights_) {
-        direct_ = direct_light<C>(*scene_, space_, settings_.rays, settings_.seed).topLeftCorner(channels, n).matrix();
+        direct_ = direct_light<C>(*scene_, R, settings_.rays, settings_.seed).topLeftCorner(channels, n).matrix();
         return;
     }
     direct_.resize(channels, n);

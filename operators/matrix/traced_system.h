@@ -1,4 +1,4 @@
-// A scene of diffuse surfaces as matrices: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
+// A scene as matrices: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -29,13 +29,13 @@ public:
     const RayTable& table() const { return table_; }
 
     // 1 where the scene is grey, else red, green and blue.
-    int channels() const { return static_cast<int>(albedo_.rows()); }
-    // Of K; they refer to the table here.
-    TracedChannel channel(int c) const { return {table_, albedo(c)}; }
-    // With albedo 1 everywhere: a row is the mean of the rays of T, as 1 in T 1 for a closed scene.
-    TracedChannel transport() const { return {table_, Vector::Ones(space_.size())}; }
+    int channels() const { return static_cast<int>(R_.size()); }
+    const ReflectionMatrix<1>& reflection(int c) const { return R_[static_cast<std::size_t>(c)]; }
+    // Of K; they refer to the table and to R here.
+    TracedChannel channel(int c) const { return {table_, reflection(c)}; }
+    // T alone: a row is the mean of its rays, as 1 in T 1 for a closed scene.
+    TracedChannel transport() const { return {table_, identity_}; }
 
-    Vector albedo(int c) const { return albedo_.row(c).transpose(); }
     double largest_albedo(int c) const { return scene_->materials.largest_albedo()[c]; }
     Vector emitted(int c) const { return emitted_.row(c).transpose(); }
     // b = K Le; sampled on the lights where the rays of T hardly meet them.
@@ -55,7 +55,9 @@ private:
     PatchSpace space_;
     RayTable table_;
     bool samples_lights_;
-    Rows albedo_, emitted_, direct_;
+    ReflectionMatrix<1> identity_;
+    std::vector<ReflectionMatrix<1>> R_;
+    Rows emitted_, direct_;
 };
 
 }  // namespace neumann

@@ -15,6 +15,10 @@ struct DirectionCells {
     // Of a direction in the local frame, cos θ > 0.
     std::uint32_t cell(const Vec3& w) const { return k == 1 ? 0 : cell_of_square(square_of_disk(Vec2(w))); }
     std::uint32_t cell_of_square(const Vec2& u) const { return along(u.y) * k + along(u.x); }
+    std::uint32_t mirrored(std::uint32_t cell) const { return size() - 1 - cell; }
+    // The cell around a cell, of half as many in both directions.
+    DirectionCells coarser() const { return {std::max(k / 2, 1u)}; }
+    std::uint32_t coarser(std::uint32_t cell) const { return k == 1 ? 0 : cell / k / 2 * (k / 2) + cell % k / 2; }
     // Uniform in projected solid angle for uniform u in [0, 1)².
     Vec3 direction(std::uint32_t cell, const Vec2& u) const {
         return cosine_hemisphere({(cell % k + u.x) / k, (cell / k + u.y) / k});

@@ -50,12 +50,21 @@ PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::Place
     return reading;
 }
 
+PatchSpace PatchSpace::coarser() const {
+    std::vector<SideDirections> sides = sides_;
+    for (SideDirections& side : sides)
+        for (std::uint32_t* k : {&side.front, &side.back})
+            if (*k > 0) *k = DirectionCells{*k}.coarser().k;
+    return PatchSpace(patches_.coarser(), std::move(sides));
+}
+
 std::vector<std::uint32_t> PatchSpace::coarser_of_each(const PatchSpace& coarser) const {
     const std::vector<std::uint32_t> patch = patches_.coarser_of_each(coarser.patches_);
     std::vector<std::uint32_t> result(size_);
     for (const Facet& facet : facets_) {
         const Facet& around = coarser.facets_[coarser.facet(patch[facet.patch], facet.front)];
-        for (std::uint32_t cell = 0; cell < facet.cells.size(); ++cell) result[facet.first + cell] = around.first + cell;
+        for (std::uint32_t cell = 0; cell < facet.cells.size(); ++cell)
+            result[facet.first + cell] = around.first + facet.cells.coarser(cell);
     }
     return result;
 }

@@ -32,8 +32,8 @@ public:
     PatchSpace(const Geometry& geometry, const Patching& patching, std::vector<SideDirections> sides)
         : PatchSpace(Patches(geometry, patching), std::move(sides)) {}
 
-    // The same on Patches::coarser().
-    PatchSpace coarser() const { return PatchSpace(patches_.coarser(), sides_); }
+    // On Patches::coarser(), with cells of directions twice as wide.
+    PatchSpace coarser() const;
     // The coarser unknown around each unknown.
     std::vector<std::uint32_t> coarser_of_each(const PatchSpace& coarser) const;
 

@@ -1,6 +1,7 @@
 #include "operators/pictures/field_pictures.h"
 
 #include "core/base/stopwatch.h"
+#include "operators/matrix/ray_table.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/patches/patch_memory.h"
@@ -24,6 +25,12 @@ struct Workspace {
     std::vector<float> fine, coarse;  // pixel by pixel, replicate by replicate, quantity by quantity
     std::array<std::uint64_t, 3> rays{};
 };
+
+// What a patch needs: its rows of T, and for all replicates the quantities of the finer and the coarser field.
+void check_memory(const FieldSettings& settings, double unknowns, double rays) {
+    check_patch_memory(settings.patching.patches, settings.rays,
+                       300.0 + 4.0 * rays + unknowns * (32.0 + 15.0 * settings.replicates * (settings.bounces + 2.0)));
+}
 
 }  // namespace
 
@@ -88,10 +95,10 @@ MeanWithError FieldPictures::mean(std::size_t first, std::size_t last) const {
 std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings,
                                            const std::function<bool()>& interrupted) {
     const Stopwatch field_watch;
-    // Both sides of a patch: a row of T, and for all replicates the quantities of the finer and the coarser field.
-    check_patch_memory(settings.patching.patches, settings.rays,
-                       2.0 * (4.0 * settings.rays + 15.0 * settings.replicates * (settings.bounces + 2.0)) + 300.0);
+    check_memory(settings, 1.0, settings.rays);
     const PatchSpace space(scene.geometry, settings.patching, side_directions(scene)), coarser = space.coarser();
+    const auto patches = static_cast<double>(space.patches().size());
+    check_memory(settings, space.size() / patches, static_cast<double>(RayTable::size(space, settings.rays)) / patches);
     FieldPictures result(scene.film, settings);
     result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);

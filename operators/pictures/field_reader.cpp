@@ -11,6 +11,7 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t packet = RayCaster::packet_size;
+constexpr std::uint32_t most_mirrors = 16;  // that a gather ray follows; in more it reads what is on the patches
 
 // Calls each(i) for those of n rays that hit something, in packets; from(i) and hit(i) as Geometry::first_hits.
 template <class From, class Hit, class Each>
@@ -60,8 +61,13 @@ struct FieldReader::Look {
     SurfacePoint x, y;  // what is seen, and what it is lit by
     Vec3 wo, wi;
     const Bsdf* bsdf;  // of the side that is seen; null where it absorbs
+    bool diffuse;
     Rgb weight;
     double pdf;
+    // Of a gather ray: what comes of what it meets, and how many mirrors it has met.
+    Rgb through;
+    std::uint32_t mirrors = 0;
+    bool goes_on;
 
     Frame frame() const { return Frame(glm::dot(x.normal, wo) > 0.0 ? x.normal : -x.normal); }
     // Draws wi, with its weight and pdf, from the material; false where nothing is reflected.
@@ -106,16 +112,16 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
     }
     for (const Look& l : looks) add(l.sample->fine, 0, scene_.emitters.emitted(l.x, l.wo));
     std::erase_if(looks, [](const Look& l) { return !l.bsdf; });
-    if (from_field_ > 3) rays[1] = find_lights(looks) + find_lights_nearby(looks);
-    if (method_ == FieldMethod::gather) {
-        rays[2] = gather(fields, looks);
-    } else {
-        for (const Look& l : looks) {
-            const Patches::Place place = fields.fine.space().patches().place(l.x);
-            add_interpolated(fields.fine, l.x, place, l.wo, from_field_, l.sample->fine);
-            add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, l.sample->coarse);
-        }
+    if (from_field_ > 3) rays[1] = find_lights(looks) + find_lights_by_chance(looks);
+    const auto to_gather = method_ == FieldMethod::gather
+                               ? looks.begin()
+                               : std::stable_partition(looks.begin(), looks.end(), [](const Look& l) { return l.diffuse; });
+    for (const Look& l : std::span(looks.begin(), to_gather)) {
+        const Patches::Place place = fields.fine.space().patches().place(l.x);
+        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, l.sample->fine);
+        add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, l.sample->coarse);
     }
+    rays[2] = gather(fields, std::span(to_gather, looks.end()));
     return rays;
 }
 
@@ -135,6 +141,7 @@ void FieldReader::find_first_points(std::span<const PixelSample> samples, std::v
                 l.x = hits[i];
                 l.wo = -rays[i].direction;
                 l.bsdf = scene_.materials.at(l.x, glm::dot(l.x.normal, l.wo) > 0.0);
+                l.diffuse = l.bsdf && lobe(*l.bsdf).kind == Lobe::Kind::diffuse;
             }
     }
 }
@@ -154,7 +161,7 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
         const Frame frame = l.frame();
         const Vec3 wo = frame.to_local(l.wo), wi = frame.to_local(towards);
         const double angle_per_area = cos_light / distance2;
-        const double pdf_other = near_lights(l.x.position) ? pdf(*l.bsdf, l.x, wo, wi) * angle_per_area : 0.0;
+        const double pdf_other = looks_for_lights(l) ? pdf(*l.bsdf, l.x, wo, wi) * angle_per_area : 0.0;
         l.weight = eval(*l.bsdf, l.x, wo, wi) * emitters.emitted(light.point, -towards) *
                    (std::abs(wi.z) * angle_per_area / light.pdf_area * power_heuristic(light.pdf_area, pdf_other));
         if (is_black(l.weight)) continue;
@@ -175,14 +182,12 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
     return asking.size();
 }
 
-// Directions of the material where the lights are as near as they are large, for there the variance of points on them may be
-// infinite. Which points those are does not depend on the samples, so all stays unbiased.
-std::uint64_t FieldReader::find_lights_nearby(std::vector<Look>& looks) const {
+// Directions of the material.
+std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const {
     const Emitters& emitters = scene_.emitters;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        if (emitters.empty() || !near_lights(l.x.position)) continue;
-        if (l.choose_direction()) asking.push_back(&l);
+        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction()) asking.push_back(&l);
     }
     for_hits(
         scene_.geometry, asking.size(),
@@ -199,37 +204,73 @@ std::uint64_t FieldReader::find_lights_nearby(std::vector<Look>& looks) const {
     return asking.size();
 }
 
-NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::vector<Look>& looks) const {
+// Where lights are as near as they are large, for there the variance of points on them may be infinite, and where the material has
+// a lobe. Which points those are does not depend on the samples, so all stays unbiased.
+bool FieldReader::looks_for_lights(const Look& l) const {
+    return !l.diffuse || glm::distance(l.x.position, glm::clamp(l.x.position, low_, high_)) < near_;
+}
+
+NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span<const Look> looks) const {
     std::vector<float> arriving(stride_), weight(stride_);
+    const std::size_t rest = stride_ - 3;
     const auto reflect = [&](const FieldStack& field, const Look& l, const Patches::Place& place, float* to) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
         add_interpolated(field, l.y, place, -l.wi, 0, arriving.data());
-        // Bounce i is R T of bounce i − 1, and the rest that of bounce N and the rest.
-        for (std::size_t k = stride_ - 3; k < stride_; ++k) arriving[k - 3] += arriving[k];
+        // Bounce i is K of bounce i − 1, and the rest that of bounce N and the rest.
+        const auto take_in_last = [&] {
+            for (std::size_t c = 0; c < 3; ++c) arriving[rest - 3 + c] += arriving[rest + c];
+        };
+        for (std::uint32_t mirror = 0; mirror < l.mirrors; ++mirror) {
+            take_in_last();
+            std::copy_backward(arriving.begin(), arriving.end() - 3, arriving.end());
+            std::fill_n(arriving.begin(), 3, 0.0f);
+        }
+        take_in_last();
         add_reflected(weight.data(), arriving.data(), from_field_, stride_, to);
     };
     std::uint64_t rays = 0;
-    std::vector<Look*> asking;
-    for (std::uint32_t r = 0; r < gather_rays_; ++r) {
-        asking.clear();
-        for (Look& l : looks) {
-            if (!l.choose_direction()) continue;
-            l.weight /= static_cast<double>(gather_rays_);
-            asking.push_back(&l);
+    std::vector<Look> asking;
+    const auto read_or_go_on = [&](std::size_t i) {
+        Look& l = asking[i];
+        const Bsdf* bsdf = scene_.materials.at(l.y, glm::dot(l.y.normal, l.wi) < 0.0);
+        if (l.mirrors < most_mirrors && bsdf && lobe(*bsdf).kind == Lobe::Kind::specular) {
+            // Of the first one, light sampling knows.
+            if (l.mirrors > 0)
+                for (float* to : {l.sample->fine, l.sample->coarse})
+                    add(to, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1), l.through * scene_.emitters.emitted(l.y, -l.wi));
+            l.x = l.y;
+            l.wo = -l.wi;
+            l.bsdf = bsdf;
+            ++l.mirrors;
+            l.goes_on = true;
+            return;
         }
-        rays += asking.size();
-        for_hits(
-            scene_.geometry, asking.size(),
-            [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i]->x, asking[i]->wi); },
-            [&](std::size_t i) -> SurfacePoint& { return asking[i]->y; },
-            [&](std::size_t i) {
-                const Look& l = *asking[i];
-                const Patches::Place place = fields.fine.space().patches().place(l.y);
-                for (std::size_t k = 0; k < stride_; k += 3)
-                    for (int c = 0; c < 3; ++c) weight[k + static_cast<std::size_t>(c)] = static_cast<float>(l.weight[c]);
-                reflect(fields.fine, l, place, l.sample->fine);
-                reflect(fields.coarse, l, place, l.sample->coarse);
+        const Patches::Place place = fields.fine.space().patches().place(l.y);
+        for (std::size_t k = 0; k < stride_; k += 3)
+            for (int c = 0; c < 3; ++c) weight[k + static_cast<std::size_t>(c)] = static_cast<float>(l.through[c]);
+        reflect(fields.fine, l, place, l.sample->fine);
+        reflect(fields.coarse, l, place, l.sample->coarse);
+    };
+    for (std::uint32_t r = 0; r < gather_rays_; ++r) {
+        asking.assign(looks.begin(), looks.end());
+        for (Look& l : asking) {
+            l.goes_on = true;
+            l.through = Rgb(1.0 / gather_rays_);
+        }
+        for (;;) {
+            std::erase_if(asking, [](Look& l) {
+                if (!l.goes_on || !l.choose_direction()) return true;
+                l.through *= l.weight;
+                l.goes_on = false;
+                return false;
             });
+            if (asking.empty()) break;
+            rays += asking.size();
+            for_hits(
+                scene_.geometry, asking.size(),
+                [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i].x, asking[i].wi); },
+                [&](std::size_t i) -> SurfacePoint& { return asking[i].y; }, read_or_go_on);
+        }
     }
     return rays;
 }

@@ -15,8 +15,12 @@ namespace neumann {
 // How a picture is made from fields on patches:
 //
 //     patches   every bounce as it is on the patches: the piecewise constant truth
-//     matrix    bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces
-//     gather    K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1
+//     matrix    bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces; where what is
+//     seen
+//               is not diffuse, and cells of directions would show, as gather
+//     gather    K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1; and again where that is seen in
+//     a
+//               mirror
 enum class FieldMethod { patches, matrix, gather };
 
 // One replicate of a series, on patches and on patches four times as large.
@@ -51,9 +55,9 @@ private:
     struct Look;
     void find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const;
     std::uint64_t find_lights(std::vector<Look>& looks) const;
-    std::uint64_t find_lights_nearby(std::vector<Look>& looks) const;
-    std::uint64_t gather(const FieldPair& fields, std::vector<Look>& looks) const;
-    bool near_lights(const Vec3& p) const { return glm::distance(p, glm::clamp(p, low_, high_)) < near_; }
+    std::uint64_t find_lights_by_chance(std::vector<Look>& looks) const;
+    std::uint64_t gather(const FieldPair& fields, std::span<const Look> looks) const;
+    bool looks_for_lights(const Look& l) const;
 
     const Scene& scene_;
     FieldMethod method_;

@@ -96,12 +96,27 @@ TEST_F(RenderScenes, MitsubaCornell) {
                  0.05);
 }
 
+TEST_F(RenderScenes, MetalRoom) {
+    render(scene_file("metal-room"), "a", {"-D", "res=128", "-n", "2", "--spp", "64", "--quiet"});
+    expect_finite("a");
+    const ChannelMean lamp = channel_mean(picture("a", "bounce_000.exr"), 1);
+    EXPECT_LE(std::abs(lamp.mean - 0.1107909), 4.5 * lamp.standard_error);
+    EXPECT_LE(lamp.standard_error, 0.005 * lamp.mean);
+    // The lamp's image covers this row, from 34/128 = 0.266 to 35/128 = 0.273, from 0.431 to 0.569.
+    const Estimate bounce = picture("a", "bounce_001.exr");
+    for (int x = 56; x < 72; ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(34 * 128 + x);
+        EXPECT_NEAR(bounce.mean.pixels[pixel].g, 9.0, 1e-6) << x;
+        EXPECT_LE(bounce.standard_error.pixels[pixel].g, 1e-6) << x;
+    }
+}
+
 // Every folder in scenes/ has a scene of its name, which is rendered above or here.
 TEST_F(RenderScenes, NoneIsForgotten) {
     Names found;
     for (const auto& entry : std::filesystem::directory_iterator(SCENES))
         if (entry.is_directory()) found.insert(entry.path().filename().string());
-    EXPECT_EQ(found, (Names{"cornell-box", "furnace", "mitsuba-cornell", "sphere-segment"}));
+    EXPECT_EQ(found, (Names{"cornell-box", "furnace", "metal-room", "mitsuba-cornell", "sphere-segment"}));
     for (const std::string& name : found) EXPECT_TRUE(std::filesystem::exists(scene_file(name))) << name;
 }
 

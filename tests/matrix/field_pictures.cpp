@@ -19,17 +19,18 @@ RenderedSeries walk(const Scene& scene, int bounces, std::uint64_t samples) {
     return render_series(scene, settings, {samples, {}, {}});
 }
 
-class FieldPicturesSlow : public testing::TestWithParam<FieldMethod> {};
+class FieldPicturesSlow : public testing::TestWithParam<std::tuple<FieldMethod, const char*>> {};
 
 // In at least 95% of all pixels and channels of every bounce the difference is at most t · SE + discretisation, with the walk's own
 // error in SE; and the mean of the reported discretisation error is at most 5 times that of the true error.
-TEST_P(FieldPicturesSlow, AgreeWithTheWalkOnTheCornellBox) {
-    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "48"}});
+TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
+    const auto& [method, file] = GetParam();
+    const Scene scene = read_scene(std::string(SCENES) + file, {{"res", "48"}});
     constexpr int N = 4;
     const RenderedSeries truth = walk(scene, N, 4096);
     const auto walked = truth.moments.result();
     FieldSettings settings;
-    settings.method = GetParam();
+    settings.method = method;
     settings.bounces = N;
     settings.patching.patches = 3000;
     settings.rays = 64;
@@ -55,7 +56,9 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalkOnTheCornellBox) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FieldPicturesSlow, testing::Values(FieldMethod::matrix, FieldMethod::gather));
+INSTANTIATE_TEST_SUITE_P(Methods, FieldPicturesSlow,
+                         testing::Combine(testing::Values(FieldMethod::matrix, FieldMethod::gather),
+                                          testing::Values("/cornell-box/cornell-box.xml", "/metal-room/metal-room.xml")));
 
 }  // namespace
 }  // namespace neumann

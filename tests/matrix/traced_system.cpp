@@ -30,7 +30,7 @@ TEST(TracedSystem, FurnaceChannels) {
     EXPECT_EQ(system.rays(), 16u * system.space().size());
     for (int c = 0; c < 3; ++c) {
         const Vector expected = Vector::Constant(system.space().size(), 0.25 * (c + 1));
-        EXPECT_EQ(system.albedo(c), expected);
+        EXPECT_EQ(system.channel(c).reflectance(), expected);
         EXPECT_EQ(system.direct(c), expected);
         EXPECT_EQ(system.emitted(c), Vector::Ones(system.space().size()));
         EXPECT_EQ(system.largest_albedo(c), 0.25 * (c + 1));

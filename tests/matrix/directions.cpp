@@ -1,0 +1,200 @@
+// Surfaces that are not diffuse: R between cells of directions.
+#include "core/sampling/sobol_sampler.h"
+#include "operators/matrix/inner_product.h"
+#include "operators/matrix/light_vector.h"
+#include "operators/matrix/sides.h"
+#include "operators/matrix/traced_system.h"
+#include "operators/series/neumann_series.h"
+#include "operators/spectrum/closure.h"
+#include "tests/physics/enclosures.h"
+
+#include <gtest/gtest.h>
+
+namespace neumann {
+namespace {
+
+using namespace physics;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+Bsdf rough(double alpha) { return RoughConductor<Ggx>(Ggx(alpha)); }
+
+// ∫∫ g dω⊥i dω⊥o between two cells times k²/π, by the midpoint rule with fs as it is.
+double integral(const Bsdf& bsdf, DirectionCells cells, std::uint32_t i, std::uint32_t j, int n) {
+    double sum = 0.0;
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b)
+            for (int c = 0; c < n; ++c)
+                for (int d = 0; d < n; ++d)
+                    sum += eval(bsdf, {}, cells.direction(i, {(a + 0.5) / n, (b + 0.5) / n}),
+                                cells.direction(j, {(c + 0.5) / n, (d + 0.5) / n}))
+                               .g;
+    return sum / std::pow(n, 4) * pi / cells.size();
+}
+
+TEST(ReflectionBlock, IsTheMeanOfFsBetweenCells) {
+    const DirectionCells cells{4};
+    const Bsdf bsdf = rough(0.5);
+    const ReflectionBlock block(bsdf, cells);
+    const ReflectionBlock::Matrix& B = block.matrix(0);
+    // 4096 samples a row, of which a cell gets at least a twentieth part or so little that it does not matter.
+    for (std::uint32_t i = 0; i < cells.size(); ++i)
+        for (std::uint32_t j = 0; j < cells.size(); ++j)
+            EXPECT_NEAR(B.coeff(i, j), integral(bsdf, cells, i, j, 10), 0.01) << i << " " << j;
+}
+
+TEST(ReflectionBlock, IsSymmetricAndItsRowsSumToTheAlbedo) {
+    for (const double alpha : {0.05, 0.2, 0.5, 1.0})
+        for (const std::uint32_t k : {2u, 4u, 8u, 16u}) {
+            const DirectionCells cells{k};
+            const ReflectionBlock block(rough(alpha), cells);
+            const ReflectionBlock::Matrix& B = block.matrix(0);
+            EXPECT_LE((Eigen::MatrixXd(B) - Eigen::MatrixXd(B).transpose()).cwiseAbs().maxCoeff(), epsilon);
+            const SobolPoints points(4096);
+            for (std::uint32_t i = 0; i < cells.size(); i += std::max(1u, cells.size() / 16)) {
+                double albedo = 0.0;  // by other samples
+                SobolSampler sampler(points, 7, i);
+                for (std::uint32_t n = 0; n < points.size(); ++n) {
+                    sampler.start(n);
+                    const Vec3 wo = cells.direction(i, sampler.next2());
+                    albedo += sample(rough(alpha), {}, wo, sampler.next2()).weight.g / points.size();
+                }
+                EXPECT_NEAR(B.row(i).sum(), albedo, 0.002) << alpha << " " << k << " " << i;
+                EXPECT_LE(B.row(i).sum(), 1.0 + 8.0 * epsilon);
+            }
+        }
+}
+
+TEST(ReflectionBlock, OfAMirrorTurnsByHalfACircle) {
+    const DirectionCells cells{8};
+    const Conductor gold(ConductorFresnel(Rgb(0.143, 0.375, 1.442), Rgb(3.983, 2.386, 1.603)));
+    const ReflectionBlock block(gold, cells);
+    for (int c = 0; c < 3; ++c) {
+        const Eigen::MatrixXd B = block.matrix(c);
+        for (std::uint32_t i = 0; i < cells.size(); ++i)
+            for (std::uint32_t j = 0; j < cells.size(); ++j) EXPECT_EQ(B(i, j) > 0.0, j == cells.mirrored(i)) << i << " " << j;
+        // At normal incidence ((n − 1)² + k²) / ((n + 1)² + k²).
+        const double n[3] = {0.143, 0.375, 1.442}, k[3] = {3.983, 2.386, 1.603};
+        const double normal = (std::pow(n[c] - 1.0, 2) + k[c] * k[c]) / (std::pow(n[c] + 1.0, 2) + k[c] * k[c]);
+        EXPECT_NEAR(B(3 * 8 + 3, 4 * 8 + 4), normal, 0.01) << c;
+    }
+}
+
+TEST(SymmetricScaling, GivesTheRowSums) {
+    Eigen::MatrixXd dense(3, 3);
+    dense << 1, 2, 0, 2, 1, 3, 0, 3, 0.5;
+    ReflectionBlock::Matrix A = dense.sparseView();
+    const Eigen::Vector3d sums(0.9, 0.8, 0.7);
+    scale_symmetrically(A, sums);
+    EXPECT_LE((A * Eigen::Vector3d::Ones() - sums).cwiseAbs().maxCoeff(), 8.0 * epsilon);
+    EXPECT_LE((Eigen::MatrixXd(A) - Eigen::MatrixXd(A).transpose()).cwiseAbs().maxCoeff(), epsilon);
+}
+
+// |K^i Le − ρ^i| in every cell, whatever the mesh: a mirror is as good a furnace as a matte wall.
+TEST(Directions, FurnaceOfMirrorsIsExact) {
+    const Rgb rho(0.25, 0.7, 0.999);
+    for (const Enclosure& e : enclosures(made_of(Conductor({}, rho), AreaLight(Rgb(1.0))))) {
+        const Scene scene = e.maker.make();
+        const PatchSpace space(scene.geometry, {40, 0.6}, side_directions(scene));
+        const RayTable table(space, 64, 1);
+        const ReflectionMatrix<4> R(scene.materials, space);
+        NeumannSeries series(R * TransportMatrix<4>(table), emitted_light<4>(scene, space));
+        EXPECT_EQ(space.size(), 256u * space.facets().size());
+        for (int i = 0; i <= 10; ++i, series.advance())
+            for (std::uint32_t u = 0; u < space.size(); ++u)
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(series.term()(c, u), std::pow(rho[c], i), 16.0 * std::max(i, 1) * epsilon) << e.name << " " << i;
+    }
+}
+
+Scene metals(double lamp_size = 1.0) {
+    SceneMaker maker;
+    const auto walls = room({-1, -1, -1}, {1, 1, 1});
+    for (const std::size_t face : {left, right, front, ceiling}) maker.add(walls[face], {Rgb(0.7, 0.4, 0.2), std::nullopt, false});
+    maker.add(walls[back], made_of(Conductor({}, Rgb(0.9))));
+    maker.add(walls[floor], made_of(RoughConductor<Ggx>(Ggx(0.4), {}, Rgb(0.8, 0.9, 0.7))));
+    maker.add(parallelogram({-lamp_size / 2, -lamp_size / 2, 0.9}, {0, lamp_size, 0}, {lamp_size, 0, 0}), glowing(0.3, 2.0));
+    return maker.make();
+}
+
+TEST(Directions, DotTestsHold) {
+    const Scene scene = metals();
+    const PatchSpace space(scene.geometry, {60, 0.6}, side_directions(scene));
+    const RayTable table(space, 32, 1);
+    const TransportMatrix<4> T(table);
+    const ReflectionMatrix<4> R(scene.materials, space);
+    const AdjointReflectionMatrix<4> R_adjoint(R, table);
+    const AdjointTransportMatrix<4> T_adjoint(table);
+    ExitantVector<4> f = ExitantVector<4>::Zero(4, space.size() + 1), g = f;
+    for (std::uint32_t u = 0; u < space.size(); ++u)
+        for (int c = 0; c < 3; ++c) {
+            f(c, u) = std::sin(1.0 + 3.0 * u + c);
+            g(c, u) = std::cos(2.0 + 5.0 * u + c);
+        }
+    const Channels<4> Kf_g = inner_product(space, R(T(f)), g), f_Kg = inner_product(space, f, T_adjoint(R_adjoint(g)));
+    const Channels<4> Tf_Rg = inner_product<4>(table, T(f), R_adjoint(g));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(Kf_g[c], f_Kg[c], 1e-13);
+        EXPECT_NEAR(Kf_g[c], Tf_Rg[c], 1e-13);
+        EXPECT_GT(std::abs(Kf_g[c]), 1e-6);
+    }
+}
+
+// Rows, columns and the diagonal are those of the K that is applied, and of R T as matrices.
+TEST(Directions, AChannelIsOneMatrix) {
+    const Scene scene = metals();
+    const TracedSystem system(scene, {30, 32, 0});
+    const auto n = static_cast<Eigen::Index>(system.space().size());
+    ASSERT_GT(system.space().size(), system.space().facets().size());
+    for (const int c : {0, 2}) {
+        const TracedChannel K = system.channel(c);
+        EXPECT_EQ(K.reflectance().size(), 0) << "K is no diag(ρ) F";
+        const auto R = reflection_matrix(system.table(), system.reflection(c));
+        EXPECT_EQ(static_cast<std::size_t>(R.nonZeros()), entries(system.table(), system.reflection(c)));
+        const Eigen::SparseMatrix<double, Eigen::RowMajor> RT = R * transport_matrix(system.table());
+        EXPECT_LE(adjoint_defect(K), 1e-13);
+        for (Eigen::Index u = 0; u < n; u += 97) {
+            const Vector unit = Vector::Unit(n, u);
+            Vector column(n), added = Vector::Zero(n);
+            K.apply(unit, column);
+            K.add_column(u, 1.0, added);
+            EXPECT_LE((column - added).cwiseAbs().maxCoeff(), 1e-14);
+            EXPECT_LE((column - RT * unit).cwiseAbs().maxCoeff(), 1e-14);
+            EXPECT_NEAR(column[u], K.diagonal(u), 1e-14);
+            Vector x(n), Kx(n);
+            for (Eigen::Index v = 0; v < n; ++v) x[v] = std::sin(static_cast<double>(v));
+            K.apply(x, Kx);
+            EXPECT_NEAR(K.row(u, x), Kx[u], 1e-14);
+        }
+    }
+}
+
+// K Le by points on lights and by the rays of T: two estimates of the same vector.
+TEST(Directions, LightSamplingAgreesWithRays) {
+    const Scene scene = metals();
+    const PatchSpace space(scene.geometry, {30, 0.6}, side_directions(scene));
+    const ReflectionMatrix<1> R = ReflectionMatrix<4>(scene.materials, space).channel(1);
+    const RayTable table(space, 262144, 3);
+    const ExitantVector<1> by_rays = R(TransportMatrix<1>(table)(emitted_light<1>(scene, space)));
+    const ExitantVector<1> by_lights = direct_light<1>(scene, R, 262144, 3);
+    double difference = 0.0, all = 0.0;
+    for (const Facet& facet : space.facets())
+        for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) {
+            difference += std::abs(by_rays(0, u) - by_lights(0, u)) * space.measure(facet);
+            all += by_rays(0, u) * space.measure(facet);
+        }
+    EXPECT_GT(all, 1.0);
+    EXPECT_LE(difference, 0.01 * all);
+}
+
+// The coarser cells hold the means of the finer ones.
+TEST(Directions, CoarserCellsAreAroundTheirParts) {
+    for (const std::uint32_t k : {2u, 4u, 16u}) {
+        const DirectionCells cells{k}, coarser = cells.coarser();
+        for (std::uint32_t cell = 0; cell < cells.size(); ++cell)
+            for (const Vec2 u : {Vec2(0.1, 0.1), Vec2(0.9, 0.2), Vec2(0.5, 0.9)})
+                EXPECT_EQ(cells.coarser(cell), coarser.cell(cells.direction(cell, u)));
+    }
+}
+
+}  // namespace
+}  // namespace neumann
