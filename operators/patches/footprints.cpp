@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace neumann {
 
@@ -13,6 +14,7 @@ constexpr std::size_t most_pairs = 20'000'000;
 struct Edge {
     Vec3 a, b;
     std::uint32_t shape;
+    std::vector<std::size_t> charts;  // whose side it is
 };
 
 std::array<double, 6> key(const Vec3& a, const Vec3& b) {
@@ -29,13 +31,16 @@ std::vector<Edge> outline_edges(const std::vector<Chart>& charts) {
         bool inner = false;
     };
     std::map<std::pair<std::uint32_t, std::array<double, 6>>, Side> sides;
-    for (const Chart& chart : charts) {
+    for (std::size_t number = 0; number < charts.size(); ++number) {
+        const Chart& chart = charts[number];
         if (!chart.is_plane()) continue;
         const auto corners = chart.corners();
         for (std::size_t i = 0; i < 4; ++i) {
             const Vec3 a = corners[i], b = corners[(i + 1) % 4];
             if (a == b) continue;
-            const auto [found, is_new] = sides.try_emplace({chart.shape(), key(a, b)}, Side{{a, b, chart.shape()}, chart.normal()});
+            const auto [found, is_new] =
+                sides.try_emplace({chart.shape(), key(a, b)}, Side{{a, b, chart.shape(), {}}, chart.normal()});
+            found->second.edge.charts.push_back(number);
             if (!is_new && glm::dot(found->second.normal, chart.normal()) > 1.0 - 1e-6) found->second.inner = true;
         }
     }
@@ -62,26 +67,52 @@ bool is_inside(const Chart& chart, const Vec3& p) {
     return true;
 }
 
+double distance(const Vec3& p, const Footprints::Mouth& m) {
+    const Vec3 along = m.b - m.a;
+    const double u = std::clamp(glm::dot(p - m.a, along) / glm::dot(along, along), 0.0, 1.0);
+    return glm::distance(p, m.a + u * along);
+}
+
+// Of a gap between a chart and an edge above it, whose ends are at these heights; 0 where the edge stands on the chart, or leaves
+// it like the surface next to it.
+double gap_width(double a, double b) {
+    const double low = std::min(std::abs(a), std::abs(b)), high = std::max(std::abs(a), std::abs(b));
+    return a * b > 0.0 && low > 0.5 * high ? high : 0.0;
+}
+
 }  // namespace
 
-std::uint32_t Footprints::classes(const Vec2& p) const {
-    std::uint32_t bits = 0;
+Region Footprints::region(const Vec2& st, const Vec3& position) const {
+    Region region;
     for (std::size_t i = 0; i < outlines_.size(); ++i) {
         bool inside = false;
         for (const Segment& segment : outlines_[i]) {
-            if ((segment.a.y > p.y) == (segment.b.y > p.y)) continue;
-            const double x = segment.a.x + (segment.b.x - segment.a.x) * (p.y - segment.a.y) / (segment.b.y - segment.a.y);
-            if (x > p.x) inside = !inside;
+            if ((segment.a.y > st.y) == (segment.b.y > st.y)) continue;
+            const double x = segment.a.x + (segment.b.x - segment.a.x) * (st.y - segment.a.y) / (segment.b.y - segment.a.y);
+            if (x > st.x) inside = !inside;
         }
-        if (inside) bits |= 1u << i;
+        if (inside) region.shapes |= 1u << i;
     }
-    return bits;
+    for (const Mouth& mouth : mouths_) {
+        const double d = distance(position, mouth);
+        std::uint32_t band = 0;
+        while (band < mouth.bands && d * (1u << band) < near_) ++band;
+        region.band = std::max(region.band, band);
+    }
+    return region;
+}
+
+bool Footprints::has_bands(const Vec3& position, double d) const {
+    return std::any_of(mouths_.begin(), mouths_.end(), [&](const Mouth& mouth) { return distance(position, mouth) < near_ + d; });
 }
 
 std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vector<Chart>& charts, double near) {
-    std::vector<Footprints> result(charts.size());
+    std::vector<Footprints> result(charts.size(), Footprints(near));
     const std::vector<Edge> edges = outline_edges(charts);
     if (charts.size() * edges.size() > most_pairs) return result;
+    const auto is_larger_than_bands = [&](const Chart& chart) {
+        return std::min(chart.lengths().x, chart.lengths().y) > 2.0 * near;
+    };
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const Chart& chart = charts[i];
         if (!chart.is_plane()) continue;
@@ -99,7 +130,15 @@ std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vec
             outline.segments.push_back({chart.coordinates(geometry, a), chart.coordinates(geometry, b)});
             // Surfaces that go on from the chart's edge do not stand on it.
             if (is_corner(chart, edge.a) || is_corner(chart, edge.b)) continue;
-            for (const Vec3& p : {a, 0.5 * (a + b), b}) outline.divides = outline.divides || is_inside(chart, p);
+            bool above = false;
+            for (const Vec3& p : {a, 0.5 * (a + b), b}) above = above || is_inside(chart, p);
+            outline.divides = outline.divides || above;
+            const double gap = gap_width(height(edge.a), height(edge.b));
+            if (!above || gap < 1e-6 * near || !is_larger_than_bands(chart)) continue;
+            const auto bands = std::min(Footprints::most_bands, 1 + static_cast<std::uint32_t>(std::log2(near / gap)));
+            result[i].add(Footprints::Mouth{a, b, bands});
+            for (const std::size_t own : edge.charts)
+                if (is_larger_than_bands(charts[own])) result[own].add(Footprints::Mouth{edge.a, edge.b, bands});
         }
         for (auto& [shape, outline] : outlines)
             if (outline.divides) result[i].add(std::move(outline.segments));

@@ -41,6 +41,9 @@ std::size_t count_cells(const std::vector<Chart>& charts, double width) {
 // Nearer to a chart than this part of a patch's width, a surface divides it.
 constexpr double near = 0.25;
 
+// The parts of a cell are made of so many squares by so many.
+constexpr std::uint32_t squares_along = 16, squares_along_with_bands = 64;
+
 // Of the interpolation, on one side of an outline.
 constexpr double least_weight = 0.5;
 
@@ -77,20 +80,30 @@ void Patches::add_grid(Axis s, Axis t) {
             add_cell(chart, {grid.s.ends[i], grid.s.ends[i + 1], grid.t.ends[j], grid.t.ends[j + 1]});
 }
 
-void Patches::add_cell(std::uint32_t chart, const Cell& cell) {
-    const double area = charts()[chart].area(cell);
-    std::map<std::uint32_t, Part> parts;  // by class
-    if (!footprints_[chart].empty())
-        for (std::uint16_t i = 0; i < squares_along * squares_along; ++i) {
-            const Vec2 u(i % squares_along + 0.5, i / squares_along + 0.5);
-            parts[footprints_[chart].classes(charts()[chart].uniform(cell, u / double(squares_along)))].push_back(i);
+void Patches::add_cell(std::uint32_t number, const Cell& cell) {
+    const Chart& chart = charts()[number];
+    const Footprints& footprints = footprints_[number];
+    const double area = chart.area(cell);
+    std::map<Region, Part> parts;
+    if (!footprints.empty()) {
+        const auto at = [&](double s, double t) { return chart.point(*geometry_, {s, t}).position; };
+        const double diagonal =
+            glm::distance(at(cell.s0, cell.t0), at(cell.s1, cell.t1)) + glm::distance(at(cell.s0, cell.t1), at(cell.s1, cell.t0));
+        const bool bands = footprints.has_bands(at(0.5 * (cell.s0 + cell.s1), 0.5 * (cell.t0 + cell.t1)), 0.5 * diagonal);
+        const std::uint32_t along = bands ? squares_along_with_bands : squares_along;
+        for (std::uint32_t i = 0; i < along * along; ++i) {
+            const Vec2 st = chart.uniform(cell, Vec2(i % along + 0.5, i / along + 0.5) / double(along));
+            Part& part = parts[footprints.region(st, chart.point(*geometry_, st).position)];
+            part.along = along;
+            part.squares.push_back(static_cast<std::uint16_t>(i));
         }
+    }
     if (parts.size() < 2) {
-        patches_.push_back({cell, area, chart, parts.empty() ? 0 : parts.begin()->first, whole});
+        patches_.push_back({cell, area, number, whole, parts.empty() ? Region() : parts.begin()->first});
     } else {
-        for (auto& [class_bits, part] : parts) {
-            const double share = static_cast<double>(part.size()) / (squares_along * squares_along);
-            patches_.push_back({cell, area * share, chart, class_bits, static_cast<std::uint32_t>(parts_.size())});
+        for (auto& [region, part] : parts) {
+            const double share = static_cast<double>(part.squares.size()) / (part.along * part.along);
+            patches_.push_back({cell, area * share, number, static_cast<std::uint32_t>(parts_.size()), region});
             parts_.push_back(std::move(part));
         }
     }
@@ -98,38 +111,57 @@ void Patches::add_cell(std::uint32_t chart, const Cell& cell) {
 }
 
 Vec2 Patches::in_part(const Part& part, const Vec2& u) {
-    const double place = u.x * static_cast<double>(part.size());
-    const std::size_t i = std::min(static_cast<std::size_t>(place), part.size() - 1);
-    return Vec2(part[i] % squares_along + (place - static_cast<double>(i)), part[i] / squares_along + u.y) /
-           static_cast<double>(squares_along);
+    const double place = u.x * static_cast<double>(part.squares.size());
+    const std::size_t i = std::min(static_cast<std::size_t>(place), part.squares.size() - 1);
+    return Vec2(part.squares[i] % part.along + (place - static_cast<double>(i)), part.squares[i] / part.along + u.y) /
+           static_cast<double>(part.along);
 }
 
-std::optional<std::uint32_t> Patches::find(std::uint32_t cell, std::uint32_t class_bits) const {
+// Twice as wide patches have half as many bands.
+Region Patches::coarser(Region region) {
+    region.band = (region.band + 1) / 2;
+    return region;
+}
+
+std::optional<std::uint32_t> Patches::find(std::uint32_t cell, Region region) const {
     for (std::uint32_t patch = first_of_cell_[cell]; patch < first_of_cell_[cell + 1]; ++patch)
-        if (patches_[patch].class_bits == class_bits) return patch;
+        if (patches_[patch].region == region) return patch;
     return std::nullopt;
+}
+
+// Also of points whose region is too small a part of the cell to be a patch.
+std::uint32_t Patches::nearest(std::uint32_t cell, Region region) const {
+    const auto distance = [&](std::uint32_t patch) {
+        const Region r = patches_[patch].region;
+        return std::pair(r.shapes != region.shapes, std::abs(static_cast<int>(r.band) - static_cast<int>(region.band)));
+    };
+    std::uint32_t best = first_of_cell_[cell];
+    for (std::uint32_t patch = best + 1; patch < first_of_cell_[cell + 1]; ++patch)
+        if (distance(patch) < distance(best)) best = patch;
+    return best;
 }
 
 // A coarser cell has the parts of the finer ones in it, and their areas.
 Patches Patches::coarser() const {
     Patches result(*geometry_, atlas_, footprints_);
+    result.times_coarser_ = times_coarser_ + 1;
     for (std::uint32_t chart = 0; chart < grids_.size(); ++chart) {
         const Grid& grid = grids_[chart];
         const Axis s = coarser(grid.s), t = coarser(grid.t);
-        std::vector<std::map<std::uint32_t, double>> area_of_class(std::size_t{size_of(s)} * size_of(t));
+        std::vector<std::map<Region, double>> area_of_region(std::size_t{size_of(s)} * size_of(t));
         for (std::uint32_t j = 0; j < size_of(grid.t); ++j)
             for (std::uint32_t i = 0; i < size_of(grid.s); ++i) {
                 const std::uint32_t fine = grid.first + j * size_of(grid.s) + i;
-                auto& areas = area_of_class[coarser_cell(grid.t, j) * size_of(s) + coarser_cell(grid.s, i)];
+                auto& areas = area_of_region[coarser_cell(grid.t, j) * size_of(s) + coarser_cell(grid.s, i)];
                 for (std::uint32_t patch = first_of_cell_[fine]; patch < first_of_cell_[fine + 1]; ++patch)
-                    areas[patches_[patch].class_bits] += patches_[patch].area;
+                    areas[coarser(patches_[patch].region)] += patches_[patch].area;
             }
         result.grids_.push_back({s, t, static_cast<std::uint32_t>(result.first_of_cell_.size()) - 1});
         for (std::uint32_t j = 0; j < size_of(t); ++j)
             for (std::uint32_t i = 0; i < size_of(s); ++i) {
                 const Cell cell{s.ends[i], s.ends[i + 1], t.ends[j], t.ends[j + 1]};
-                for (const auto& [class_bits, area] : area_of_class[j * size_of(s) + i])
-                    result.patches_.push_back({cell, area, chart, class_bits, whole});
+                for (const auto& [region, area] : area_of_region[j * size_of(s) + i])
+                    result.patches_.push_back({cell, area, chart, whole, region});
                 result.first_of_cell_.push_back(static_cast<std::uint32_t>(result.patches_.size()));
             }
     }
@@ -145,7 +177,7 @@ std::vector<std::uint32_t> Patches::coarser_of_each(const Patches& coarse) const
                 const std::uint32_t fine = grid.first + j * size_of(grid.s) + i;
                 const std::uint32_t cell = around.first + coarser_cell(grid.t, j) * size_of(around.s) + coarser_cell(grid.s, i);
                 for (std::uint32_t patch = first_of_cell_[fine]; patch < first_of_cell_[fine + 1]; ++patch)
-                    result.push_back(*coarse.find(cell, patches_[patch].class_bits));
+                    result.push_back(*coarse.find(cell, coarser(patches_[patch].region)));
             }
     }
     return result;
@@ -210,17 +242,18 @@ Patches::Reading Patches::interpolate(const Place& p) const {
         for (std::uint32_t& patch : reading.patch) patch = first_of_cell_[patch];
         return reading;
     }
-    // Only patches on the same side of all outlines; where those are too few, the value of the point's own.
+    // Only patches on the same side of all outlines; where those are too few, and in bands, the value of the point's own.
+    const Region region = at_this_level(p.region);
     double left = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const auto found = find(reading.patch[i], p.class_bits);
+        const auto found = find(reading.patch[i], region);
         reading.patch[i] = found.value_or(first_of_cell_[reading.patch[i]]);
         if (found)
             left += reading.weight[i];
         else
             reading.weight[i] = 0.0;
     }
-    if (left < least_weight) {
+    if (left < least_weight || region.band > 0) {
         const std::uint32_t own = locate(p);
         return {{own, own, own, own}, {1.0, 0.0, 0.0, 0.0}};
     }

@@ -35,18 +35,18 @@ public:
     struct Place {
         std::uint32_t chart;
         Vec2 st;
-        std::uint32_t class_bits;
+        Region region;
     };
     Place place(const SurfacePoint& p) const {
         const std::uint32_t chart = atlas_.chart_of(p);
         const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
-        return {chart, st, footprints_[chart].empty() ? 0 : footprints_[chart].classes(st)};
+        return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, p.position)};
     }
     std::uint32_t locate(const Place& p) const {
         const Grid& grid = grids_[p.chart];
         const std::uint32_t c = grid.first + cell(grid.t, p.st.y) * size_of(grid.s) + cell(grid.s, p.st.x);
         const std::uint32_t first = first_of_cell_[c];
-        return first_of_cell_[c + 1] == first + 1 ? first : find(c, p.class_bits).value_or(first);
+        return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(p.region));
     }
     std::uint32_t locate(const SurfacePoint& p) const { return locate(place(p)); }
     // Uniform by area for uniform u in [0, 1)².
@@ -77,16 +77,19 @@ private:
         Axis s, t;
         std::uint32_t first;  // cell
     };
-    // A cell, or the part of a cell that has one class of Footprints.
+    // A cell, or the part of a cell that is in one region of Footprints.
     struct Patch {
         Cell cell;
         double area;
-        std::uint32_t chart, class_bits, part;
+        std::uint32_t chart, part;
+        Region region;
     };
     static constexpr std::uint32_t whole = ~std::uint32_t{0};
     // The squares of a fine grid on the unit square that make up a part.
-    static constexpr std::uint32_t squares_along = 16;
-    using Part = std::vector<std::uint16_t>;
+    struct Part {
+        std::uint32_t along;  // squares of the grid
+        std::vector<std::uint16_t> squares;
+    };
 
     struct Neighbours {
         std::uint32_t low, high;
@@ -105,7 +108,13 @@ private:
     static Vec2 in_part(const Part& part, const Vec2& u);
     void add_grid(Axis s, Axis t);
     void add_cell(std::uint32_t chart, const Cell& cell);
-    std::optional<std::uint32_t> find(std::uint32_t cell, std::uint32_t class_bits) const;
+    std::optional<std::uint32_t> find(std::uint32_t cell, Region region) const;
+    std::uint32_t nearest(std::uint32_t cell, Region region) const;
+    static Region coarser(Region region);
+    Region at_this_level(Region region) const {
+        for (std::uint32_t i = 0; i < times_coarser_; ++i) region = coarser(region);
+        return region;
+    }
     const std::vector<Chart>& charts() const { return atlas_.charts(); }
 
     const Geometry* geometry_;
@@ -115,6 +124,7 @@ private:
     std::vector<std::uint32_t> first_of_cell_{0};
     std::vector<Patch> patches_;  // cell by cell
     std::vector<Part> parts_;
+    std::uint32_t times_coarser_ = 0;
 };
 
 }  // namespace neumann
