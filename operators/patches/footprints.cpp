@@ -11,6 +11,11 @@ namespace {
 // Pairs of charts and edges that are looked at; in larger scenes patches are small anyway.
 constexpr std::size_t most_pairs = 20'000'000;
 
+// Bands reach so many widths into a gap; where that is less than `near`, there are none. They end where they would be as wide as
+// patches are anyway; the innermost is a quarter as wide as the gap. What leaks is then right to 2%; without bands it is 17% too
+// much (tests/matrix/gaps.cpp).
+constexpr double depth_of_bands = 16.0, largest_depth = 12.0, band_ratio = 0.8;
+
 struct Edge {
     Vec3 a, b;
     std::uint32_t shape;
@@ -93,21 +98,32 @@ Region Footprints::region(const Vec2& st, const Vec3& position) const {
         }
         if (inside) region.shapes |= 1u << i;
     }
-    for (const Mouth& mouth : mouths_) {
-        const double d = distance(position, mouth);
-        std::uint32_t band = 0;
-        while (band < mouth.bands && d * (1u << band) < near_) ++band;
-        region.band = std::max(region.band, band);
+    double nearest = 1.0;
+    for (const Mouth& mouth : mouths_) nearest = std::min(nearest, distance(position, mouth) / mouth.depth);
+    if (nearest < 1.0) {
+        static const double per_band = 1.0 / std::log(band_ratio);
+        region.band = static_cast<std::uint32_t>(std::min(1.0 + std::log(std::max(nearest, 1e-9)) * per_band, double{bands}));
     }
     return region;
 }
 
+bool Footprints::divides(const Cell& cell) const {
+    const auto overlap = [](double a, double b, double low, double high) {
+        return std::min(a, b) <= high && std::max(a, b) >= low;
+    };
+    for (const auto& outline : outlines_)
+        for (const Segment& s : outline)
+            if (overlap(s.a.x, s.b.x, cell.s0, cell.s1) && overlap(s.a.y, s.b.y, cell.t0, cell.t1)) return true;
+    return false;
+}
+
 bool Footprints::has_bands(const Vec3& position, double d) const {
-    return std::any_of(mouths_.begin(), mouths_.end(), [&](const Mouth& mouth) { return distance(position, mouth) < near_ + d; });
+    return std::any_of(mouths_.begin(), mouths_.end(),
+                       [&](const Mouth& mouth) { return distance(position, mouth) < mouth.depth + d; });
 }
 
 std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vector<Chart>& charts, double near) {
-    std::vector<Footprints> result(charts.size(), Footprints(near));
+    std::vector<Footprints> result(charts.size());
     const std::vector<Edge> edges = outline_edges(charts);
     if (charts.size() * edges.size() > most_pairs) return result;
     const auto is_larger_than_bands = [&](const Chart& chart) {
@@ -134,11 +150,11 @@ std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vec
             for (const Vec3& p : {a, 0.5 * (a + b), b}) above = above || is_inside(chart, p);
             outline.divides = outline.divides || above;
             const double gap = gap_width(height(edge.a), height(edge.b));
-            if (!above || gap < 1e-6 * near || !is_larger_than_bands(chart)) continue;
-            const auto bands = std::min(Footprints::most_bands, 1 + static_cast<std::uint32_t>(std::log2(near / gap)));
-            result[i].add(Footprints::Mouth{a, b, bands});
+            if (!above || depth_of_bands * gap < near || !is_larger_than_bands(chart)) continue;
+            const double depth = std::min(depth_of_bands * gap, largest_depth * near);
+            result[i].add(Footprints::Mouth{a, b, depth});
             for (const std::size_t own : edge.charts)
-                if (is_larger_than_bands(charts[own])) result[own].add(Footprints::Mouth{edge.a, edge.b, bands});
+                if (is_larger_than_bands(charts[own])) result[own].add(Footprints::Mouth{edge.a, edge.b, depth});
         }
         for (auto& [shape, outline] : outlines)
             if (outline.divides) result[i].add(std::move(outline.segments));

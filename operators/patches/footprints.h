@@ -2,8 +2,9 @@
 // Light falls off abruptly across such a line (the floor under a box, the ceiling above a lamp), so patches do not reach across it
 // and fields are not interpolated across it.
 //
-// Where a narrow gap opens, light leaks out of it within a few of its widths: there bands along the gap's mouth, each half as wide
-// as the next, down to the gap's width, divide both surfaces.
+// Light in a narrow gap goes to and fro many times and moves on by about the gap's width each time, so that what leaks out comes
+// from a few widths' depth, and patches that reach deeper mix it with light that stays. Along the mouth of a gap both surfaces are
+// divided into bands, a fifth narrower each towards the mouth.
 #pragma once
 
 #include "operators/patches/chart.h"
@@ -23,17 +24,15 @@ struct Region {
 class Footprints {
 public:
     static constexpr std::size_t most_shapes = 16;
-    static constexpr std::uint32_t most_bands = 5;
+    static constexpr std::uint32_t bands = 19;
 
     struct Segment {
         Vec2 a, b;  // (s, t) of the chart
     };
     struct Mouth {
-        Vec3 a, b;            // a line in the chart's plane
-        std::uint32_t bands;  // at least 1
+        Vec3 a, b;     // a line in the chart's plane
+        double depth;  // to which there are bands
     };
-    // `near`: the width of the outermost band.
-    explicit Footprints(double near) : near_(near) {}
     // Of one more shape; outlines that are no closed lines divide nothing sensible and are the caller's to leave out.
     void add(std::vector<Segment> outline) {
         if (outlines_.size() < most_shapes) outlines_.push_back(std::move(outline));
@@ -41,11 +40,12 @@ public:
     void add(const Mouth& mouth) { mouths_.push_back(mouth); }
     bool empty() const { return outlines_.empty() && mouths_.empty(); }
     Region region(const Vec2& st, const Vec3& position) const;
+    // Whether an outline may go through a cell.
+    bool divides(const Cell& cell) const;
     // Whether points at this distance from `position` or nearer can lie in a band.
     bool has_bands(const Vec3& position, double distance) const;
 
 private:
-    double near_;
     std::vector<std::vector<Segment>> outlines_;
     std::vector<Mouth> mouths_;
 };

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -53,8 +54,7 @@ public:
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
         const Chart& chart = charts()[patch.chart];
-        if (patch.part == whole) return chart.point(*geometry_, chart.uniform(patch.cell, u));
-        return chart.point(*geometry_, chart.uniform(patch.cell, in_part(parts_[patch.part], u)));
+        return patch.part == whole ? chart.point(*geometry_, chart.uniform(patch.cell, u)) : point_in_part(patch, u);
     }
 
     // A function that has its values at the middles of the patches, linear between them and on to the edge, is at a point the sum
@@ -85,9 +85,10 @@ private:
         Region region;
     };
     static constexpr std::uint32_t whole = ~std::uint32_t{0};
-    // The squares of a fine grid on the unit square that make up a part.
+    // The squares of a fine grid on the unit square that hold a part, some of them together with others.
     struct Part {
-        std::uint32_t along;  // squares of the grid
+        std::uint32_t along = 0;  // squares of the grid
+        double share = 0.0;       // of the cell's area
         std::vector<std::uint16_t> squares;
     };
 
@@ -107,7 +108,10 @@ private:
     static Neighbours neighbours(const Axis& axis, double x);
     static Vec2 in_part(const Part& part, const Vec2& u);
     void add_grid(Axis s, Axis t);
-    void add_cell(std::uint32_t chart, const Cell& cell);
+    using Parts = std::map<Region, Part>;
+    void add_cell(std::uint32_t chart, const Cell& cell, Parts parts);
+    Parts find_parts(std::uint32_t chart, const Cell& cell) const;
+    SurfacePoint point_in_part(const Patch& patch, Vec2 u) const;
     std::optional<std::uint32_t> find(std::uint32_t cell, Region region) const;
     std::uint32_t nearest(std::uint32_t cell, Region region) const;
     static Region coarser(Region region);

@@ -16,13 +16,14 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t picture_stream = 0x706963747572ull;  // another seed than the series'
+// Other seeds than the series'.
+constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x676174686572ull;
 constexpr std::uint32_t samples_at_once = 64;
 
 struct Workspace {
-    std::vector<SobolSampler> samplers;
+    std::vector<SobolSampler> samplers, gather_samplers;  // of each sample, of each pixel
     std::vector<PixelSample> samples;
-    std::vector<float> fine, coarse;  // pixel by pixel, replicate by replicate, quantity by quantity
+    std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
     std::array<std::uint64_t, 3> rays{};
 };
 
@@ -120,7 +121,11 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const int width = scene.film.crop_width, height = scene.film.crop_height;
     const auto pixels = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
     const std::size_t stride = 3 * result.quantities(), all = stride * settings.replicates;
-    const SobolPoints sobol(settings.samples);
+    const SobolPoints sobol(settings.samples), gather_sobol(settings.samples * settings.gather_rays);
+    // The first samples of a replicate, which are as well spread as all, tell the difference to coarser patches. Gather rays are
+    // divided by the reader.
+    const std::uint32_t compared = settings.method == FieldMethod::gather ? settings.samples : (settings.samples + 3) / 4;
+    const float difference_weight = 1.0f / static_cast<float>(compared * settings.replicates);
     const FieldReader reader(scene, settings.method, settings.bounces, settings.gather_rays);
     const std::uint32_t pixels_at_once = std::max(1u, samples_at_once / settings.samples);
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
@@ -129,23 +134,29 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
 
     const auto render = [&](std::uint32_t group, Workspace& work) {
         const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
-        work.fine.assign((end - begin) * all, 0.0f);
-        work.coarse.assign((end - begin) * all, 0.0f);
+        work.values.assign((end - begin) * all, 0.0f);
+        work.difference.assign((end - begin) * stride, 0.0f);
         const std::size_t count = (end - begin) * settings.samples;
         work.samplers.clear();
-        for (std::uint32_t pixel = begin; pixel < end; ++pixel)
+        work.gather_samplers.clear();
+        for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+            work.gather_samplers.emplace_back(gather_sobol, settings.seed ^ gather_stream, pixel);
             work.samplers.resize(work.samplers.size() + settings.samples,
                                  SobolSampler(sobol, settings.seed ^ picture_stream, pixel));
+        }
         for (std::uint32_t r = 0; r < settings.replicates; ++r) {
             work.samples.clear();
             for (std::size_t i = 0; i < count; ++i) {
                 const auto offset = static_cast<std::uint32_t>(i / settings.samples), pixel = begin + offset;
                 SobolSampler& sampler = work.samplers[i];
-                sampler.start(std::uint64_t{r} * settings.samples + i % settings.samples);
+                const std::uint64_t sample_number = std::uint64_t{r} * settings.samples + i % settings.samples;
+                sampler.start(sample_number);
                 const Vec2 film = sample(scene.film.filter, sampler.next2(), scene.film.crop_x + static_cast<int>(pixel) % width,
                                          scene.film.crop_y + static_cast<int>(pixel) / width, scene.film.width, scene.film.height);
-                const std::size_t values = offset * all + r * stride;
-                work.samples.push_back({scene.camera.ray(film), work.fine.data() + values, work.coarse.data() + values, &sampler});
+                work.samples.push_back({scene.camera.ray(film), work.values.data() + offset * all + r * stride,
+                                        i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr,
+                                        difference_weight, &sampler, &work.gather_samplers[offset],
+                                        sample_number * settings.gather_rays});
             }
             const auto rays = reader.read({series[r].fine, series[r].coarse}, work.samples);
             for (std::size_t k = 0; k < 3; ++k) work.rays[k] += rays[k];
@@ -153,17 +164,11 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
         const float scale = 1.0f / static_cast<float>(settings.samples);
         double* const group_sums = sums.data() + group * sums_of_group;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-            float *fine = work.fine.data() + (pixel - begin) * all, *coarse = work.coarse.data() + (pixel - begin) * all;
-            float *values = result.values(pixel), *difference = values + all;
-            std::fill_n(difference, stride, 0.0f);
-            for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-                reader.copy_what_needs_no_patches(fine + r * stride, coarse + r * stride);
-                for (std::size_t k = 0; k < stride; ++k) {
-                    values[r * stride + k] = fine[r * stride + k] * scale;
-                    difference[k] +=
-                        (fine[r * stride + k] - coarse[r * stride + k]) * (scale / static_cast<float>(settings.replicates));
-                }
-            }
+            const float *found = work.values.data() + (pixel - begin) * all,
+                        *difference = work.difference.data() + (pixel - begin) * stride;
+            float* const values = result.values(pixel);
+            for (std::size_t k = 0; k < all; ++k) values[k] = found[k] * scale;
+            std::copy_n(difference, stride, values + all);
             for (std::size_t q = 0; q < sums_of_group; ++q)
                 group_sums[q] += (double{values[3 * q]} + values[3 * q + 1] + values[3 * q + 2]) / 3.0;
         }

@@ -23,7 +23,7 @@ struct FieldSettings {
     std::uint32_t rays = 32;           // of T, a facet, in one replicate; a power of two
     std::uint32_t light_samples = 16;  // of a facet, in one replicate, for b; a power of two
     std::uint32_t samples = 2;         // of the camera, a pixel, in one replicate; a power of two
-    std::uint32_t gather_rays = 4;     // a camera sample
+    std::uint32_t gather_rays = 4;     // a camera sample; a power of two
     std::uint32_t replicates = 4;
     std::uint64_t seed = 0;
     bool rest = true;  // Σ_{k>N} is wanted as well

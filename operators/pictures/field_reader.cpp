@@ -29,29 +29,30 @@ void add(float* to, std::size_t bounce, const Rgb& x) {
     for (int c = 0; c < 3; ++c) to[3 * bounce + static_cast<std::size_t>(c)] += static_cast<float>(x[c]);
 }
 
-// Quantities of a field at a point, from the `first`-th float on.
+// `scale` times the quantities of a field at a point, from the `first`-th float on.
 void add_interpolated(const FieldStack& field, const SurfacePoint& p, const Patches::Place& place, const Vec3& w, std::size_t first,
-                      float* __restrict to) {
+                      float scale, float* __restrict to) {
     const PatchSpace::Reading reading = field.space().read(p, place, w);
     const float* __restrict a = field[reading.unknown[0]];
     const float* __restrict b = field[reading.unknown[1]];
     const float* __restrict c = field[reading.unknown[2]];
     const float* __restrict d = field[reading.unknown[3]];
-    const auto wa = static_cast<float>(reading.weight[0]), wb = static_cast<float>(reading.weight[1]),
-               wc = static_cast<float>(reading.weight[2]), wd = static_cast<float>(reading.weight[3]);
+    const auto wa = scale * static_cast<float>(reading.weight[0]), wb = scale * static_cast<float>(reading.weight[1]),
+               wc = scale * static_cast<float>(reading.weight[2]), wd = scale * static_cast<float>(reading.weight[3]);
     const std::size_t end = field.stride();
     for (std::size_t k = first; k < end; ++k) to[k] += (wa * a[k] + wb * b[k]) + (wc * c[k] + wd * d[k]);
 }
 
-// to[k] += weight[k] · from[k − 3]: each quantity from the one before it.
-void add_reflected(const float* __restrict weight, const float* __restrict from, std::size_t first, std::size_t end,
-                   float* __restrict to) {
-    for (std::size_t k = first; k < end; ++k) to[k] += weight[k] * from[k - 3];
+void add_constant(const FieldStack& field, const SurfacePoint& p, const Vec3& w, float scale, float* to) {
+    const float* values = field[field.space().unknown(p, w)];
+    for (std::size_t k = 0; k < field.stride(); ++k) to[k] += scale * values[k];
 }
 
-void add_constant(const FieldStack& field, const SurfacePoint& p, const Vec3& w, float* to) {
-    const float* values = field[field.space().unknown(p, w)];
-    for (std::size_t k = 0; k < field.stride(); ++k) to[k] += values[k];
+// to[k] += weight · from[k − 3]: each quantity from the one before it.
+void add_reflected(const Rgb& weight, const float* __restrict from, std::size_t first, std::size_t end, float* __restrict to) {
+    const float w[3] = {static_cast<float>(weight.r), static_cast<float>(weight.g), static_cast<float>(weight.b)};
+    for (std::size_t k = first; k < end; k += 3)
+        for (std::size_t c = 0; c < 3; ++c) to[k + c] += w[c] * from[k + c - 3];
 }
 
 }  // namespace
@@ -71,9 +72,9 @@ struct FieldReader::Look {
 
     Frame frame() const { return Frame(glm::dot(x.normal, wo) > 0.0 ? x.normal : -x.normal); }
     // Draws wi, with its weight and pdf, from the material; false where nothing is reflected.
-    bool choose_direction() {
+    bool choose_direction(SobolSampler& sampler) {
         const Frame local = frame();
-        const BsdfSample sampled = neumann::sample(*bsdf, x, local.to_local(wo), sample->sampler->next2());
+        const BsdfSample sampled = neumann::sample(*bsdf, x, local.to_local(wo), sampler.next2());
         wi = local.to_world(sampled.wi);
         weight = sampled.weight;
         pdf = sampled.pdf;
@@ -86,7 +87,8 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
       method_(method),
       stride_(3 * (static_cast<std::size_t>(bounces) + 2)),
       from_field_(bounces > 0 ? 6 : 3),
-      gather_rays_(gather_rays) {
+      gather_rays_(gather_rays),
+      compared_((gather_rays + 3) / 4) {
     if (scene.emitters.empty()) return;
     const SobolPoints points(256);
     SobolSampler sampler(points, 0, 0);
@@ -105,12 +107,14 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
     std::array<std::uint64_t, 3> rays{samples.size(), 0, 0};
     if (method_ == FieldMethod::patches) {
         for (const Look& l : looks) {
-            add_constant(fields.fine, l.x, l.wo, l.sample->fine);
-            add_constant(fields.coarse, l.x, l.wo, l.sample->coarse);
+            add_constant(fields.fine, l.x, l.wo, 1.0f, l.sample->values);
+            if (!l.sample->difference) continue;
+            add_constant(fields.fine, l.x, l.wo, l.sample->difference_weight, l.sample->difference);
+            add_constant(fields.coarse, l.x, l.wo, -l.sample->difference_weight, l.sample->difference);
         }
         return rays;
     }
-    for (const Look& l : looks) add(l.sample->fine, 0, scene_.emitters.emitted(l.x, l.wo));
+    for (const Look& l : looks) add(l.sample->values, 0, scene_.emitters.emitted(l.x, l.wo));
     std::erase_if(looks, [](const Look& l) { return !l.bsdf; });
     if (from_field_ > 3) rays[1] = find_lights(looks) + find_lights_by_chance(looks);
     const auto to_gather = method_ == FieldMethod::gather
@@ -118,8 +122,11 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
                                : std::stable_partition(looks.begin(), looks.end(), [](const Look& l) { return l.diffuse; });
     for (const Look& l : std::span(looks.begin(), to_gather)) {
         const Patches::Place place = fields.fine.space().patches().place(l.x);
-        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, l.sample->fine);
-        add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, l.sample->coarse);
+        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, 1.0f, l.sample->values);
+        if (!l.sample->difference) continue;
+        const float weight = l.sample->difference_weight;
+        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, weight, l.sample->difference);
+        add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, -weight, l.sample->difference);
     }
     rays[2] = gather(fields, std::span(to_gather, looks.end()));
     return rays;
@@ -177,7 +184,7 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
             },
             RayCaster::Rays::alike);
         for (std::size_t i = 0; i < n; ++i)
-            if (seen >> i & 1u) add(asking[begin + i]->sample->fine, 1, asking[begin + i]->weight);
+            if (seen >> i & 1u) add(asking[begin + i]->sample->values, 1, asking[begin + i]->weight);
     }
     return asking.size();
 }
@@ -187,7 +194,7 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
     const Emitters& emitters = scene_.emitters;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction()) asking.push_back(&l);
+        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction(*l.sample->sampler)) asking.push_back(&l);
     }
     for_hits(
         scene_.geometry, asking.size(),
@@ -199,7 +206,7 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
             if (is_black(emitted)) return;
             const Vec3 d = l.y.position - l.x.position;
             const double pdf_light = emitters.pdf_area(l.y) * glm::dot(d, d) / -glm::dot(l.y.normal, l.wi);
-            add(l.sample->fine, 1, l.weight * emitted * power_heuristic(l.pdf, pdf_light));
+            add(l.sample->values, 1, l.weight * emitted * power_heuristic(l.pdf, pdf_light));
         });
     return asking.size();
 }
@@ -211,12 +218,12 @@ bool FieldReader::looks_for_lights(const Look& l) const {
 }
 
 NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span<const Look> looks) const {
-    std::vector<float> arriving(stride_), weight(stride_);
+    std::vector<float> arriving(stride_);
     const std::size_t rest = stride_ - 3;
-    const auto reflect = [&](const FieldStack& field, const Look& l, const Patches::Place& place, float* to) {
+    // Bounce i is K of bounce i − 1, and the rest that of bounce N and the rest.
+    const auto arrive = [&](const FieldStack& field, const Look& l, const Patches::Place& place) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
-        add_interpolated(field, l.y, place, -l.wi, 0, arriving.data());
-        // Bounce i is K of bounce i − 1, and the rest that of bounce N and the rest.
+        add_interpolated(field, l.y, place, -l.wi, 0, 1.0f, arriving.data());
         const auto take_in_last = [&] {
             for (std::size_t c = 0; c < 3; ++c) arriving[rest - 3 + c] += arriving[rest + c];
         };
@@ -226,18 +233,18 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
             std::fill_n(arriving.begin(), 3, 0.0f);
         }
         take_in_last();
-        add_reflected(weight.data(), arriving.data(), from_field_, stride_, to);
     };
     std::uint64_t rays = 0;
     std::vector<Look> asking;
+    bool compare = true;
     const auto read_or_go_on = [&](std::size_t i) {
         Look& l = asking[i];
         const Bsdf* bsdf = scene_.materials.at(l.y, glm::dot(l.y.normal, l.wi) < 0.0);
         if (l.mirrors < most_mirrors && bsdf && lobe(*bsdf).kind == Lobe::Kind::specular) {
             // Of the first one, light sampling knows.
             if (l.mirrors > 0)
-                for (float* to : {l.sample->fine, l.sample->coarse})
-                    add(to, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1), l.through * scene_.emitters.emitted(l.y, -l.wi));
+                add(l.sample->values, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1),
+                    l.through * scene_.emitters.emitted(l.y, -l.wi));
             l.x = l.y;
             l.wo = -l.wi;
             l.bsdf = bsdf;
@@ -246,20 +253,27 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
             return;
         }
         const Patches::Place place = fields.fine.space().patches().place(l.y);
-        for (std::size_t k = 0; k < stride_; k += 3)
-            for (int c = 0; c < 3; ++c) weight[k + static_cast<std::size_t>(c)] = static_cast<float>(l.through[c]);
-        reflect(fields.fine, l, place, l.sample->fine);
-        reflect(fields.coarse, l, place, l.sample->coarse);
+        arrive(fields.fine, l, place);
+        add_reflected(l.through, arriving.data(), from_field_, stride_, l.sample->values);
+        if (!compare || !l.sample->difference) return;
+        const Rgb weight = l.through * (l.sample->difference_weight * static_cast<double>(gather_rays_) / compared_);
+        add_reflected(weight, arriving.data(), from_field_, stride_, l.sample->difference);
+        arrive(fields.coarse, l, place);
+        add_reflected(-weight, arriving.data(), from_field_, stride_, l.sample->difference);
     };
     for (std::uint32_t r = 0; r < gather_rays_; ++r) {
+        compare = r < compared_;
         asking.assign(looks.begin(), looks.end());
         for (Look& l : asking) {
             l.goes_on = true;
             l.through = Rgb(1.0 / gather_rays_);
         }
         for (;;) {
-            std::erase_if(asking, [](Look& l) {
-                if (!l.goes_on || !l.choose_direction()) return true;
+            std::erase_if(asking, [&](Look& l) {
+                if (!l.goes_on) return true;
+                // A mirror needs no numbers.
+                if (l.mirrors == 0) l.sample->gather_sampler->start(l.sample->first_gather_ray + r);
+                if (!l.choose_direction(*l.sample->gather_sampler)) return true;
                 l.through *= l.weight;
                 l.goes_on = false;
                 return false;

@@ -5,7 +5,6 @@
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -29,13 +28,18 @@ struct FieldPair {
     const FieldStack& coarse;
 };
 
-// A camera ray and where its sample is added up: three floats for each quantity of FieldStack. `sampler` has not been asked for
-// numbers that belong to what follows.
+// A camera ray and where its sample is added up: three floats for each quantity of FieldStack. `difference` takes, where it is not
+// null, `difference_weight` times what finer patches show more than coarser ones. `sampler` has not been asked for numbers that
+// belong to what follows; `gather_sampler` is for all gather rays of the pixel, and those of this sample begin at
+// `first_gather_ray`, so that they are stratified together.
 struct PixelSample {
     CameraRay ray;
-    float* fine;
-    float* coarse;
+    float* values;
+    float* difference;
+    float difference_weight;
     SobolSampler* sampler;
+    SobolSampler* gather_sampler;
+    std::uint64_t first_gather_ray;
 };
 
 class FieldReader {
@@ -45,11 +49,6 @@ public:
 
     // Adds a sample to each pixel. Rays of one pixel should be side by side. Returns the rays cast for bounces 0, 1 and all others.
     std::array<std::uint64_t, 3> read(const FieldPair& fields, std::span<const PixelSample> samples) const;
-
-    // Rays at the pixel are the same with any patches.
-    void copy_what_needs_no_patches(const float* fine, float* coarse) const {
-        if (method_ != FieldMethod::patches) std::copy_n(fine, from_field_, coarse);
-    }
 
 private:
     struct Look;
@@ -61,10 +60,10 @@ private:
 
     const Scene& scene_;
     FieldMethod method_;
-    std::size_t stride_;      // floats of a pixel
-    std::size_t from_field_;  // of them, the first that is read from fields
-    std::uint32_t gather_rays_;
-    Vec3 low_{0.0}, high_{0.0};  // the box around the lights
+    std::size_t stride_;                    // floats of a pixel
+    std::size_t from_field_;                // of them, the first that is read from fields
+    std::uint32_t gather_rays_, compared_;  // of these, the first so many are compared with the coarser patches
+    Vec3 low_{0.0}, high_{0.0};             // the box around the lights
     double near_ = 0.0;
 };
 
