@@ -13,6 +13,8 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
     const Eigenpairs right = leading_eigenpairs(progress.K(), 1), left = leading_eigenpairs(progress.K(), 1, true);
     progress.count(right.applications + left.applications);
     progress.setup_ends();
+    if (progress.exhausted())
+        return progress.end(problem.Le, Verdict::limit, "so many applications do not find the leading eigenpair");
     if (!right.converged || !left.converged)
         return progress.end(problem.Le, Verdict::refused, "the leading eigenpair was not found");
     const std::complex<double> value = right.pairs[0].value;

@@ -2,7 +2,11 @@
 // bounces 0 … 8, from the scene loaded to the pictures in memory, both in this run. The error is relMSE (metrics.h) averaged over
 // bounces 1 … 6, less what the reference's own noise adds.
 //
-//     bench_matrix [samples]     of the reference, 4096 without; it is kept in $XDG_CACHE_HOME/neumann or ~/.cache/neumann
+//     bench_matrix [samples]     of the reference, 512 without; it is kept in $XDG_CACHE_HOME/neumann or ~/.cache/neumann
+//
+// The walk would need hours for a reference of a twentieth of the smallest error here, so it is made by `gather` from 60 times as
+// many patches as its finest competitor has, with other seeds. That it is right is seen beside it: the walk's relMSE against it
+// should be what the walk's own standard errors say.
 //
 // Then: one application of K beside copying memory, tracing T beside bare Embree's rays, and both by number of patches.
 #include "core/image/image_io.h"
@@ -39,57 +43,89 @@ RenderedSeries walk(const Scene& scene, std::uint64_t samples, std::uint64_t see
     return render_series(scene, settings, {samples, {}, {}});
 }
 
-std::vector<Estimate> reference(const Scene& scene, std::uint64_t samples) {
+std::vector<Estimate> reference(const Scene& scene, std::uint32_t samples) {
     const char* cache = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
     const std::filesystem::path folder =
         (cache ? std::filesystem::path(cache) : std::filesystem::path(home ? home : ".") / ".cache") / "neumann" /
-        fmt::format("mitsuba-cornell-{}-{}", scene.hash, samples);
+        fmt::format("mitsuba-cornell-{}-gather-{}", scene.hash, samples);
     const auto file = [&](int i) { return (folder / fmt::format("{}.exr", i)).string(); };
     std::vector<Estimate> result;
     if (!std::filesystem::exists(file(bounces))) {
         fmt::print("The reference, {} samples a pixel: kept in {}\n", samples, folder.string());
+        FieldSettings settings;
+        settings.method = FieldMethod::gather;
+        settings.bounces = bounces;
+        settings.patching = {250'000, 0.5};
+        settings.replicates = 4;
+        settings.rays = 256;
+        settings.light_samples = 64;
+        settings.samples = samples / settings.replicates;
+        settings.gather_rays = 8;
+        settings.seed = 4242;
+        settings.rest = false;
+        const FieldPictures pictures = *render_fields(scene, settings);
         std::filesystem::create_directories(folder);
-        const auto series = walk(scene, samples, 4242).moments.result();
         for (int i = 0; i <= bounces; ++i)
-            std::ofstream(file(i), std::ios::binary) << encode_exr(series.term(static_cast<std::size_t>(i)));
+            std::ofstream(file(i), std::ios::binary) << encode_exr(pictures.term(static_cast<std::size_t>(i)));
     }
     for (int i = 0; i <= bounces; ++i) result.push_back(read_exr(file(i)));
     return result;
 }
 
-// Mean of relMSE over bounces 1 … 6, and what the reference's own noise adds to it.
+// Of a picture whose values are `of`'s: what noise and patches are said to add to relMSE.
+struct Expected {
+    double noise = 0.0, discretisation = 0.0;
+};
+Expected expected(const Estimate& picture, const Image& of) {
+    double mean = 0.0;
+    for (const Rgb& p : of.pixels) mean += (p.r + p.g + p.b) / (3.0 * static_cast<double>(of.pixels.size()));
+    Expected e;
+    for (std::size_t pixel = 0; pixel < of.pixels.size(); ++pixel)
+        for (int c = 0; c < 3; ++c) {
+            const double value = of.pixels[pixel][c], se = picture.standard_error.pixels[pixel][c];
+            const double per = 1.0 / ((value * value + metrics_epsilon * mean * mean) * 3.0 * static_cast<double>(of.pixels.size()));
+            e.noise += se * se * per;
+            if (picture.discretisation.pixels.empty()) continue;
+            const double d = picture.discretisation.pixels[pixel][c];
+            e.discretisation += d * d * per;
+        }
+    return e;
+}
+
+// Means over bounces 1 … 6: relMSE, what is expected of the picture itself, and what the reference adds.
 struct Error {
-    double found = 0.0, noise = 0.0;
-    double corrected() const { return found - noise; }
+    double found = 0.0;
+    Expected own, reference;
+    double corrected() const { return found - reference.noise; }
 };
 template <class Term>
 Error error(const std::vector<Estimate>& reference, const Term& term) {
     Error e;
     for (std::size_t i = 1; i <= 6; ++i) {
-        const Estimate& r = reference[i];
-        const Metrics m = compare(term(i), r.mean);
-        e.found += m.rel_mse / 6.0;
-        double noise = 0.0;
-        for (std::size_t pixel = 0; pixel < r.mean.pixels.size(); ++pixel)
-            for (int c = 0; c < 3; ++c) {
-                const double value = r.mean.pixels[pixel][c], se = r.standard_error.pixels[pixel][c];
-                noise += se * se / (value * value + metrics_epsilon * m.reference_mean * m.reference_mean);
-            }
-        e.noise += noise / (3.0 * static_cast<double>(r.mean.pixels.size())) / 6.0;
+        const Image& exact = reference[i].mean;
+        const Estimate picture = term(i);
+        e.found += compare(picture.mean, exact).rel_mse / 6.0;
+        const Expected own = expected(picture, exact), other = expected(reference[i], exact);
+        e.own.noise += own.noise / 6.0;
+        e.own.discretisation += own.discretisation / 6.0;
+        e.reference.noise += other.noise / 6.0;
+        e.reference.discretisation += other.discretisation / 6.0;
     }
     return e;
 }
 
-void compare_methods(const Scene& scene, std::uint64_t samples) {
+void compare_methods(const Scene& scene, std::uint32_t samples) {
     const std::vector<Estimate> exact = reference(scene, samples);
     const double start = now();
     const RenderedSeries walked = walk(scene, 64, 11);
     const double walk_seconds = now() - start;
     const auto result = walked.moments.result();
-    const Error walk_error = error(exact, [&](std::size_t i) { return result.term(i).mean; });
-    fmt::print("walk, 64 Sobol' samples: relMSE {:.4f} (noise of the reference {:.5f} subtracted) in {:.3f} s\n",
-               walk_error.corrected(), walk_error.noise, walk_seconds);
+    const Error walk_error = error(exact, [&](std::size_t i) { return result.term(i); });
+    fmt::print("reference: its noise adds {:.6f}, subtracted; its patches {:.6f} at most, which is not\n", walk_error.reference.noise,
+               walk_error.reference.discretisation);
+    fmt::print("walk, 64 Sobol' samples: relMSE {:.4f}, by its own standard errors {:.4f}; {:.3f} s\n", walk_error.corrected(),
+               walk_error.own.noise, walk_seconds);
     // The walk's relMSE falls as 1 / samples.
     const auto walk_needs = [&](double target) { return walk_seconds * walk_error.corrected() / target; };
     fmt::print("{:>8}  {:>8} {:>6} {:>6} {:>7}  {:>8}  {:>9}  {:>9}  {:>9}\n", "method", "patches", "rays", "spp", "gather",
@@ -108,19 +144,17 @@ void compare_methods(const Scene& scene, std::uint64_t samples) {
         settings.rest = false;
         double best = 1e9, fields = 0.0;
         std::optional<FieldPictures> pictures;
-        std::vector<Image> means;
         for (int i = 0; i < 5; ++i) {
             const double begin = now();
             pictures = render_fields(scene, settings);
-            means.clear();
-            for (int k = 0; k <= N; ++k) means.push_back(pictures->term_mean(static_cast<std::size_t>(k)));
+            for (int k = 0; k <= N; ++k) pictures->term_mean(static_cast<std::size_t>(k));
             const double seconds = now() - begin;
             if (seconds < best) {
                 best = seconds;
                 fields = pictures->field_seconds;
             }
         }
-        const Error e = error(exact, [&](std::size_t i) { return means[i]; });
+        const Error e = error(exact, [&](std::size_t i) { return pictures->term(i); });
         fmt::print("{:>8}  {:>8} {:>6} {:>6} {:>7}  {:>8.5f}  {:>9.4f}  {:>9.4f}  1/{:<7.0f}\n",
                    method == FieldMethod::matrix ? "matrix" : "gather", pictures->patches, rays * 2, spp * 2,
                    method == FieldMethod::gather ? fmt::format("{}", gather) : "", e.corrected(), fields, best,
@@ -183,5 +217,5 @@ void measure_operators(const Scene& scene) {
 int main(int argc, char** argv) {
     const neumann::Scene scene = neumann::read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml");
     neumann::measure_operators(scene);
-    neumann::compare_methods(scene, argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 4096);
+    neumann::compare_methods(scene, argc > 1 ? static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)) : 512);
 }
