@@ -27,6 +27,7 @@ QuadMap::QuadMap(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, con
 }
 
 Vec2 QuadMap::uniform(const Cell& cell, const Vec2& u) const {
+    if (g_ == Vec2(0.0)) return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
     const double middle = j0_ + 0.5 * jt_ * (cell.t0 + cell.t1);
     const double s = cell.s0 + (cell.s1 - cell.s0) * sample_linear(u.x, middle + js_ * cell.s0, middle + js_ * cell.s1);
     const double at_s = j0_ + js_ * s;

@@ -253,8 +253,13 @@ Patches::Axis Patches::axis(std::size_t cells, double grading, bool closed) {
 }
 
 Patches::Axis Patches::axis(std::vector<double> ends, bool closed) {
-    Axis axis{std::move(ends), {}, closed};
+    Axis axis{std::move(ends), {}, {}, closed};
     for (std::size_t i = 0; i + 1 < axis.ends.size(); ++i) axis.middles.push_back(0.5 * (axis.ends[i] + axis.ends[i + 1]));
+    const std::size_t parts = 2 * axis.middles.size();
+    for (std::size_t k = 0, i = 0; k < parts; ++k) {
+        while (i + 1 < axis.middles.size() && axis.ends[i + 1] * static_cast<double>(parts) < static_cast<double>(k)) ++i;
+        axis.first.push_back(static_cast<std::uint32_t>(i));
+    }
     return axis;
 }
 
@@ -272,8 +277,10 @@ std::uint32_t Patches::coarser_cell(const Axis& axis, std::uint32_t cell) {
 }
 
 std::uint32_t Patches::cell(const Axis& axis, double x) {
-    const auto above = std::upper_bound(axis.ends.begin() + 1, axis.ends.end() - 1, x);
-    return static_cast<std::uint32_t>(above - axis.ends.begin()) - 1;
+    const auto parts = static_cast<double>(axis.first.size());
+    std::uint32_t i = axis.first[static_cast<std::size_t>(std::clamp(x * parts, 0.0, parts - 1.0))];
+    while (i + 1 < size_of(axis) && x >= axis.ends[i + 1]) ++i;
+    return i;
 }
 
 Patches::Neighbours Patches::neighbours(const Axis& axis, double x) {

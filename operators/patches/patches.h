@@ -44,12 +44,15 @@ public:
         return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, p.position)};
     }
     std::uint32_t locate(const Place& p) const {
-        const Grid& grid = grids_[p.chart];
-        const std::uint32_t c = grid.first + cell(grid.t, p.st.y) * size_of(grid.s) + cell(grid.s, p.st.x);
-        const std::uint32_t first = first_of_cell_[c];
+        const std::uint32_t c = cell(p.chart, p.st), first = first_of_cell_[c];
         return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(p.region));
     }
-    std::uint32_t locate(const SurfacePoint& p) const { return locate(place(p)); }
+    std::uint32_t locate(const SurfacePoint& p) const {
+        const std::uint32_t chart = atlas_.chart_of(p);
+        const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
+        const std::uint32_t c = cell(chart, st), first = first_of_cell_[c];
+        return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(footprints_[chart].region(st, p.position)));
+    }
     // Uniform by area for uniform u in [0, 1)².
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
@@ -71,6 +74,7 @@ public:
 private:
     struct Axis {
         std::vector<double> ends, middles;  // of the cells
+        std::vector<std::uint32_t> first;   // cell in each of as many equal parts of [0, 1], to start looking from
         bool closed = false;                // the last cell is beside the first
     };
     struct Grid {
@@ -105,6 +109,10 @@ private:
     static std::uint32_t coarser_cell(const Axis& axis, std::uint32_t cell);
     static std::uint32_t size_of(const Axis& axis) { return static_cast<std::uint32_t>(axis.middles.size()); }
     static std::uint32_t cell(const Axis& axis, double x);
+    std::uint32_t cell(std::uint32_t chart, const Vec2& st) const {
+        const Grid& grid = grids_[chart];
+        return grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
+    }
     static Neighbours neighbours(const Axis& axis, double x);
     static Vec2 in_part(const Part& part, const Vec2& u);
     void add_grid(Axis s, Axis t);
