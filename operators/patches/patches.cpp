@@ -143,7 +143,10 @@ Patches::Parts Patches::find_parts(std::uint32_t number, const Cell& cell) const
                 for (std::uint32_t i = 0; i < points * points; ++i) {
                     const Region found = region((i % points + 0.5) / points, (i / points + 0.5) / points);
                     const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == found; });
-                    known == counts.end() ? (void)counts.emplace_back(found, 1) : (void)++known->second;
+                    if (known == counts.end())
+                        counts.emplace_back(found, 1);
+                    else
+                        ++known->second;
                 }
             }
             for (const auto& [found, count] : counts) {

@@ -269,17 +269,17 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
             l.through = Rgb(1.0 / gather_rays_);
         }
         for (;;) {
-            std::erase_if(asking, [&](Look& l) {
-                if (!l.goes_on) return true;
+            for (Look& l : asking) {
+                if (!l.goes_on) continue;
                 // A mirror needs no numbers.
                 if (l.mirrors == 0) l.sample->gather_sampler->start(l.sample->first_gather_ray + r);
-                if (!l.choose_direction(*l.sample->gather_sampler)) return true;
+                l.goes_on = l.choose_direction(*l.sample->gather_sampler);
                 l.through *= l.weight;
-                l.goes_on = false;
-                return false;
-            });
+            }
+            std::erase_if(asking, [](const Look& l) { return !l.goes_on; });
             if (asking.empty()) break;
             rays += asking.size();
+            for (Look& l : asking) l.goes_on = false;
             for_hits(
                 scene_.geometry, asking.size(),
                 [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i].x, asking[i].wi); },

@@ -169,7 +169,7 @@ TEST(Directions, AChannelIsOneMatrix) {
 }
 
 // K Le by points on lights and by the rays of T: two estimates of the same vector.
-TEST(Directions, LightSamplingAgreesWithRays) {
+TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
     const Scene scene = metals();
     const PatchSpace space(scene.geometry, {30, 0.6}, side_directions(scene));
     const ReflectionMatrix<1> R = ReflectionMatrix<4>(scene.materials, space).channel(1);
