@@ -48,8 +48,10 @@ TEST_F(RenderFields, WriteTheFilesOfAnyRender) {
     }
 }
 
+using RenderFieldsSlow = RenderFields;
+
 // Means of the pictures, against the walk: noise of both, and what the patches are said to get wrong.
-TEST_F(RenderFields, AgreeWithTheWalk) {
+TEST_F(RenderFieldsSlow, AgreeWithTheWalk) {
     render_plates("walk", {"--spp", "2048", "--seed", "5"});
     for (const char* method : {"matrix", "gather"}) {
         render_plates(method, {"--method", method, "--patches", "16000", "--directions", "512", "--spp", "256"});

@@ -104,16 +104,19 @@ TEST(ReflectionMatrix, NormIsAtMostTheLargestAlbedo) {
     for (int c = 0; c < 3; ++c) EXPECT_LE(K_one.row(c).maxCoeff(), albedo[c] * (1.0 + 4.0 * epsilon));
 }
 
+// Of Le, and of b = K Le where that is sampled on the lights: then L = Le + Σ K^i b.
 TEST(MatrixSeries, SumsSolveTheEquationUpToTheNextTerm) {
     const Scene scene = colourful_room();
     const System<4> s(scene, 800, 32);
     const auto K = s.R * s.T;
-    NeumannSeries series(K, s.Le);
-    for (int i = 0; i < 12; ++i) {
-        const ExitantVector<4> residual = s.Le + K(series.sum()) - series.sum();
-        const double size = series.sum().abs().maxCoeff();
-        series.advance();
-        EXPECT_LE((residual - series.term()).abs().maxCoeff(), 32.0 * epsilon * size) << i;
+    for (const ExitantVector<4>& source : {s.Le, direct_light<4>(scene, s.R, 64, 1)}) {
+        NeumannSeries series(K, source);
+        for (int i = 0; i < 12; ++i) {
+            const ExitantVector<4> residual = source + K(series.sum()) - series.sum();
+            const double size = series.sum().abs().maxCoeff();
+            series.advance();
+            EXPECT_LE((residual - series.term()).abs().maxCoeff(), 32.0 * epsilon * size) << i;
+        }
     }
 }
 
@@ -146,12 +149,15 @@ TEST(Adjoint, ImportanceMeasuresEveryBounce) {
     const auto K_adjoint = AdjointTransportMatrix<4>(s.table) * AdjointReflectionMatrix<4>(s.R, s.table);
     ExitantVector<4> We = ExitantVector<4>::Zero(4, s.space.size() + 1);
     for (std::uint32_t u = 0; u < 40; ++u) We.col(u).head(3).setConstant(1.0 + u);
-    NeumannSeries light(K, s.Le);
-    NeumannSeries importance(K_adjoint, We);
-    for (int i = 0; i <= 8; ++i, light.advance(), importance.advance()) {
-        const Channels<4> seen = inner_product(s.space, We, light.term()), worth = inner_product(s.space, importance.term(), s.Le);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], worth[c], 1e-12 * std::abs(seen[c])) << i;
-        EXPECT_TRUE(i == 0 || seen[0] > 0.0) << i;
+    for (const ExitantVector<4>& source : {s.Le, direct_light<4>(scene, s.R, 64, 1)}) {
+        NeumannSeries light(K, source);
+        NeumannSeries importance(K_adjoint, We);
+        for (int i = 0; i <= 8; ++i, light.advance(), importance.advance()) {
+            const Channels<4> seen = inner_product(s.space, We, light.term()),
+                              worth = inner_product(s.space, importance.term(), source);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], worth[c], 1e-12 * std::abs(seen[c])) << i;
+            EXPECT_TRUE(i == 0 || seen[0] > 0.0) << i;
+        }
     }
 }
 
