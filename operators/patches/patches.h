@@ -3,11 +3,10 @@
 #pragma once
 
 #include "operators/patches/atlas.h"
-#include "operators/patches/footprints.h"
+#include "operators/patches/parts.h"
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -57,7 +56,8 @@ public:
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
         const Chart& chart = charts()[patch.chart];
-        return patch.part == whole ? chart.point(*geometry_, chart.uniform(patch.cell, u)) : point_in_part(patch, u);
+        if (patch.part == whole) return chart.point(*geometry_, chart.uniform(patch.cell, u));
+        return parts_[patch.part].point(*geometry_, chart, footprints_[patch.chart], patch.cell, patch.region, u);
     }
 
     // A function that has its values at the middles of the patches, linear between them and on to the edge, is at a point the sum
@@ -89,12 +89,6 @@ private:
         Region region;
     };
     static constexpr std::uint32_t whole = ~std::uint32_t{0};
-    // The squares of a fine grid on the unit square that hold a part, some of them together with others.
-    struct Part {
-        std::uint32_t along = 0;  // squares of the grid
-        double share = 0.0;       // of the cell's area
-        std::vector<std::uint16_t> squares;
-    };
 
     struct Neighbours {
         std::uint32_t low, high;
@@ -114,12 +108,8 @@ private:
         return grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
     }
     static Neighbours neighbours(const Axis& axis, double x);
-    static Vec2 in_part(const Part& part, const Vec2& u);
     void add_grid(Axis s, Axis t);
-    using Parts = std::map<Region, Part>;
     void add_cell(std::uint32_t chart, const Cell& cell, Parts parts);
-    Parts find_parts(std::uint32_t chart, const Cell& cell) const;
-    SurfacePoint point_in_part(const Patch& patch, Vec2 u) const;
     std::optional<std::uint32_t> find(std::uint32_t cell, Region region) const;
     std::uint32_t nearest(std::uint32_t cell, Region region) const;
     static Region coarser(Region region);

@@ -1,0 +1,29 @@
+// Cells cut into parts along outlines and bands (footprints.h).
+#pragma once
+
+#include "operators/patches/footprints.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace neumann {
+
+// The part of a cell that lies in one region: known by the squares of a grid on the cell that hold it, some of them together with
+// other parts.
+struct Part {
+    std::uint32_t along = 0;  // squares of the grid
+    double share = 0.0;       // of the cell's area
+    std::vector<std::uint16_t> squares;
+
+    // Uniform by area for uniform u in [0, 1)².
+    SurfacePoint point(const Geometry& geometry, const Chart& chart, const Footprints& footprints, const Cell& cell, Region region,
+                       Vec2 u) const;
+};
+
+using Parts = std::map<Region, Part>;
+
+// A single part, without squares, where nothing divides the cell.
+Parts find_parts(const Geometry& geometry, const Chart& chart, const Footprints& footprints, const Cell& cell);
+
+}  // namespace neumann
