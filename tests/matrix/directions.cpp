@@ -168,14 +168,15 @@ TEST(Directions, AChannelIsOneMatrix) {
     }
 }
 
-// K Le by points on lights and by the rays of T: two estimates of the same vector.
+// K Le by points on lights and by the rays of T: two estimates of the same vector. A mirror has 256 rays a cell; with four times as
+// many they differ by half as much.
 TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
     const Scene scene = metals();
     const PatchSpace space(scene.geometry, {30, 0.6}, side_directions(scene));
     const ReflectionMatrix<1> R = ReflectionMatrix<4>(scene.materials, space).channel(1);
-    const RayTable table(space, 262144, 3);
+    const RayTable table(space, 65536, 3);
     const ExitantVector<1> by_rays = R(TransportMatrix<1>(table)(emitted_light<1>(scene, space)));
-    const ExitantVector<1> by_lights = direct_light<1>(scene, R, 262144, 3);
+    const ExitantVector<1> by_lights = direct_light<1>(scene, R, 65536, 3);
     double difference = 0.0, all = 0.0;
     for (const Facet& facet : space.facets())
         for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) {
@@ -183,7 +184,7 @@ TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
             all += by_rays(0, u) * space.measure(facet);
         }
     EXPECT_GT(all, 1.0);
-    EXPECT_LE(difference, 0.01 * all);
+    EXPECT_LE(difference, 0.02 * all);
 }
 
 // The coarser cells hold the means of the finer ones.

@@ -5,7 +5,9 @@
 #include "operators/pictures/render.h"
 #include "operators/statistics/student_t.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace neumann {
 namespace {
@@ -19,13 +21,13 @@ RenderedSeries walk(const Scene& scene, int bounces, std::uint64_t samples) {
     return render_series(scene, settings, {samples, {}, {}});
 }
 
-class FieldPicturesSlow : public testing::TestWithParam<std::tuple<FieldMethod, const char*>> {};
+class FieldPicturesSlow : public testing::TestWithParam<std::tuple<FieldMethod, std::string>> {};
 
 // In at least 95% of all pixels and channels of every bounce the difference is at most t · SE + discretisation, with the walk's own
 // error in SE; and the mean of the reported discretisation error is at most 5 times that of the true error.
 TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
-    const auto& [method, file] = GetParam();
-    const Scene scene = read_scene(std::string(SCENES) + file, {{"res", "48"}});
+    const auto& [method, name] = GetParam();
+    const Scene scene = read_scene(fmt::format("{0}/{1}/{1}.xml", SCENES, name), {{"res", "48"}});
     constexpr int N = 4;
     const RenderedSeries truth = walk(scene, N, 4096);
     const auto walked = truth.moments.result();
@@ -56,9 +58,14 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FieldPicturesSlow,
+INSTANTIATE_TEST_SUITE_P(, FieldPicturesSlow,
                          testing::Combine(testing::Values(FieldMethod::matrix, FieldMethod::gather),
-                                          testing::Values("/cornell-box/cornell-box.xml", "/metal-room/metal-room.xml")));
+                                          testing::Values(std::string("cornell-box"), std::string("metal-room"))),
+                         [](const auto& test) {
+                             std::string name = std::get<1>(test.param);
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return (std::get<0>(test.param) == FieldMethod::matrix ? "matrix_" : "gather_") + name;
+                         });
 
 }  // namespace
 }  // namespace neumann
