@@ -14,11 +14,9 @@ namespace neumann {
 // How a picture is made from fields on patches:
 //
 //     patches   every bounce as it is on the patches: the piecewise constant truth
-//     matrix    bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces; where what is
-//     seen
-//               is not diffuse, and cells of directions would show, as gather
-//     gather    K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1; and again where that is seen in
-//     a
+//     matrix    bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces; as gather where
+//               what is seen is not diffuse, for there cells of directions would show
+//     gather    K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1; and again at what is seen in a
 //               mirror
 enum class FieldMethod { patches, matrix, gather };
 

@@ -14,7 +14,7 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
     progress.count(right.applications + left.applications);
     progress.setup_ends();
     if (progress.exhausted())
-        return progress.end(problem.Le, Verdict::limit, "so many applications do not find the leading eigenpair");
+        return progress.end(problem.Le, Verdict::limit, "finding the leading eigenpair took all applications that were allowed");
     if (!right.converged || !left.converged)
         return progress.end(problem.Le, Verdict::refused, "the leading eigenpair was not found");
     const std::complex<double> value = right.pairs[0].value;

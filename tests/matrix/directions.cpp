@@ -168,8 +168,7 @@ TEST(Directions, AChannelIsOneMatrix) {
     }
 }
 
-// K Le by points on lights and by the rays of T: two estimates of the same vector. A mirror has 256 rays a cell; with four times as
-// many they differ by half as much.
+// K Le by points on lights and by the rays of T: two estimates of the same vector. A mirror has 256 rays a cell.
 TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
     const Scene scene = metals();
     const PatchSpace space(scene.geometry, {30, 0.6}, side_directions(scene));
