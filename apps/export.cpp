@@ -22,7 +22,7 @@ constexpr double bytes_of_entry = 90.0;
 
 void check_memory(const ExportRequest& request, const TracedSystem& system) {
     // R of a rough side has an entry for each ray and direction.
-    const auto rays = static_cast<double>(std::max(system.rays(), entries(system.table(), system.reflection(0))));
+    const auto rays = static_cast<double>(std::max(system.rays(), reflection_entries(system.table(), system.reflection(0))));
     const double fitting = std::min(0.5 * physical_memory() / bytes_of_entry, double{std::numeric_limits<int>::max()});
     if (rays > fitting)
         throw InputError(fmt::format(

@@ -137,7 +137,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& ta
 Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R) {
     Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(table.space().size(), static_cast<Eigen::Index>(table.seen().size()));
     Triplets all;
-    all.reserve(entries(table, R));
+    all.reserve(reflection_entries(table, R));
     for_entries(table, R, [&](std::uint32_t u, std::uint32_t v, std::uint32_t f, double a) {
         const auto seen = rays_in_cell(table, f, v);
         const auto first = static_cast<std::size_t>(seen.data() - table.seen().data());
@@ -148,7 +148,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& t
     return matrix;
 }
 
-std::size_t entries(const RayTable& table, const ReflectionMatrix<1>& R) {
+std::size_t reflection_entries(const RayTable& table, const ReflectionMatrix<1>& R) {
     std::size_t count = 0;
     for_entries(table, R,
                 [&](std::uint32_t, std::uint32_t v, std::uint32_t f, double) { count += rays_in_cell(table, f, v).size(); });

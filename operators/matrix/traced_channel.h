@@ -38,6 +38,6 @@ private:
 Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& table);
 Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R);
 // Entries of it.
-std::size_t entries(const RayTable& table, const ReflectionMatrix<1>& R);
+std::size_t reflection_entries(const RayTable& table, const ReflectionMatrix<1>& R);
 
 }  // namespace neumann

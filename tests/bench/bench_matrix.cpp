@@ -9,6 +9,7 @@
 // should be what the walk's own standard errors say.
 //
 // Then: one application of K beside copying memory, tracing T beside bare Embree's rays, and both by number of patches.
+#include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
 #include "operators/matrix/light_vector.h"
@@ -24,7 +25,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -34,8 +34,6 @@ namespace neumann {
 namespace {
 
 constexpr int bounces = 8;
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 RenderedSeries walk(const Scene& scene, std::uint64_t samples, std::uint64_t seed) {
     PictureSampler::Settings settings;
@@ -121,9 +119,9 @@ Error error(const std::vector<Estimate>& reference, const Term& term) {
 
 void compare_methods(const Scene& scene, std::uint32_t samples) {
     const std::vector<Estimate> exact = reference(scene, samples);
-    const double start = now();
+    const Stopwatch walk_watch;
     const RenderedSeries walked = walk(scene, 64, 11);
-    const double walk_seconds = now() - start;
+    const double walk_seconds = walk_watch.seconds();
     const auto result = walked.moments.result();
     const Error walk_error = error(exact, [&](std::size_t i) { return result.term(i); });
     fmt::print("reference: its noise adds {:.6f}, subtracted; its patches {:.6f} at most, which is not\n",
@@ -149,10 +147,10 @@ void compare_methods(const Scene& scene, std::uint32_t samples) {
         double best = 1e9, fields = 0.0;
         std::optional<FieldPictures> pictures;
         for (int i = 0; i < 5; ++i) {
-            const double begin = now();
+            const Stopwatch watch;
             pictures = render_fields(scene, settings);
             for (int k = 0; k <= N; ++k) pictures->term_mean(static_cast<std::size_t>(k));
-            const double seconds = now() - begin;
+            const double seconds = watch.seconds();
             if (seconds < best) {
                 best = seconds;
                 fields = pictures->field_seconds;
@@ -185,10 +183,10 @@ double copy_bandwidth() {
     std::vector<char> from(size, 1), to(size, 2);
     double best = 0.0;
     for (int i = 0; i < 5; ++i) {
-        const double begin = now();
+        const Stopwatch watch;
         oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{64},
                                   [&](std::size_t k) { std::memcpy(&to[k * size / 64], &from[k * size / 64], size / 64); });
-        best = std::max(best, static_cast<double>(size) / (now() - begin));
+        best = std::max(best, static_cast<double>(size) / watch.seconds());
     }
     return best;
 }
@@ -218,12 +216,12 @@ double bare_rays_per_second(const Scene& scene) {
     }
     double best = 0.0;
     for (int run = 0; run < 5; ++run) {
-        const double begin = now();
+        const Stopwatch watch;
         std::atomic<std::size_t> found = 0;
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, recorder.bare.size(), 4096), [&](const auto& range) {
             found += cast_bare(scene.geometry, recorder.bare, range.begin(), range.end());
         });
-        if (found > 0) best = std::max(best, static_cast<double>(recorder.bare.size()) / (now() - begin));
+        if (found > 0) best = std::max(best, static_cast<double>(recorder.bare.size()) / watch.seconds());
     }
     return best;
 }
@@ -239,18 +237,18 @@ void measure_operators(const Scene& scene) {
     for (const std::size_t patches : {1000u, 4000u, 16000u, 64000u, 250000u}) {
         constexpr std::uint32_t rays = 64;
         const PatchSpace space(scene.geometry, {patches, 0.5}, side_directions(scene));
-        double begin = now();
+        const Stopwatch trace_watch;
         const RayTable table(space, rays, 1);
-        const double trace = now() - begin;
+        const double trace = trace_watch.seconds();
         const ReflectionMatrix<4> R(scene.materials, space);
         const auto K = R * TransportMatrix<4>(table);
         ExitantVector<4> x = emitted_light<4>(scene, space);
         const int times = static_cast<int>(std::max<std::size_t>(4, 400'000 / patches));
         double best = 1e9;
         for (int run = 0; run < 5; ++run) {
-            begin = now();
+            const Stopwatch watch;
             for (int i = 0; i < times; ++i) x = K(std::move(x));
-            best = std::min(best, (now() - begin) / times);
+            best = std::min(best, watch.seconds() / times);
         }
         const auto entries = static_cast<double>(table.seen().size());
         fmt::print("{:>8} {:>9} {:>6}  {:>8.3f} {:>8.2f} {:>9.2f}  {:>10.3f} {:>12.2f} {:>9.2f}  {:>9}\n", space.patches().size(),

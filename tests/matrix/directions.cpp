@@ -149,7 +149,7 @@ TEST(Directions, AChannelIsOneMatrix) {
         const TracedChannel K = system.channel(c);
         EXPECT_EQ(K.reflectance().size(), 0) << "K is no diag(ρ) F";
         const auto R = reflection_matrix(system.table(), system.reflection(c));
-        EXPECT_EQ(static_cast<std::size_t>(R.nonZeros()), entries(system.table(), system.reflection(c)));
+        EXPECT_EQ(static_cast<std::size_t>(R.nonZeros()), reflection_entries(system.table(), system.reflection(c)));
         const Eigen::SparseMatrix<double, Eigen::RowMajor> RT = R * transport_matrix(system.table());
         EXPECT_LE(adjoint_defect(K), 1e-13);
         for (Eigen::Index u = 0; u < n; u += 97) {

@@ -92,6 +92,17 @@ TEST(Breakdowns, PeriodThree) {
     EXPECT_NE(cg.why.find("K is not diag(ρ) F with F reciprocal"), std::string::npos) << cg.why;
 }
 
+// The eigenpair is paid for in applications like all else.
+TEST(Breakdowns, AnEigenpairThatTakesAllApplications) {
+    const DenseChannel K(plates().matrix(), Vector::Ones(2));
+    Problem problem = problem_of(K, vector({1, 0}));
+    problem.most = 1;
+    const SolverResult result = find_solver("eigenpair-tail")->solve(problem);
+    EXPECT_EQ(result.verdict, Verdict::limit);
+    EXPECT_EQ(result.why, "finding the leading eigenpair took all applications that were allowed");
+    EXPECT_EQ(result.x, problem.Le);
+}
+
 // Near-parallel plates, relative errors at the outer one after n terms. Aitken gains nothing over the plain sum,
 // the ratio of terms is 22 … 1.4, and Wynn, with as many terms as there are modes, is exact.
 TEST(Breakdowns, AlternatingTerms) {
