@@ -14,7 +14,7 @@ namespace {
 // Rays that one thread reflects at least: waking another costs as much.
 constexpr std::size_t rays_at_once = 1 << 16;
 
-// Channels of an unknown as the processor's registers hold them; memory need not be aligned to them.
+// Channels of an unknown as the processor's registers hold them.
 template <int C>
 struct Lanes;
 template <>
@@ -23,7 +23,7 @@ struct Lanes<1> {
 };
 template <>
 struct Lanes<4> {
-    typedef double Type __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef double Type __attribute__((vector_size(32), may_alias));
 };
 
 // The mean of what `rays` bring. Four partial sums: additions wait for each other.

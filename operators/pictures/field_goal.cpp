@@ -1,9 +1,12 @@
 #include "operators/pictures/field_goal.h"
 
+#include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace neumann {
@@ -11,47 +14,81 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t fewest_patches = 500, most_patches = 250'000;
-constexpr std::uint32_t fewest_rays = 16, most_rays = 1024, most_samples = 1024;
+constexpr std::uint32_t fewest_rays = 16, most_samples = 1024, most_light_samples = 64;
+constexpr std::uint32_t pilot_samples = 4;
 // A step multiplies no part by more than this: estimates from few samples are rough.
 constexpr double most_growth = 8.0;
-constexpr std::uint32_t most_light_samples = 64;
+// Of the table of T.
+constexpr double part_of_memory = 0.05;
 
 double square(double x) { return x * x; }
 
-// The largest error of any term that rays at the pixel make, that fields make by their rays, and that fields make by their patches.
-struct Parts {
-    double pixels = 0.0, rays = 0.0, patches = 0.0;
-};
-Parts largest_parts(const std::vector<PictureError>& errors, FieldMethod method) {
-    Parts parts;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-        const PictureError& error = errors[i];
-        const bool at_pixel = i < 2 && method != FieldMethod::patches;
-        (at_pixel ? parts.pixels : parts.rays) = std::max(at_pixel ? parts.pixels : parts.rays, error.sampling);
-        parts.patches = std::max(parts.patches, error.discretisation);
-    }
-    return parts;
+std::uint32_t most_rays(std::size_t patches) {
+    const double entries = part_of_memory * physical_memory() / sizeof(std::uint32_t);
+    return std::bit_floor(static_cast<std::uint32_t>(std::max(1.0 * fewest_rays, entries / static_cast<double>(patches))));
 }
 
 std::uint32_t grow(std::uint32_t n, double factor, std::uint32_t most) {
-    return std::min(most, n * std::bit_ceil(static_cast<std::uint32_t>(std::ceil(std::clamp(factor, 1.0, most_growth)))));
+    const auto times = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(std::clamp(factor, 1.0, most_growth))));
+    return std::max(n, std::min(most, n * times));
 }
 
-// More of what makes the error; false where nothing can grow any more.
-bool grow(FieldSettings& settings, const Parts& parts, double target) {
-    const FieldSettings before = settings;
-    const double part = target * std::sqrt(0.5);  // half the error's square for sampling, half for patches
-    // Noise of later bounces comes from both the pixel's samples and the fields' rays.
-    settings.samples = grow(settings.samples, square(std::max(parts.pixels, parts.rays) / part), most_samples);
-    settings.rays = grow(settings.rays, square(parts.rays / part), most_rays);
-    settings.light_samples = std::min(settings.rays, most_light_samples);
-    // Linear interpolation errs like a patch's area, beside edges like its width.
-    settings.patching.patches =
-        std::min(most_patches, static_cast<std::size_t>(static_cast<double>(settings.patching.patches) *
-                                                        std::clamp(square(parts.patches / part), 1.0, most_growth)));
-    return settings.samples != before.samples || settings.rays != before.rays ||
-           settings.patching.patches != before.patching.patches;
-}
+// What the error of each term is made of: camera samples are a part of its square like 1 / samples, rays of the fields another one
+// like 1 / rays; patches are like a power of their number.
+class ErrorParts {
+public:
+    // From two renders of which the second has more samples only.
+    ErrorParts(FieldMethod method, const std::vector<PictureError>& few, const std::vector<PictureError>& many, double times) {
+        for (std::size_t i = 0; i < few.size(); ++i) {
+            const bool at_pixel = i < 2 && method != FieldMethod::patches;
+            const double fallen = (square(few[i].sampling) - square(many[i].sampling)) * times / (times - 1.0);
+            by_samples_.push_back(at_pixel ? std::numeric_limits<double>::infinity() : std::clamp(fallen, 0.0, square(few[i].sampling)));
+        }
+    }
+
+    // More of what makes the errors of a render; false where nothing can grow any more.
+    bool grow(FieldSettings& settings, const std::vector<PictureError>& errors, double target) {
+        const FieldSettings before = settings;
+        const double part = 0.5 * square(target);  // for sampling; and for patches
+        double samples = 1.0, rays = 1.0, patches = 1.0;
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            const double all = square(errors[i].sampling), own = std::min(all, by_samples_[i] / settings.samples);
+            const bool only_samples = own == all;
+            samples = std::max(samples, own / (only_samples ? part : 0.5 * part));
+        }
+        settings.samples = neumann::grow(settings.samples, samples, most_samples);
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            const double all = square(errors[i].sampling), own = std::min(all, by_samples_[i] / before.samples);
+            const double left = part - by_samples_[i] / settings.samples;
+            rays = std::max(rays, (all - own) / std::max(left, 0.5 * part));
+            patches = std::max(patches, std::pow(square(errors[i].discretisation) / part, 0.5 / order(i, errors, before)));
+        }
+        settings.patching.patches = std::min(
+            most_patches, static_cast<std::size_t>(static_cast<double>(before.patching.patches) * std::min(patches, most_growth)));
+        settings.rays = neumann::grow(settings.rays, rays, most_rays(settings.patching.patches));
+        settings.light_samples = std::min(settings.rays, most_light_samples);
+        if (settings.patching.patches != before.patching.patches) {
+            errors_before_ = errors;
+            patches_before_ = before.patching.patches;
+        }
+        return settings.samples != before.samples || settings.rays != before.rays ||
+               settings.patching.patches != before.patching.patches;
+    }
+
+private:
+    // Of the error in the number of patches, as the last two renders show it: 1 where it is that of linear interpolation, 1/2 beside
+    // edges.
+    double order(std::size_t i, const std::vector<PictureError>& errors, const FieldSettings& settings) const {
+        if (errors_before_.empty() || errors[i].discretisation == 0.0) return 0.5;
+        return std::clamp(std::log(errors_before_[i].discretisation / errors[i].discretisation) /
+                              std::log(static_cast<double>(settings.patching.patches) / static_cast<double>(patches_before_)),
+                          0.5, 1.0);
+    }
+
+    std::vector<double> by_samples_;  // times the number of samples
+    std::vector<PictureError> errors_before_;
+    std::size_t patches_before_ = 0;
+};
 
 FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::vector<Checkpoint> before, double seconds) {
     FieldRun run{std::move(pictures), settings, std::move(before), {}};
@@ -85,6 +122,7 @@ FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, doub
     settings.rays = settings.light_samples = fewest_rays;
     settings.samples = 1;
     FieldRun run = *render_fields_once(scene, settings, [] { return false; });
+    std::optional<ErrorParts> parts;
     for (;;) {
         const auto& errors = run.convergence.back().term_error;
         const double worst = *std::max_element(errors.begin(), errors.end());
@@ -93,13 +131,18 @@ FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, doub
             run.outcome = Outcome::error_reached;
             return run;
         }
-        if (!grow(settings, largest_parts(run.term_errors, settings.method), relative_error)) return run;
+        const std::vector<PictureError> before = run.term_errors;
+        if (!parts)
+            settings.samples = pilot_samples;
+        else if (!parts->grow(settings, before, relative_error))
+            return run;
         auto next = render_fields(scene, settings, observer.interrupted);
         if (!next) {
             run.outcome = Outcome::interrupted;
             return run;
         }
         run = make_run(std::move(*next), settings, std::move(run.convergence), watch.seconds());
+        if (!parts) parts.emplace(settings.method, before, run.term_errors, pilot_samples);
     }
 }
 
