@@ -19,6 +19,11 @@ struct Frame {
         t = Vec3(b, sign + n.y * n.y * a, -n.y);
     }
 
+    Frame(const Vec3& tangent, const Vec3& bitangent, const Vec3& normal) : s(tangent), t(bitangent), n(normal) {}
+
+    // The same basis seen from the other side of the surface: the tangents stay, so the handedness changes.
+    Frame other_side() const { return {s, t, -n}; }
+
     Vec3 to_local(const Vec3& w) const { return {glm::dot(s, w), glm::dot(t, w), glm::dot(n, w)}; }
     Vec3 to_world(const Vec3& w) const { return s * w.x + t * w.y + n * w.z; }
 };

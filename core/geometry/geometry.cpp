@@ -47,9 +47,9 @@ void validate(const TriangleMesh& mesh) {
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry::~Geometry() = default;
 
-Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
+Geometry::Geometry(std::vector<Shape> shapes) {
     Bounds bounds;
-    for (Shape& shape : shapes_) {
+    for (Shape& shape : shapes) {
         if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
             validate(*mesh);
             degenerate_count_ += std::erase_if(mesh->triangles, [&](const auto& t) {
@@ -94,23 +94,24 @@ Geometry::Geometry(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {
         scale = std::ldexp(1.0, -exponent);
     }
 
-    caster_ = std::make_unique<RayCaster>(shapes_, center_, scale);
-    triangles_.resize(shapes_.size());
-    error_.resize(shapes_.size());
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shapes_[i])) {
+    shapes_ = std::make_shared<const std::vector<Shape>>(std::move(shapes));
+    caster_ = std::make_unique<RayCaster>(*shapes_, center_, scale);
+    triangles_.resize(shapes_->size());
+    error_.resize(shapes_->size());
+    for (std::size_t i = 0; i < shapes_->size(); ++i) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[i])) {
             triangles_[i].reserve(mesh->triangles.size());
             for (const auto& t : mesh->triangles) {
                 const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
                 const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
                 triangles_[i].emplace_back(a, b, c, hit_error(longest * scale) / scale);
             }
-        } else if (const auto* sphere = std::get_if<Sphere>(&shapes_[i])) {
+        } else if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[i])) {
             error_[i] = hit_error(sphere->radius * scale) / scale;
-        } else if (const auto* disk = std::get_if<Disk>(&shapes_[i])) {
+        } else if (const auto* disk = std::get_if<Disk>(&(*shapes_)[i])) {
             const double size = (glm::length(disk->u) + glm::length(disk->v)) * scale;
             error_[i] = hit_error(size) / scale;
-        } else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[i])) {
+        } else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[i])) {
             error_[i] = hit_error((cylinder->radius + cylinder->length) * scale) / scale;
         }
     }
@@ -165,12 +166,12 @@ void hit_cylinder(const Cylinder& c, const Vec3& origin, const Vec3& direction, 
 }  // namespace
 
 void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    if (const auto* sphere = std::get_if<Sphere>(&shapes_[hit.shape]))
+    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[hit.shape]))
         hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
-    else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[hit.shape]))
+    else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[hit.shape]))
         hit_cylinder(*cylinder, origin, direction, hit.distance, error_[hit.shape], p);
     else
-        hit_disk(std::get<Disk>(shapes_[hit.shape]), origin, direction, error_[hit.shape], p);
+        hit_disk(std::get<Disk>((*shapes_)[hit.shape]), origin, direction, error_[hit.shape], p);
     p.shape = hit.shape;
     p.primitive = hit.primitive;
 }
@@ -197,17 +198,17 @@ bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
 }
 
 std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
-    const auto* mesh = std::get_if<TriangleMesh>(&shapes_[shape]);
+    const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape]);
     return mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
 }
 
 double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
     if (!triangles_[shape].empty()) return triangles_[shape][primitive].area();
-    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape]))
+    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape]))
         return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
-    if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape]))
+    if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape]))
         return cylinder->has_extent() ? 2.0 * pi * cylinder->radius * cylinder->length : 0.0;
-    const Disk& disk = std::get<Disk>(shapes_[shape]);
+    const Disk& disk = std::get<Disk>((*shapes_)[shape]);
     return pi * glm::length(glm::cross(disk.u, disk.v));
 }
 
@@ -219,13 +220,13 @@ double Geometry::area(std::uint32_t shape) const {
 
 SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& uv) const {
     SurfacePoint p;
-    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
+    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
         put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
-    } else if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape])) {
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape])) {
         const Vec2 turn = direction_on_circle(uv.y);
         put_on_cylinder(*cylinder, uv.x * cylinder->length, Frame(cylinder->axis).to_world({turn, 0.0}), error_[shape], p);
     } else {
-        const Disk& disk = std::get<Disk>(shapes_[shape]);
+        const Disk& disk = std::get<Disk>((*shapes_)[shape]);
         const Vec2 d = uniform_disk(uv);
         p = {disk.center + disk.u * d.x + disk.v * d.y, disk.normal, error_[shape], 0, 0};
     }
@@ -238,15 +239,15 @@ Vec2 Geometry::round_coordinates(std::uint32_t shape, const Vec3& position) cons
         const double part = std::atan2(y, x) * (0.5 * inv_pi);
         return part < 0.0 ? part + 1.0 : part;
     };
-    if (const auto* sphere = std::get_if<Sphere>(&shapes_[shape])) {
+    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
         const Vec3 n = (position - sphere->center) / sphere->radius;
         return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), turn(n.x, n.y)};
     }
-    if (const auto* cylinder = std::get_if<Cylinder>(&shapes_[shape])) {
+    if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape])) {
         const Vec3 p = Frame(cylinder->axis).to_local(position - cylinder->base);
         return {std::clamp(p.z / cylinder->length, 0.0, 1.0), turn(p.x, p.y)};
     }
-    const Disk& disk = std::get<Disk>(shapes_[shape]);
+    const Disk& disk = std::get<Disk>((*shapes_)[shape]);
     const Vec3 x = position - disk.center;
     const double uu = glm::dot(disk.u, disk.u), uv = glm::dot(disk.u, disk.v), vv = glm::dot(disk.v, disk.v);
     const double xu = glm::dot(x, disk.u), xv = glm::dot(x, disk.v), determinant = uu * vv - uv * uv;

@@ -31,7 +31,8 @@ public:
     Geometry(Geometry&&) noexcept;
     ~Geometry();
 
-    const std::vector<Shape>& shapes() const { return shapes_; }
+    const std::vector<Shape>& shapes() const { return *shapes_; }
+    std::shared_ptr<const std::vector<Shape>> shared_shapes() const { return shapes_; }
     std::size_t degenerate_count() const { return degenerate_count_; }
 
     // tr(p, ω) from a point in space, up to `distance`; ω unit length. False where nothing is hit; `hit` is then left as it was.
@@ -122,7 +123,7 @@ private:
     void put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint point_on_round_surface(std::uint32_t shape, const Vec2& uv) const;
 
-    std::vector<Shape> shapes_;
+    std::shared_ptr<const std::vector<Shape>> shapes_;
     std::size_t degenerate_count_ = 0;
     Vec3 center_{0.0};
     double radius_ = 0.0;

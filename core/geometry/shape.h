@@ -14,6 +14,9 @@ namespace neumann {
 struct TriangleMesh {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    // One for each vertex, or empty: shading normals, on the front side, and texture coordinates.
+    std::vector<Vec3> normals = {};
+    std::vector<Vec2> uv = {};
 };
 
 // Front side: outside, or inside when flipped.

@@ -12,16 +12,19 @@
 
 namespace neumann {
 
-// A closed set: adding a material is a file beside diffuse.h and a name here.
-using Bsdf = std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>>;
+// A closed set: adding a material is a file beside diffuse.h and a name here. Of one side of a surface: ωo is always above it,
+// ωo.z > 0, and ωi is where light is transmitted from where ωi.z < 0. The other side of glass is another Bsdf.
+struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>> {
+    using variant::variant;
+};
 
-inline Rgb eval(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
+inline Rgb eval(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec3& wi) {
     return std::visit([&](const auto& b) { return b.eval(p, wo, wi); }, bsdf);
 }
-inline double pdf(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec3& wi) {
+inline double pdf(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec3& wi) {
     return std::visit([&](const auto& b) { return b.pdf(p, wo, wi); }, bsdf);
 }
-inline BsdfSample sample(const Bsdf& bsdf, const SurfacePoint& p, const Vec3& wo, const Vec2& u) {
+inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec2& u) {
     return std::visit([&](const auto& b) { return b.sample(p, wo, u); }, bsdf);
 }
 // An upper bound on ∫ fs |cosθ| dω over all points and directions, for each channel.
@@ -33,7 +36,7 @@ inline Lobe lobe(const Bsdf& bsdf) {
 }
 
 // fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1.
-inline Rgb reflectance(const Bsdf& bsdf, const SurfacePoint& p) {
+inline Rgb reflectance(const Bsdf& bsdf, const ShadingPoint& p) {
     return std::visit([&](const auto& b) { return b.reflectance(p); }, bsdf);
 }
 inline Bsdf white(const Bsdf& bsdf) {
@@ -43,6 +46,10 @@ inline Bsdf white(const Bsdf& bsdf) {
 // Known to be the same all over a surface.
 inline bool is_constant(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.is_constant(); }, bsdf);
+}
+// Where it is asked for depends on texture coordinates and tangents.
+inline bool needs_coordinates(const Bsdf& bsdf) {
+    return std::visit([](const auto& b) { return !b.is_constant(); }, bsdf);
 }
 // All channels are known to be alike.
 inline bool is_grey(const Bsdf& bsdf) {

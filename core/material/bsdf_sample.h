@@ -2,13 +2,9 @@
 #pragma once
 
 #include "core/base/vec.h"
-
-#include <limits>
+#include "core/sampling/delta_pdf.h"
 
 namespace neumann {
-
-// The pdf of a direction that is the only one possible, as in a mirror. The power heuristic then leaves the sample all its weight.
-inline constexpr double delta_pdf = std::numeric_limits<double>::infinity();
 
 struct BsdfSample {
     Vec3 wi{0.0};

@@ -16,13 +16,13 @@ public:
         : fresnel_(fresnel), reflectance_(std::move(specular_reflectance)) {}
 
     // No direction that was chosen otherwise is the mirror image.
-    Rgb eval(const SurfacePoint&, const Vec3&, const Vec3&) const { return Rgb(0.0); }
-    double pdf(const SurfacePoint&, const Vec3&, const Vec3&) const { return 0.0; }
-    BsdfSample sample(const SurfacePoint& p, const Vec3& wo, const Vec2&) const {
+    Rgb eval(const ShadingPoint&, const Vec3&, const Vec3&) const { return Rgb(0.0); }
+    double pdf(const ShadingPoint&, const Vec3&, const Vec3&) const { return 0.0; }
+    BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2&) const {
         if (wo.z <= 0.0) return {};
         return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p) * fresnel_(wo.z), delta_pdf};
     }
-    Rgb reflectance(const SurfacePoint& p) const { return reflectance_(p); }
+    Rgb reflectance(const ShadingPoint& p) const { return reflectance_(p); }
     Conductor white() const { return Conductor(fresnel_); }
     // F reaches 1 at grazing angles.
     Rgb largest_albedo() const { return reflectance_.upper_bound(); }

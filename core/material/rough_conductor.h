@@ -29,18 +29,18 @@ public:
                             Masking masking = Masking::separable)
         : facets_(facets), fresnel_(fresnel), reflectance_(std::move(specular_reflectance)), masking_(masking) {}
 
-    Rgb eval(const SurfacePoint& p, const Vec3& wo, const Vec3& wi) const {
+    Rgb eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         if (wo.z <= 0.0 || wi.z <= 0.0) return Rgb(0.0);
         const Vec3 m = glm::normalize(wo + wi);
         return reflectance_(p) * fresnel_(glm::dot(wo, m)) * (facets_.density(m) / (4.0 * area(wo, wi)));
     }
     // Over the whole sphere: facets also reflect light from below the horizon, where fs is 0.
-    double pdf(const SurfacePoint&, const Vec3& wo, const Vec3& wi) const {
+    double pdf(const ShadingPoint&, const Vec3& wo, const Vec3& wi) const {
         const Vec3 h = wo + wi;
         if (wo.z <= 0.0 || h.z <= 0.0) return 0.0;
         return facets_.density(glm::normalize(h)) / (4.0 * facets_.projected_area(wo));
     }
-    BsdfSample sample(const SurfacePoint& p, const Vec3& wo, const Vec2& u) const {
+    BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const {
         if (wo.z <= 0.0) return {};
         const Vec3 m = facets_.sample_visible(wo, u);
         const double cosine = glm::dot(wo, m), seen = facets_.projected_area(wo);
@@ -49,7 +49,7 @@ public:
         if (wi.z <= 0.0) return {wi, Rgb(0.0), pdf};
         return {wi, reflectance_(p) * fresnel_(cosine) * (wi.z * seen / area(wo, wi)), pdf};
     }
-    Rgb reflectance(const SurfacePoint& p) const { return reflectance_(p); }
+    Rgb reflectance(const ShadingPoint& p) const { return reflectance_(p); }
     RoughConductor white() const { return RoughConductor(facets_, fresnel_, Rgb(1.0), masking_); }
     // Each facet is seen at most once, and F ≤ 1.
     Rgb largest_albedo() const { return reflectance_.upper_bound(); }

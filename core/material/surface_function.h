@@ -1,7 +1,7 @@
 // A quantity that is constant on a surface or varies from point to point: reflectance, and later textures.
 #pragma once
 
-#include "core/geometry/surface_point.h"
+#include "core/geometry/shading_point.h"
 
 #include <functional>
 #include <utility>
@@ -12,10 +12,10 @@ class SurfaceFunction {
 public:
     SurfaceFunction(const Rgb& constant) : constant_(constant) {}
     // `upper_bound`: at least the function's largest value in each channel; it enters the bounds on the series.
-    SurfaceFunction(std::function<Rgb(const SurfacePoint&)> f, const Rgb& upper_bound)
+    SurfaceFunction(std::function<Rgb(const ShadingPoint&)> f, const Rgb& upper_bound)
         : constant_(upper_bound), function_(std::move(f)) {}
 
-    Rgb operator()(const SurfacePoint& p) const { return function_ ? function_(p) : constant_; }
+    Rgb operator()(const ShadingPoint& p) const { return function_ ? function_(p) : constant_; }
     const Rgb& upper_bound() const { return constant_; }
     bool is_constant() const { return !function_; }
     // All channels are known to be alike.
@@ -23,7 +23,7 @@ public:
 
 private:
     Rgb constant_;
-    std::function<Rgb(const SurfacePoint&)> function_;
+    std::function<Rgb(const ShadingPoint&)> function_;
 };
 
 }  // namespace neumann

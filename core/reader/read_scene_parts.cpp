@@ -68,12 +68,12 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
         if (e.tag != "shape") continue;
         ReadShape shape = read_shape(e, context);
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
-        parts.light_of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
+        parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
     }
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();
-    parts.lights = lights.take();
+    parts.lights.area = lights.take();
     std::vector<std::string> files = document.files;
     files.insert(files.end(), mesh_files.begin(), mesh_files.end());
     parts.hash = hash_files(files);

@@ -25,12 +25,12 @@ std::size_t covered_lights(const Geometry& geometry, const std::vector<int>& lig
 
 Scene make_scene(SceneParts parts) {
     Geometry geometry(std::move(parts.shapes));
-    Materials materials(std::move(parts.bsdfs), std::move(parts.sides_of_shape));
+    Materials materials(std::move(parts.bsdfs), std::move(parts.sides_of_shape), geometry.shared_shapes());
     Warnings warnings = std::move(parts.warnings);
     warnings.add(
         "part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
-        covered_lights(geometry, parts.light_of_shape));
-    Emitters emitters(geometry, std::move(parts.lights), std::move(parts.light_of_shape));
+        covered_lights(geometry, parts.lights.of_shape));
+    Emitters emitters(geometry, std::move(parts.lights));
     warnings.add("degenerate triangle or shape without extent left out", geometry.degenerate_count());
     warnings.add("light without area gives off nothing", emitters.without_area());
     if (geometry.shapes().empty()) warnings.add("the scene has no surfaces");

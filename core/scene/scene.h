@@ -34,8 +34,7 @@ struct SceneParts {
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
     std::vector<Materials::Sides> sides_of_shape;
-    std::vector<AreaLight> lights;
-    std::vector<int> light_of_shape;  // Emitters::none where a shape does not emit
+    Lights lights;
     Perspective::Options camera;
     Film film;
     std::optional<int> bounces;

@@ -48,16 +48,13 @@ NEUMANN_HOT void light_facet(const Scene& scene, const PatchSpace& space, const 
     const double of_sample = inv_pi * facet.cells.size() / points.size();
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
-        const LightSample y = scene.emitters.sample(scene.geometry, sampler.next2());
+        const Vec2 u = sampler.next2();
         const SurfacePoint x = space.patches().point(facet.patch, sampler.next2());
-        const Vec3 d = y.point.position - x.position;
-        const double distance2 = glm::dot(d, d);
-        const Vec3 w = d * (1.0 / std::sqrt(distance2));
-        const Vec3 wi = PatchSpace::frame(facet, x).to_local(w);
-        const double cos_light = -glm::dot(y.point.normal, w);
-        if (!(cos_light > 0.0) || !(wi.z > 0.0)) continue;
+        const LightSample y = scene.emitters.sample(scene.geometry, x.position, u);
+        const Vec3 wi = PatchSpace::frame(facet, x).to_local(y.w);
+        if (!(y.pdf > 0.0) || !(wi.z > 0.0)) continue;
         segments[waiting] = {x, y.point};
-        light[waiting] = scene.emitters.emitted(y.point, -w) * (of_sample * wi.z * cos_light / (distance2 * y.pdf_area));
+        light[waiting] = y.weight * (of_sample * wi.z);
         arrives_in[waiting] = facet.first + facet.cells.cell(wi);
         if (++waiting == packet) look();
     }
@@ -80,7 +77,7 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
                 sampler.start(i);
                 const Vec2 u = sampler.next2();
                 const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
-                if (!scene.emitters.is_emitter(p)) return;
+                if (!scene.emitters.is_emitter(p.shape)) return;
                 sum += scene.emitters.emitted(p, PatchSpace::frame(facet, p).to_world(facet.cells.direction(cell, u)));
             }
             Le.col(facet.first + cell) = to_channels<C>(sum / static_cast<double>(points.size()));
@@ -102,11 +99,13 @@ ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, 
 }
 
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
+    // Those that no patch emits.
+    if (scene.emitters.has_environment() || scene.emitters.has_delta_lights()) return 0.0;
     double all = 0.0, lights = 0.0;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const double area = scene.geometry.area(shape);
         all += area;
-        if (scene.emitters.is_emitter({{}, {}, 0.0, shape, 0})) lights += area;
+        if (scene.emitters.is_emitter(shape)) lights += area;
     }
     return all > 0.0 ? rays * lights / all : 0.0;
 }

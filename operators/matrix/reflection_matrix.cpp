@@ -69,7 +69,7 @@ Rgb mean_reflectance(const Bsdf& bsdf, const PatchSpace& space, const Facet& fac
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
         const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
-        const Rgb rho = reflectance(bsdf, p);
+        const Rgb rho = reflectance(bsdf, shading_point(space.geometry().shapes()[p.shape], p));
         if (is_constant(bsdf)) return rho;
         sum += rho;
     }
@@ -84,7 +84,7 @@ ReflectionMatrix<C>::ReflectionMatrix(const Materials& materials, const PatchSpa
       reflectance_(Reflectance::Zero(C, static_cast<Eigen::Index>(space.facets().size()))),
       blocks_(space.facets().size()) {
     const auto bsdf_of = [&](const Facet& facet) {
-        return materials.at({{}, {}, 0.0, space.patches().chart(facet.patch).shape(), 0}, facet.front);
+        return materials.at(space.patches().chart(facet.patch).shape(), facet.front);
     };
     const SobolPoints points(16);
     oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(space.facets().size()), [&](std::uint32_t f) {

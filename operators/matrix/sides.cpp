@@ -22,9 +22,8 @@ std::uint32_t directions_of(const Bsdf& bsdf) {
 std::vector<SideDirections> side_directions(const Scene& scene) {
     std::vector<SideDirections> sides;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
-        const SurfacePoint somewhere{{}, {}, 0.0, shape, 0};
-        const bool emits = scene.emitters.is_emitter(somewhere);
-        const Bsdf *front = scene.materials.at(somewhere, true), *back = scene.materials.at(somewhere, false);
+        const bool emits = scene.emitters.is_emitter(shape);
+        const Bsdf *front = scene.materials.at(shape, true), *back = scene.materials.at(shape, false);
         sides.push_back({front ? directions_of(*front) : emits ? 1u : 0u, back ? directions_of(*back) : 0u, emits});
     }
     return sides;

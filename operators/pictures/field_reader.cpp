@@ -13,15 +13,18 @@ namespace {
 constexpr std::size_t packet = RayCaster::packet_size;
 constexpr std::uint32_t most_mirrors = 16;  // that a gather ray follows; in more it reads what is on the patches
 
-// Calls each(i) for those of n rays that hit something, in packets; from(i) and hit(i) as Geometry::first_hits.
+// Calls each(i) for n rays, in packets; from(i) and hit(i) as Geometry::first_hits. The point is infinitely far away where nothing
+// is hit.
 template <class From, class Hit, class Each>
 void for_hits(const Geometry& geometry, std::size_t n, const From& from, const Hit& hit, const Each& each) {
     for (std::size_t begin = 0; begin < n; begin += packet) {
         const std::size_t some = std::min(packet, n - begin);
         const std::uint32_t found = geometry.first_hits(
             some, [&](std::size_t i) { return from(begin + i); }, [&](std::size_t i) -> SurfacePoint& { return hit(begin + i); });
-        for (std::size_t i = 0; i < some; ++i)
-            if (found >> i & 1u) each(begin + i);
+        for (std::size_t i = 0; i < some; ++i) {
+            if (!(found >> i & 1u)) hit(begin + i).shape = SurfacePoint::infinity;
+            each(begin + i);
+        }
     }
 }
 
@@ -70,12 +73,11 @@ struct FieldReader::Look {
     std::uint32_t mirrors = 0;
     bool goes_on;
 
-    Frame frame() const { return Frame(glm::dot(x.normal, wo) > 0.0 ? x.normal : -x.normal); }
     // Draws wi, with its weight and pdf, from the material; false where nothing is reflected.
-    bool choose_direction(SobolSampler& sampler) {
-        const Frame local = frame();
-        const BsdfSample sampled = neumann::sample(*bsdf, x, local.to_local(wo), sampler.next2());
-        wi = local.to_world(sampled.wi);
+    bool choose_direction(const Materials& materials, SobolSampler& sampler) {
+        const SurfaceSide side = materials.side(x, wo);
+        const BsdfSample sampled = neumann::sample(*side.bsdf, side.p, side.p.frame.to_local(wo), sampler.next2());
+        wi = side.p.frame.to_world(sampled.wi);
         weight = sampled.weight;
         pdf = sampled.pdf;
         return pdf != 0.0;
@@ -90,11 +92,15 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
       gather_rays_(gather_rays),
       compared_((gather_rays + 3) / 4) {
     if (scene.emitters.empty()) return;
+    if (scene.emitters.has_environment()) {
+        near_ = std::numeric_limits<double>::infinity();
+        return;
+    }
     const SobolPoints points(256);
     SobolSampler sampler(points, 0, 0);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
-        const Vec3 p = scene.emitters.sample(scene.geometry, sampler.next2()).point.position;
+        const Vec3 p = scene.emitters.sample(scene.geometry, scene.geometry.center(), sampler.next2()).point.position;
         low_ = i == 0 ? p : glm::min(low_, p);
         high_ = i == 0 ? p : glm::max(high_, p);
     }
@@ -141,15 +147,19 @@ void FieldReader::find_first_points(std::span<const PixelSample> samples, std::v
         for (std::size_t i = 0; i < n; ++i) rays[i] = samples[begin + i].ray;
         const std::uint32_t found = scene_.geometry.first_hits(std::span<const Ray>(rays).first(n),
                                                                [&](std::size_t i) -> SurfacePoint& { return hits[i]; });
-        for (std::size_t i = 0; i < n; ++i)
-            if (found >> i & 1u) {
-                Look& l = looks.emplace_back();
-                l.sample = &samples[begin + i];
-                l.x = hits[i];
-                l.wo = -rays[i].direction;
-                l.bsdf = scene_.materials.at(l.x, glm::dot(l.x.normal, l.wo) > 0.0);
-                l.diffuse = l.bsdf && lobe(*l.bsdf).kind == Lobe::Kind::diffuse;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!(found >> i & 1u)) {
+                hits[i].shape = SurfacePoint::infinity;
+                add(samples[begin + i].values, 0, scene_.emitters.emitted(hits[i], -rays[i].direction));
+                continue;
             }
+            Look& l = looks.emplace_back();
+            l.sample = &samples[begin + i];
+            l.x = hits[i];
+            l.wo = -rays[i].direction;
+            l.bsdf = scene_.materials.side(l.x, l.wo).bsdf;
+            l.diffuse = l.bsdf && lobe(*l.bsdf).kind == Lobe::Kind::diffuse;
+        }
     }
 }
 
@@ -159,18 +169,12 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
     if (emitters.empty()) return 0;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        const LightSample light = emitters.sample(scene_.geometry, l.sample->sampler->next2());
-        const Vec3 d = light.point.position - l.x.position;
-        const double distance2 = glm::dot(d, d);
-        const Vec3 towards = d * (1.0 / std::sqrt(distance2));
-        const double cos_light = -glm::dot(light.point.normal, towards);
-        if (!(cos_light > 0.0)) continue;
-        const Frame frame = l.frame();
-        const Vec3 wo = frame.to_local(l.wo), wi = frame.to_local(towards);
-        const double angle_per_area = cos_light / distance2;
-        const double pdf_other = looks_for_lights(l) ? pdf(*l.bsdf, l.x, wo, wi) * angle_per_area : 0.0;
-        l.weight = eval(*l.bsdf, l.x, wo, wi) * emitters.emitted(light.point, -towards) *
-                   (std::abs(wi.z) * angle_per_area / light.pdf_area * power_heuristic(light.pdf_area, pdf_other));
+        const LightSample light = emitters.sample(scene_.geometry, l.x.position, l.sample->sampler->next2());
+        if (!(light.pdf > 0.0)) continue;
+        const SurfaceSide side = scene_.materials.side(l.x, l.wo);
+        const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
+        const double pdf_other = looks_for_lights(l) ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+        l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight * (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
         if (is_black(l.weight)) continue;
         l.y = light.point;
         asking.push_back(&l);
@@ -194,7 +198,7 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
     const Emitters& emitters = scene_.emitters;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction(*l.sample->sampler)) asking.push_back(&l);
+        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction(scene_.materials, *l.sample->sampler)) asking.push_back(&l);
     }
     for_hits(
         scene_.geometry, asking.size(),
@@ -204,9 +208,7 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
             const Look& l = *asking[i];
             const Rgb emitted = emitters.emitted(l.y, -l.wi);
             if (is_black(emitted)) return;
-            const Vec3 d = l.y.position - l.x.position;
-            const double pdf_light = emitters.pdf_area(l.y) * glm::dot(d, d) / -glm::dot(l.y.normal, l.wi);
-            add(l.sample->values, 1, l.weight * emitted * power_heuristic(l.pdf, pdf_light));
+            add(l.sample->values, 1, l.weight * emitted * power_heuristic(l.pdf, emitters.pdf(l.x.position, l.wi, l.y)));
         });
     return asking.size();
 }
@@ -239,7 +241,13 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
     bool compare = true;
     const auto read_or_go_on = [&](std::size_t i) {
         Look& l = asking[i];
-        const Bsdf* bsdf = scene_.materials.at(l.y, glm::dot(l.y.normal, l.wi) < 0.0);
+        if (l.y.is_infinite()) {
+            if (l.mirrors > 0)
+                add(l.sample->values, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1),
+                    l.through * scene_.emitters.emitted(l.y, -l.wi));
+            return;
+        }
+        const Bsdf* bsdf = scene_.materials.side(l.y, -l.wi).bsdf;
         if (l.mirrors < most_mirrors && bsdf && lobe(*bsdf).kind == Lobe::Kind::specular) {
             // Of the first one, light sampling knows.
             if (l.mirrors > 0)
@@ -273,7 +281,7 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
                 if (!l.goes_on) continue;
                 // A mirror needs no numbers.
                 if (l.mirrors == 0) l.sample->gather_sampler->start(l.sample->first_gather_ray + r);
-                l.goes_on = l.choose_direction(*l.sample->gather_sampler);
+                l.goes_on = l.choose_direction(scene_.materials, *l.sample->gather_sampler);
                 l.through *= l.weight;
             }
             std::erase_if(asking, [](const Look& l) { return !l.goes_on; });

@@ -48,7 +48,7 @@ public:
             for (std::size_t k = 0; k < terms_.size(); ++k) result.rays[k] += k + 1;
             const CameraRay& ray = rays[i];
             SurfacePoint seen;
-            if (!scene_->geometry.first_hit(ray.origin, ray.direction, ray.length, seen)) continue;
+            if (!scene_->geometry.first_hit(ray.origin, ray.direction, ray.length, seen)) seen.shape = SurfacePoint::infinity;
             FromSampler random(samplers[i]);
             const auto quantities = result.quantities.subspan(i * (terms_.size() + 1), terms_.size());
             for (std::size_t k = 0; k < terms_.size(); ++k) quantities[k] += terms_[k](seen, -ray.direction, random);

@@ -2,7 +2,6 @@
 // no ray is traced here. The integral is estimated with one direction, drawn from the material's own density.
 #pragma once
 
-#include "core/base/frame.h"
 #include "core/material/materials.h"
 #include "operators/pointwise/field.h"
 
@@ -17,11 +16,11 @@ public:
 
     ExitantField operator()(IncidentField g) const {
         return ExitantField([materials = materials_, g = std::move(g)](const SurfacePoint& p, const Vec3& wo, Random& random) {
-            const bool front = glm::dot(p.normal, wo) > 0.0;
-            const Bsdf* bsdf = materials->at(p, front);
-            if (!bsdf) return Rgb(0.0);
-            const Frame frame(front ? p.normal : -p.normal);
-            const BsdfSample sampled = sample(*bsdf, p, frame.to_local(wo), random.next2());
+            if (p.is_infinite()) return Rgb(0.0);
+            const SurfaceSide side = materials->side(p, wo);
+            if (!side.bsdf) return Rgb(0.0);
+            const Frame& frame = side.p.frame;
+            const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(wo), random.next2());
             if (is_black(sampled.weight)) return Rgb(0.0);
             return sampled.weight * g(p, frame.to_world(sampled.wi), random);
         });

@@ -8,7 +8,6 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/base/frame.h"
 #include "core/geometry/area_sampler.h"
 #include "core/material/materials.h"
 #include "operators/pointwise/field.h"
@@ -31,21 +30,21 @@ public:
     // fs V G between the points x and y, towards ωo.
     static Rgb kernel(const Geometry& geometry, const Materials& materials, const SurfacePoint& x, const Vec3& wo,
                       const SurfacePoint& y) {
-        const bool front = glm::dot(x.normal, wo) > 0.0;
-        const Bsdf* bsdf = materials.at(x, front);
+        const SurfaceSide side = materials.side(x, wo);
         const Vec3 d = y.position - x.position;
         const double distance2 = glm::dot(d, d);
-        if (!bsdf || distance2 == 0.0) return Rgb(0.0);
+        if (!side.bsdf || distance2 == 0.0) return Rgb(0.0);
         const Vec3 wi = d / std::sqrt(distance2);
-        const Frame frame(front ? x.normal : -x.normal);
+        const Frame& frame = side.p.frame;
         const Vec3 wi_local = frame.to_local(wi);
-        const Rgb f = eval(*bsdf, x, frame.to_local(wo), wi_local);
+        const Rgb f = eval(*side.bsdf, side.p, frame.to_local(wo), wi_local);
         if (is_black(f) || !geometry.visible(x, y)) return Rgb(0.0);
         return f * std::abs(wi_local.z * glm::dot(y.normal, wi)) / distance2;
     }
 
     ExitantField operator()(IncidentField g) const {
         return ExitantField([*this, g = std::move(g)](const SurfacePoint& x, const Vec3& wo, Random& random) {
+            if (x.is_infinite()) return Rgb(0.0);
             const double choice = random.next();
             const SurfacePoint y = surfaces_->sample(choice, random.next2());
             const Rgb weight = kernel(*geometry_, *materials_, x, wo, y) * surfaces_->area();

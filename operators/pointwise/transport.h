@@ -16,7 +16,8 @@ public:
     IncidentField operator()(ExitantField f) const {
         return IncidentField([geometry = geometry_, f = std::move(f)](const SurfacePoint& p, const Vec3& w, Random& random) {
             SurfacePoint seen;
-            return geometry->first_hit(p, w, seen) ? f(seen, -w, random) : Rgb(0.0);
+            if (!geometry->first_hit(p, w, seen)) seen.shape = SurfacePoint::infinity;
+            return f(seen, -w, random);
         });
     }
 

@@ -83,7 +83,8 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
             if (f(walker[i], i)) alive[kept++] = i;
         alive.resize(kept);
     };
-    // The same after asking T for the next points of as many walks at once as make a packet.
+    // The same after asking T for the next points of as many walks at once as make a packet. Those that hit nothing end infinitely
+    // far away.
     constexpr std::size_t packet = RayCaster::packet_size;
     const auto advance = [&](const auto& first_hits, const auto& f) {
         std::size_t kept = 0;
@@ -92,7 +93,11 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
             const std::uint32_t found = first_hits(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
             for (std::size_t j = 0; j < n; ++j) {
                 const std::uint32_t i = alive[k + j];
-                if ((found >> j & 1u) && f(walker[i], i)) alive[kept++] = i;
+                if (!(found >> j & 1u)) {
+                    if (!emitters.has_environment()) continue;
+                    walker[i].x.shape = SurfacePoint::infinity;
+                }
+                if (f(walker[i], i)) alive[kept++] = i;
             }
         }
         alive.resize(kept);
@@ -106,7 +111,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
                 w.wo = -rays[i].direction;
                 w.beta = Rgb(1.0);
                 add(i, 0, emitters.emitted(w.x, w.wo));
-                return true;
+                return !w.x.is_infinite();
             });
 
     for (int bounce = 1; !alive.empty(); ++bounce) {
@@ -129,30 +134,23 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
 
         // R: a direction for the next reflection, and a light.
         filter([&](Walker& w, std::uint32_t i) {
-            const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
-            const Bsdf* bsdf = scene.materials.at(w.x, front);
-            if (!bsdf) return false;
-            const Frame frame(front ? w.x.normal : -w.x.normal);
+            const SurfaceSide side = scene.materials.side(w.x, w.wo);
+            if (!side.bsdf) return false;
+            const Frame& frame = side.p.frame;
             const Vec3 wo = frame.to_local(w.wo);
             Sampler& sampler = samplers[i];
             w.found = Rgb(0.0);
             if (next_event) {
-                const LightSample light = emitters.sample(scene.geometry, sampler.next2());
-                const Vec3 d = light.point.position - w.x.position;
-                const double distance2 = glm::dot(d, d);
-                const Vec3 towards = d * (1.0 / std::sqrt(distance2));
-                const double cos_light = -glm::dot(light.point.normal, towards);
-                if (cos_light > 0.0) {
-                    const Vec3 wi = frame.to_local(towards);
-                    // Densities per area at the light.
-                    const double angle_per_area = cos_light / distance2;
-                    const double pdf_other = settings.direct == DirectLight::mis ? pdf(*bsdf, w.x, wo, wi) * angle_per_area : 0.0;
-                    w.found = w.beta * eval(*bsdf, w.x, wo, wi) * emitters.emitted(light.point, -towards) *
-                              (std::abs(wi.z) * angle_per_area / light.pdf_area * power_heuristic(light.pdf_area, pdf_other));
+                const LightSample light = emitters.sample(scene.geometry, w.x.position, sampler.next2());
+                if (light.pdf > 0.0) {
+                    const Vec3 wi = frame.to_local(light.w);
+                    const double pdf_other = settings.direct == DirectLight::mis ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+                    w.found = w.beta * eval(*side.bsdf, side.p, wo, wi) * light.weight *
+                              (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
                     w.light = light.point;
                 }
             }
-            const BsdfSample sampled = sample(*bsdf, w.x, wo, sampler.next2());
+            const BsdfSample sampled = sample(*side.bsdf, side.p, wo, sampler.next2());
             w.beta *= sampled.weight;
             w.pdf = sampled.pdf;
             w.wi = frame.to_world(sampled.wi);
@@ -208,19 +206,16 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         };
         advance(next_points, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.wi;
-            if ((settings.direct != DirectLight::light || w.pdf == delta_pdf) && emitters.is_emitter(w.x)) {
+            if ((settings.direct != DirectLight::light || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);
                 if (!is_black(emitted)) {
-                    double weight = 1.0;
-                    if (settings.direct == DirectLight::mis) {
-                        const Vec3 d = w.x.position - w.from;
-                        const double pdf_light = emitters.pdf_area(w.x) * glm::dot(d, d) / glm::dot(w.x.normal, w.wo);
-                        weight = power_heuristic(w.pdf, pdf_light);
-                    }
+                    const double weight = settings.direct == DirectLight::mis
+                                              ? power_heuristic(w.pdf, emitters.pdf(w.from, w.wi, w.x))
+                                              : 1.0;
                     add(i, q, w.beta * emitted * weight);
                 }
             }
-            return true;
+            return !w.x.is_infinite();
         });
     }
 }

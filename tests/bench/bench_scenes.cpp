@@ -23,10 +23,10 @@ Scene landscape(int n) {
     const auto add = [&](Shape shape, int material, int light) {
         parts.shapes.push_back(std::move(shape));
         parts.sides_of_shape.push_back({material, material});
-        parts.light_of_shape.push_back(light);
+        parts.lights.of_shape.push_back(light);
     };
     parts.bsdfs = {Diffuse(Rgb(0.7, 0.6, 0.5)), Diffuse(Rgb(0.3, 0.6, 0.3))};
-    parts.lights = {AreaLight(Rgb(10.0))};
+    parts.lights.area = {AreaLight(Rgb(10.0))};
 
     TriangleMesh ground;
     const auto steps = static_cast<std::uint32_t>(n);

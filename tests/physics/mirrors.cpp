@@ -50,7 +50,7 @@ TEST(Mirrors, InACubePathsAreUnfolded) {
     };
     SceneMaker maker;
     for (const TriangleMesh& face : room({0, 0, 0}, {1, 1, 1}))
-        maker.add(face, made_of(mirror(), AreaLight([](const SurfacePoint& p, const Vec3&) { return p.position; }, grey(1.0))));
+        maker.add(face, made_of(mirror(), AreaLight([](const ShadingPoint& p, const Vec3&) { return p.position; }, grey(1.0))));
     const Scene scene = maker.make();
     for (const Way way : ways) {
         SCOPED_TRACE(name(way));
@@ -70,7 +70,7 @@ TEST(Mirrors, InASphereTermsRotate) {
     SceneMaker maker;
     maker.add(
         Sphere{{0, 0, 0}, 1.0, true},
-        made_of(mirror(), AreaLight([](const SurfacePoint& p,
+        made_of(mirror(), AreaLight([](const ShadingPoint& p,
                                        const Vec3&) { return grey(1.0 + std::cos(3.0 * std::atan2(p.position.y, p.position.x))); },
                                     grey(2.0))));
     const Scene scene = maker.make();

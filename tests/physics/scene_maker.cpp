@@ -16,8 +16,8 @@ std::uint32_t SceneMaker::add(Shape shape, const Surface& surface) {
         parts.bsdfs.push_back(surface.bsdf ? *surface.bsdf : Diffuse(*surface.reflectance));
     }
     parts.sides_of_shape.push_back(sides);
-    parts.light_of_shape.push_back(surface.emission ? static_cast<int>(parts.lights.size()) : Emitters::none);
-    if (surface.emission) parts.lights.push_back(*surface.emission);
+    parts.lights.of_shape.push_back(surface.emission ? static_cast<int>(parts.lights.area.size()) : Emitters::none);
+    if (surface.emission) parts.lights.area.push_back(*surface.emission);
     parts.shapes.push_back(std::move(shape));
     return static_cast<std::uint32_t>(parts.shapes.size() - 1);
 }

@@ -185,7 +185,7 @@ TEST_F(XmlAccepted, ShapesWithoutBsdf) {
     EXPECT_EQ(largest_albedo(parts.bsdfs[0]), Rgb(0.5));
     EXPECT_EQ(parts.sides_of_shape.at(1).front, 0);
     EXPECT_EQ(parts.sides_of_shape.at(2).front, Materials::absorbing);  // a lamp without a material is black in Mitsuba
-    EXPECT_EQ(parts.light_of_shape, (std::vector<int>{Emitters::none, Emitters::none, 0}));
+    EXPECT_EQ(parts.lights.of_shape, (std::vector<int>{Emitters::none, Emitters::none, 0}));
     EXPECT_EQ(parts.lights.at(0).largest, Rgb(3.0));
 }
 
@@ -194,8 +194,8 @@ TEST_F(XmlAccepted, EmittersByReference) {
         "<shape type='cube'><ref id='lamp'/></shape>"
         "<emitter type='area' id='lamp'><rgb name='radiance' value='1, 2, 3'/></emitter>"
         "<emitter type='area'><rgb name='radiance' value='9'/></emitter>");
-    EXPECT_EQ(parts.light_of_shape, std::vector<int>{0});
-    ASSERT_EQ(parts.lights.size(), 1u);
+    EXPECT_EQ(parts.lights.of_shape, std::vector<int>{0});
+    ASSERT_EQ(parts.lights.area.size(), 1u);
     EXPECT_EQ(parts.lights[0].largest, Rgb(1.0, 2.0, 3.0));
 }
 

@@ -25,9 +25,9 @@ Scene cube() {
                 rectangle(x, z, y), rectangle(o, z, x), rectangle(y, x, z)};
     p.bsdfs = {Diffuse(Rgb(0.5))};
     p.sides_of_shape.assign(6, {.front = 0});
-    p.lights = {AreaLight(Rgb(1.0))};
-    p.light_of_shape.assign(6, Emitters::none);
-    p.light_of_shape[1] = 0;
+    p.lights.area = {AreaLight(Rgb(1.0))};
+    p.lights.of_shape.assign(6, Emitters::none);
+    p.lights.of_shape[1] = 0;
     p.film = {
         .width = resolution, .height = resolution, .crop_width = resolution, .crop_height = resolution, .filter = BoxFilter()};
     p.camera = {

@@ -53,8 +53,8 @@ Known sphere() {
     p.shapes = {Sphere{{0, 0, 0}, 1.0, true}};
     p.bsdfs = {Diffuse(rho)};
     p.sides_of_shape = {{.front = 0}};
-    p.lights = {AreaLight([radiance](const SurfacePoint& x, const Vec3&) { return radiance(x.position); }, Rgb(1.0))};
-    p.light_of_shape = {0};
+    p.lights.area = {AreaLight([radiance](const SurfacePoint& x, const Vec3&) { return radiance(x.position); }, Rgb(1.0))};
+    p.lights.of_shape = {0};
     Known known{make_scene(std::move(p)), {Image(resolution, resolution)}};
     using Gauss = boost::math::quadrature::gauss<double, 7>;
     for (int y = 0; y < resolution; ++y)
@@ -79,8 +79,8 @@ Known dome() {
     p.shapes = {Sphere{{0, 0, 0}, 1.0, true}, Disk{}};
     p.bsdfs = {Diffuse(Rgb(0.5)), Diffuse(Rgb(0.7))};
     p.sides_of_shape = {{.front = 0}, {.front = 1}};
-    p.lights = {AreaLight(Rgb(1.0))};
-    p.light_of_shape = {Emitters::none, 0};
+    p.lights.area = {AreaLight(Rgb(1.0))};
+    p.lights.of_shape = {Emitters::none, 0};
     Known known{make_scene(std::move(p)), {}};
     double hemisphere = 0.0, disc = 1.0;
     for (int i = 0; i <= bounces; ++i) {

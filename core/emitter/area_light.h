@@ -1,0 +1,20 @@
+// Le of one shape: constant (Mitsuba's `area`), or any function of point and direction. Light leaves the front side only.
+#pragma once
+
+#include "core/geometry/shading_point.h"
+
+#include <functional>
+
+namespace neumann {
+
+struct AreaLight {
+    AreaLight(const Rgb& radiance) : largest(radiance) {}
+    // `largest`: at least the function's largest value in each channel; it enters the bounds and the choice of lights.
+    AreaLight(std::function<Rgb(const ShadingPoint&, const Vec3& w)> f, const Rgb& largest_value)
+        : largest(largest_value), function(std::move(f)) {}
+
+    Rgb largest;
+    std::function<Rgb(const ShadingPoint&, const Vec3& w)> function;
+};
+
+}  // namespace neumann

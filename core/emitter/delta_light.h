@@ -1,0 +1,69 @@
+// Lights without extent: no ray finds them, they have to be asked. What they bring is the irradiance on a surface that faces them.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <variant>
+
+namespace neumann {
+
+// What arrives at a point from such a light.
+struct Beam {
+    Vec3 from;             // a point of the light; of one infinitely far away, beyond the scene
+    Rgb irradiance{0.0};  // per area across the beam, W·m⁻²
+};
+
+// The sphere around a scene.
+struct Surroundings {
+    Vec3 center{0.0};
+    double radius = 1.0;
+};
+
+// The same radiant intensity in all directions (Mitsuba's `point`): I / d².
+class PointLight {
+public:
+    PointLight(const Vec3& position, const Rgb& intensity) : position_(position), intensity_(intensity) {}
+
+    Beam beam(const Vec3& at, const Surroundings&) const {
+        const Vec3 d = at - position_;
+        return {position_, intensity_ / glm::dot(d, d)};
+    }
+    // The power in all, over π: what a surface of as much area times radiance gives off.
+    double brightness(const Surroundings&) const { return 4.0 * mean_component(intensity_); }
+    bool is_grey() const { return neumann::is_grey(intensity_); }
+
+private:
+    Vec3 position_;
+    Rgb intensity_;
+};
+
+// Parallel light from infinitely far away (Mitsuba's `directional`).
+class DirectionalLight {
+public:
+    // `direction`: in which the light travels.
+    DirectionalLight(const Vec3& direction, const Rgb& irradiance) : direction_(direction), irradiance_(irradiance) {}
+
+    Beam beam(const Vec3& at, const Surroundings& scene) const {
+        return {at - direction_ * (2.0 * scene.radius + glm::distance(at, scene.center)), irradiance_};
+    }
+    double brightness(const Surroundings& scene) const { return scene.radius * scene.radius * mean_component(irradiance_); }
+    bool is_grey() const { return neumann::is_grey(irradiance_); }
+
+private:
+    Vec3 direction_;
+    Rgb irradiance_;
+};
+
+using DeltaLight = std::variant<PointLight, DirectionalLight>;
+
+inline Beam beam(const DeltaLight& light, const Vec3& at, const Surroundings& scene) {
+    return std::visit([&](const auto& x) { return x.beam(at, scene); }, light);
+}
+inline double brightness(const DeltaLight& light, const Surroundings& scene) {
+    return std::visit([&](const auto& x) { return x.brightness(scene); }, light);
+}
+inline bool is_grey(const DeltaLight& light) {
+    return std::visit([](const auto& x) { return x.is_grey(); }, light);
+}
+
+}  // namespace neumann

@@ -1,0 +1,50 @@
+// Light from infinitely far away, from all directions: the same everywhere (Mitsuba's `constant`).
+#pragma once
+
+#include "core/sampling/warp.h"
+
+#include <variant>
+
+namespace neumann {
+
+class ConstantEnvironment {
+public:
+    explicit ConstantEnvironment(const Rgb& radiance) : radiance_(radiance) {}
+
+    Rgb radiance(const Vec3&) const { return radiance_; }
+    Vec3 sample(const Vec2& u) const { return uniform_sphere(u); }
+    double pdf(const Vec3&) const { return 0.25 * inv_pi; }
+    Rgb largest() const { return radiance_; }
+    double brightness() const { return mean_component(radiance_); }
+    bool is_grey() const { return neumann::is_grey(radiance_); }
+
+private:
+    Rgb radiance_;
+};
+
+using Environment = std::variant<ConstantEnvironment>;
+
+// What arrives from direction w.
+inline Rgb radiance(const Environment& e, const Vec3& w) {
+    return std::visit([&](const auto& x) { return x.radiance(w); }, e);
+}
+// A direction to look in, with the density pdf(), per solid angle.
+inline Vec3 sample(const Environment& e, const Vec2& u) {
+    return std::visit([&](const auto& x) { return x.sample(u); }, e);
+}
+inline double pdf(const Environment& e, const Vec3& w) {
+    return std::visit([&](const auto& x) { return x.pdf(w); }, e);
+}
+// At least the largest radiance in each channel.
+inline Rgb largest(const Environment& e) {
+    return std::visit([](const auto& x) { return x.largest(); }, e);
+}
+// The mean radiance over all directions and channels.
+inline double brightness(const Environment& e) {
+    return std::visit([](const auto& x) { return x.brightness(); }, e);
+}
+inline bool is_grey(const Environment& e) {
+    return std::visit([](const auto& x) { return x.is_grey(); }, e);
+}
+
+}  // namespace neumann
