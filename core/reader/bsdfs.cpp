@@ -1,6 +1,6 @@
 #include "core/reader/bsdfs.h"
 
-#include "core/reader/color.h"
+#include "core/reader/textures.h"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,9 @@ namespace neumann::reader {
 
 namespace {
 
-Rgb read_reflectance(Properties& p, const std::string& name, double missing, const Context& context) {
-    const Element* e = p.find(name, color_types);
-    return e ? parse_color(p, name, *e, Illuminant::d65, context.warnings) : Rgb(missing);
-}
-
 Diffuse read_diffuse(const Element& e, const Context& context) {
     Properties p(e, context.objects);
-    const Rgb reflectance = read_reflectance(p, "reflectance", 0.5, context);
+    const SurfaceFunction reflectance = read_color_texture(p, "reflectance", 0.5, Illuminant::d65, context);
     p.finish();
     return Diffuse(reflectance);
 }
@@ -39,7 +34,7 @@ ConductorFresnel read_fresnel(Properties& p, const Context& context) {
 Conductor read_conductor(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     const ConductorFresnel fresnel = read_fresnel(p, context);
-    const Rgb reflectance = read_reflectance(p, "specular_reflectance", 1.0, context);
+    const SurfaceFunction reflectance = read_color_texture(p, "specular_reflectance", 1.0, Illuminant::d65, context);
     p.finish();
     return Conductor(fresnel, reflectance);
 }
@@ -62,7 +57,7 @@ double read_alpha(Properties& p) {
 Bsdf read_rough_conductor(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     const ConductorFresnel fresnel = read_fresnel(p, context);
-    const Rgb reflectance = read_reflectance(p, "specular_reflectance", 1.0, context);
+    const SurfaceFunction reflectance = read_color_texture(p, "specular_reflectance", 1.0, Illuminant::d65, context);
     const std::string distribution = p.choice("distribution", {"beckmann", "ggx"}, "beckmann");
     const double alpha = read_alpha(p);
     p.boolean("sample_visible");  // how Mitsuba draws directions; changes noise only
