@@ -67,17 +67,18 @@ Rgb table_to_rgb(const SpectrumTable& s, Illuminant illuminant, Warnings& warnin
 
 Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings) {
     const Attribute& value = e.attribute("value");
-    const auto check = [&](double least) {
-        if (least < 0.0) p.fail(name, fmt::format("{} is negative: '{}'", name, value.value));
-    };
     if (e.tag == "spectrum" && value.value.find(':') != std::string::npos) {
+        if (illuminant == Illuminant::d65 && e.find("type"))
+            throw InputError(e.place, fmt::format("{} is a spectrum 'blackbody', which is for what gives off light", name));
         const SpectrumTable s = parse_table(value);
-        for (const double v : s.values) check(v);
+        for (std::size_t i = 0; i < s.values.size(); ++i)
+            if (s.values[i] < 0.0) p.fail(name, fmt::format("{} is negative at {} nm: {}", name, s.wavelengths[i], s.values[i]));
         return table_to_rgb(s, illuminant, warnings);
     }
     const Rgb c = e.tag == "rgb" ? parse_rgb(value) : Rgb(parse_number(value));
-    check(std::min({c.r, c.g, c.b}));
-    return c;
+    if (std::min({c.r, c.g, c.b}) < 0.0) p.fail(name, fmt::format("{} is negative: '{}'", name, value.value));
+    // The same power at all wavelengths is not white.
+    return e.tag == "spectrum" && illuminant == Illuminant::equal_energy ? c * xyz_to_rgb(Vec3(1.0)) : c;
 }
 
 }  // namespace neumann::reader

@@ -4,6 +4,8 @@
 #include "core/reader/grammar.h"
 #include "core/reader/numbers.h"
 #include "core/reader/source_text.h"
+#include "core/reader/spectra.h"
+#include "core/reader/upgrade.h"
 
 #include <algorithm>
 #include <charconv>
@@ -23,8 +25,8 @@ constexpr int max_element_depth = 100;
 
 class Loader {
 public:
-    Loader(Document& document, const std::map<std::string, std::string>& definitions)
-        : document_(document), definitions_(definitions) {}
+    Loader(Document& document, const std::map<std::string, std::string>& definitions, Warnings& warnings)
+        : document_(document), definitions_(definitions), warnings_(warnings) {}
 
     void read_main(const std::string& path) {
         document_.folders.push_back(fs::path(path).parent_path().string());
@@ -40,11 +42,14 @@ private:
     Element read_element(const SourceText& source, pugi::xml_node node, const std::string& parent_tag, int depth);
     void read_children(const SourceText& source, pugi::xml_node node, Element& parent, int depth);
     void include(const Element& e, Element& parent);
-    void check_version(const Attribute& version);
+    // Whether it is one that has to be upgraded.
+    static bool is_old(const Attribute& version);
 
     Document& document_;
     Definitions definitions_;
+    Warnings& warnings_;
     std::vector<std::string> open_files_;  // each included by the one before
+    bool old_ = false;                     // the last of them
 };
 
 Element Loader::read_file(const std::string& path) {
@@ -65,7 +70,9 @@ Element Loader::read_file(const std::string& path) {
                              fmt::format("a second outermost element <{}>, expected the end of the file", node.name()));
         root = node;
     }
+    const bool outer_is_old = old_;
     Element element = read_element(source, root, "", 0);
+    old_ = outer_is_old;
     open_files_.pop_back();
     return element;
 }
@@ -81,17 +88,20 @@ Element Loader::read_element(const SourceText& source, pugi::xml_node node, cons
     for (const pugi::xml_attribute a : node.attributes())
         e.attributes.push_back({a.name(), a.value(), source.attribute_place(offset, index++)});
 
+    if (old_ && !parent_tag.empty()) upgrade_tag(e, warnings_);
     if (!parent_tag.empty()) check_place(e, parent_tag);
     if (parent_tag.empty() && e.tag != "scene" && !is_object(e.tag))
         throw InputError(e.place, fmt::format("the outermost element is <{}>, expected <scene>", e.tag));
     if (const Attribute* version = parent_tag.empty() ? e.find("version") : nullptr) {
-        check_version(*version);
+        old_ = is_old(*version);
         // An included file may hold a single object, which then carries the version.
         if (e.tag != "scene") e.attributes.erase(e.attributes.begin() + (version - e.attributes.data()));
     }
     check_attributes(e);
     for (Attribute& a : e.attributes) definitions_.substitute(a);
     read_children(source, node, e, depth);
+    if (old_) upgrade_parameters(e, warnings_);
+    if (e.tag == "spectrum") write_out_spectrum(e, document_);
     return e;
 }
 
@@ -112,7 +122,7 @@ void Loader::read_children(const SourceText& source, pugi::xml_node node, Elemen
             std::error_code error;
             if (!fs::is_directory(folder, error))
                 throw InputError(value.place, fmt::format("there is no folder '{}'", folder.string()));
-            document_.folders.push_back(folder.string());
+            document_.folders.insert(document_.folders.begin(), folder.string());
         } else if (e.tag == "include") {
             include(e, parent);
         } else {
@@ -145,7 +155,7 @@ void Loader::include(const Element& e, Element& parent) {
     }
 }
 
-void Loader::check_version(const Attribute& version) {
+bool Loader::is_old(const Attribute& version) {
     const std::string& text = version.value;
     int numbers[3] = {0, 0, 0}, count = 0;
     const char *at = text.data(), *end = at + text.size();
@@ -158,12 +168,9 @@ void Loader::check_version(const Attribute& version) {
     }
     if (count == 0 || at != end || text.ends_with('.'))
         throw InputError(version.place, fmt::format("'{}' is not a version, expected for example 3.0.0", text));
-    if (numbers[0] < 2)
-        throw InputError(version.place,
-                         fmt::format("scene version {} is not read yet, expected 2.0.0 or above; a later version of neumann will "
-                                     "upgrade such files",
-                                     text));
-    if (numbers[0] > 3) throw InputError(version.place, fmt::format("scene version {} is not known, expected 2.x or 3.x", text));
+    if ((numbers[0] == 0 && numbers[1] < 4) || numbers[0] > 3)
+        throw InputError(version.place, fmt::format("scene version {} is not known, expected 0.4 to 3.x", text));
+    return numbers[0] < 2;
 }
 
 }  // namespace
@@ -184,9 +191,9 @@ std::string Document::find_file(const Attribute& name) const {
     throw InputError(name.place, fmt::format("there is no file '{}'; looked in: {}", name.value, join(shown)));
 }
 
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions) {
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings) {
     Document document;
-    Loader(document, definitions).read_main(path);
+    Loader(document, definitions, warnings).read_main(path);
     return document;
 }
 

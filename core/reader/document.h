@@ -1,6 +1,7 @@
-// A scene file and all that it includes, as one tree without <include>, <default> and <path>.
+// A scene file and all that it includes, as one tree without <include>, <default> and <path>, and with spectra as lists.
 #pragma once
 
+#include "core/base/warnings.h"
 #include "core/reader/element.h"
 
 #include <map>
@@ -9,14 +10,15 @@ namespace neumann::reader {
 
 struct Document {
     Element root;                      // <scene>
-    std::vector<std::string> files;    // the XML files that were read, in their order
-    std::vector<std::string> folders;  // where files are looked for: the main scene's folder, and those of <path>
+    std::vector<std::string> files;    // the XML files and spectra that were read, in their order
+    std::vector<std::string> folders;  // where files are looked for: those of <path>, the last first, and the main scene's
 
     // The file that an attribute names: in the folders, or beside the file that the attribute stands in. Throws InputError if there
     // is none.
     std::string find_file(const Attribute& name) const;
 };
 
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions);
+// What was upgraded in files of older versions is noted in `warnings`.
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings);
 
 }  // namespace neumann::reader

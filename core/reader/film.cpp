@@ -1,13 +1,15 @@
 #include "core/reader/properties.h"
 #include "core/reader/sensor.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace neumann::reader {
 
 namespace {
 
-constexpr int max_size = 65536;
+constexpr int max_size = 65536, max_lobes = 64;
 
 int read_size(Properties& p, const std::string& name, int missing) {
     const std::int64_t value = p.integer(name).value_or(missing);
@@ -29,6 +31,33 @@ int read_crop(Properties& p, const std::string& name, int rest) {
     return value;
 }
 
+double read_width(Properties& p, const std::string& name, double missing) {
+    const double value = p.number(name).value_or(missing);
+    if (value <= 0.0) p.fail(name, fmt::format("{} is {}, expected more than 0", name, value));
+    return value;
+}
+
+// Mitchell and Netravali's own range; far outside it the weights of what the film's edges leave of a filter may add up to nothing.
+double read_mitchell_parameter(Properties& p, const std::string& name) {
+    const double value = p.number(name).value_or(1.0 / 3.0);
+    if (value < 0.0 || value > 1.0) p.fail(name, fmt::format("{} is {}, expected from 0 to 1", name, value));
+    return value;
+}
+
+PixelFilter read_filter_type(const std::string& type, Properties& p) {
+    if (type == "box") return BoxFilter();
+    if (type == "tent") return TentFilter(read_width(p, "radius", 1.0));
+    if (type == "gaussian") return GaussianFilter(read_width(p, "stddev", 0.5));
+    if (type == "catmullrom") return SignedFilter::catmull_rom();
+    if (type == "lanczos") {
+        const std::int64_t lobes = p.integer("lobes").value_or(3);
+        if (lobes < 1 || lobes > max_lobes) p.fail("lobes", fmt::format("lobes is {}, expected from 1 to {}", lobes, max_lobes));
+        return SignedFilter::lanczos(static_cast<int>(lobes));
+    }
+    const double b = read_mitchell_parameter(p, "B");
+    return SignedFilter::mitchell(b, read_mitchell_parameter(p, "C"));
+}
+
 }  // namespace
 
 Film read_film(const Element& e, const Context& context) {
@@ -42,13 +71,12 @@ Film read_film(const Element& e, const Context& context) {
     film.crop_width = read_crop(p, "crop_width", film.width - film.crop_x);
     film.crop_height = read_crop(p, "crop_height", film.height - film.crop_y);
     // Pictures are written as OpenEXR, float32 and RGB.
-    p.choice("file_format", {"openexr"}, "openexr");
+    p.choice("file_format", {"exr", "openexr"}, "openexr");
     p.choice("pixel_format", {"rgb", "rgba"}, "rgb");
     p.choice("component_format", {"float16", "float32", "uint32"}, "float16");
     p.boolean("banner");
     p.boolean("compensate");
-    if (p.boolean("sample_border").value_or(false))
-        p.fail("sample_border", "sample_border is true, which is not supported; allowed: false");
+    film.sample_border = p.boolean("sample_border").value_or(false);
     const std::vector<const Element*> filters = p.nested("rfilter");
     p.finish();
     if (!filters.empty()) film.filter = read_filter(*filters.front(), context);
@@ -56,15 +84,11 @@ Film read_film(const Element& e, const Context& context) {
 }
 
 PixelFilter read_filter(const Element& e, const Context& context) {
+    static const std::vector<std::string> types = {"box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent"};
     const std::string& type = e.attribute("type").value;
-    if (type != "box" && type != "gaussian") fail_type(e, {"box", "gaussian"});
+    if (std::find(types.begin(), types.end(), type) == types.end()) fail_type(e, types);
     Properties p(e, context.objects);
-    PixelFilter filter = BoxFilter();
-    if (type == "gaussian") {
-        const double stddev = p.number("stddev").value_or(0.5);
-        if (stddev <= 0.0) p.fail("stddev", fmt::format("stddev is {}, expected more than 0", stddev));
-        filter = GaussianFilter(stddev);
-    }
+    const PixelFilter filter = read_filter_type(type, p);
     p.finish();
     return filter;
 }

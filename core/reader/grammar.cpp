@@ -8,7 +8,7 @@ namespace neumann::reader {
 
 namespace {
 
-enum class Kind { root, object, parameter, transform, operation, instruction, top_instruction, reference };
+enum class Kind { root, object, parameter, spectrum, transform, operation, instruction, top_instruction, reference };
 
 struct Rule {
     std::string tag;
@@ -37,7 +37,7 @@ const std::vector<Rule>& rules() {
         {"integer", Kind::parameter, {"name", "value"}, {}},
         {"point", Kind::parameter, {"name"}, {"value", "x", "y", "z"}},
         {"rgb", Kind::parameter, {"name", "value"}, {}},
-        {"spectrum", Kind::parameter, {"name", "value"}, {}},
+        {"spectrum", Kind::spectrum, {"name"}, {"value", "filename", "type"}},
         {"string", Kind::parameter, {"name", "value"}, {}},
         {"transform", Kind::transform, {"name"}, {}},
         {"vector", Kind::parameter, {"name"}, {"value", "x", "y", "z"}},
@@ -61,6 +61,8 @@ bool allowed(Kind child, Kind parent) {
             return child == Kind::object || child == Kind::instruction || child == Kind::top_instruction;
         case Kind::object:
             return child != Kind::root && child != Kind::operation && child != Kind::top_instruction;
+        case Kind::spectrum:
+            return child == Kind::parameter;
         case Kind::transform:
             return child == Kind::operation;
         default:
@@ -77,7 +79,7 @@ bool is_object(std::string_view tag) {
 
 bool is_parameter(std::string_view tag) {
     const Rule* rule = rule_of(tag);
-    return rule && (rule->kind == Kind::parameter || rule->kind == Kind::transform);
+    return rule && (rule->kind == Kind::parameter || rule->kind == Kind::spectrum || rule->kind == Kind::transform);
 }
 
 void check_place(const Element& element, const std::string& parent_tag) {

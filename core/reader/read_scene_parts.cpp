@@ -1,6 +1,7 @@
 #include "core/reader/area_lights.h"
 #include "core/reader/bsdfs.h"
 #include "core/reader/file_hash.h"
+#include "core/reader/integrator.h"
 #include "core/reader/properties.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/sensor.h"
@@ -48,13 +49,17 @@ void check_unused(const Element& root, const Context& context, const Bsdfs& bsdf
 
 SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions) {
     using namespace reader;
-    const Document document = read_document(path, definitions);
-    const Objects objects(document.root);
     SceneParts parts;
+    const Document document = read_document(path, definitions, parts.warnings);
+    const Objects objects(document.root);
     std::vector<std::string> mesh_files;
     const Context context{document, objects, parts.warnings, mesh_files};
 
-    if (const Element* e = only(document.root, "integrator")) parts.bounces = read_integrator(*e, context);
+    if (const Element* e = only(document.root, "integrator")) {
+        const Integrator integrator = read_integrator(*e, context);
+        parts.bounces = integrator.bounces;
+        parts.hide_emitters = integrator.hide_emitters;
+    }
     const Element* sensor = only(document.root, "sensor");
     if (!sensor) throw InputError(document.root.place, "the scene has no <sensor>, expected one");
     const Sensor s = read_sensor(*sensor, context);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -95,22 +94,6 @@ SamplerKind read_sampler(const Element& e, const Context& context) {
     p.finish();
     // The others are stratified in ways that an Owen-scrambled Sobol' sequence contains.
     return type == "independent" ? SamplerKind::independent : SamplerKind::sobol;
-}
-
-std::optional<int> read_integrator(const Element& e, const Context& context) {
-    if (e.attribute("type").value != "path") fail_type(e, {"path"});
-    Properties p(e, context.objects);
-    const std::int64_t depth = p.integer("max_depth").value_or(-1);
-    if (depth == 0 || depth < -1 || depth > std::numeric_limits<int>::max())
-        p.fail("max_depth", fmt::format("max_depth is {}, expected -1 or at least 1", depth));
-    // Here roulette begins only after the last bounce that is asked for.
-    const std::int64_t roulette = p.integer("rr_depth").value_or(5);
-    if (roulette < 1) p.fail("rr_depth", fmt::format("rr_depth is {}, expected at least 1", roulette));
-    if (p.boolean("hide_emitters").value_or(false))
-        p.fail("hide_emitters", "hide_emitters is true, which is not supported; allowed: false");
-    p.finish();
-    if (depth == -1) return std::nullopt;
-    return static_cast<int>(depth) - 1;  // Mitsuba counts the vertices after the camera's
 }
 
 }  // namespace neumann::reader

@@ -1,4 +1,4 @@
-// <sensor type="perspective">, with its film and sampler, and <integrator type="path">.
+// <sensor type="perspective">, with its film and sampler.
 #pragma once
 
 #include "core/reader/context.h"
@@ -16,7 +16,5 @@ Sensor read_sensor(const Element& e, const Context& context);
 Film read_film(const Element& e, const Context& context);
 PixelFilter read_filter(const Element& e, const Context& context);
 SamplerKind read_sampler(const Element& e, const Context& context);
-// The last bounce, if the file limits them.
-std::optional<int> read_integrator(const Element& e, const Context& context);
 
 }  // namespace neumann::reader

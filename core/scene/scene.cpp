@@ -38,8 +38,8 @@ Scene make_scene(SceneParts parts) {
     if (max_component(materials.largest_albedo()) > 1.0)
         warnings.add("reflectance above 1: a surface gives back more light than it receives");
     const Perspective camera(parts.camera, parts.film);
-    return {std::move(geometry), std::move(materials),  std::move(emitters), camera, parts.film, parts.bounces,
-            parts.sampler,       std::move(parts.hash), std::move(warnings)};
+    return {std::move(geometry), std::move(materials),  std::move(emitters), camera, parts.film, parts.bounces, parts.sampler,
+            parts.hide_emitters, std::move(parts.hash), std::move(warnings)};
 }
 
 }  // namespace neumann

@@ -24,6 +24,8 @@ struct Scene {
     // What the scene file asks for, if it does; the command line overrides it.
     std::optional<int> bounces;
     std::optional<SamplerKind> sampler;
+    // Camera rays go through lights, and what surrounds the scene is black to them: there is no bounce 0.
+    bool hide_emitters = false;
 
     std::string hash;  // of all files the scene was read from; empty for a scene made otherwise
     Warnings warnings;
@@ -39,6 +41,7 @@ struct SceneParts {
     Film film;
     std::optional<int> bounces;
     std::optional<SamplerKind> sampler;
+    bool hide_emitters = false;
     std::string hash;
     Warnings warnings;
 };

@@ -4,6 +4,8 @@
 #include "core/geometry/ray.h"
 #include "core/sensor/pixel_filter.h"
 
+#include <limits>
+
 namespace neumann {
 
 struct Film {
@@ -11,6 +13,16 @@ struct Film {
     int crop_x = 0, crop_y = 0;     // the part that is rendered
     int crop_width = 768, crop_height = 576;
     PixelFilter filter = GaussianFilter();
+    bool sample_border = false;  // whether samples lie beyond the film's edges too, or the filter is cut off there
+
+    // For the pixel (x, y) of the whole film.
+    FilmSample sample(const Vec2& u, int x, int y) const {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const auto extent = [&](int size) {
+            return sample_border ? FilmExtent{-infinity, infinity} : FilmExtent{0.0, double(size)};
+        };
+        return neumann::sample(filter, u, x, y, extent(width), extent(height));
+    }
 };
 
 // From the camera into the scene; ends at the far plane.

@@ -151,12 +151,12 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                 SobolSampler& sampler = work.samplers[i];
                 const std::uint64_t sample_number = std::uint64_t{r} * settings.samples + i % settings.samples;
                 sampler.start(sample_number);
-                const Vec2 film = sample(scene.film.filter, sampler.next2(), scene.film.crop_x + static_cast<int>(pixel) % width,
-                                         scene.film.crop_y + static_cast<int>(pixel) / width, scene.film.width, scene.film.height);
-                work.samples.push_back({scene.camera.ray(film), work.values.data() + offset * all + r * stride,
-                                        i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr,
-                                        difference_weight, &sampler, &work.gather_samplers[offset],
-                                        sample_number * settings.gather_rays});
+                const FilmSample film = scene.film.sample(sampler.next2(), scene.film.crop_x + static_cast<int>(pixel) % width,
+                                                          scene.film.crop_y + static_cast<int>(pixel) / width);
+                work.samples.push_back(
+                    {scene.camera.ray(film.position), film.weight, work.values.data() + offset * all + r * stride,
+                     i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr, difference_weight,
+                     &sampler, &work.gather_samplers[offset], sample_number * settings.gather_rays});
             }
             const auto rays = reader.read({series[r].fine, series[r].coarse}, work.samples);
             for (std::size_t k = 0; k < 3; ++k) work.rays[k] += rays[k];

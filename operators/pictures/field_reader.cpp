@@ -3,6 +3,7 @@
 #include "core/base/frame.h"
 #include "core/base/hot.h"
 #include "core/sampling/power_heuristic.h"
+#include "core/scene/pass_lights.h"
 
 #include <algorithm>
 
@@ -109,18 +110,18 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
 
 NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fields, std::span<const PixelSample> samples) const {
     std::vector<Look> looks;
-    find_first_points(samples, looks);
-    std::array<std::uint64_t, 3> rays{samples.size(), 0, 0};
+    std::array<std::uint64_t, 3> rays{find_first_points(samples, looks), 0, 0};
     if (method_ == FieldMethod::patches) {
         for (const Look& l : looks) {
-            add_constant(fields.fine, l.x, l.wo, 1.0f, l.sample->values);
+            const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
+            add_constant(fields.fine, l.x, l.wo, weight, l.sample->values);
             if (!l.sample->difference) continue;
-            add_constant(fields.fine, l.x, l.wo, l.sample->difference_weight, l.sample->difference);
-            add_constant(fields.coarse, l.x, l.wo, -l.sample->difference_weight, l.sample->difference);
+            add_constant(fields.fine, l.x, l.wo, of_difference, l.sample->difference);
+            add_constant(fields.coarse, l.x, l.wo, -of_difference, l.sample->difference);
         }
         return rays;
     }
-    for (const Look& l : looks) add(l.sample->values, 0, scene_.emitters.emitted(l.x, l.wo));
+    for (const Look& l : looks) add(l.sample->values, 0, l.sample->weight * scene_.emitters.emitted(l.x, l.wo));
     std::erase_if(looks, [](const Look& l) { return !l.bsdf; });
     if (from_field_ > 3) rays[1] = find_lights(looks) + find_lights_by_chance(looks);
     const auto to_gather = method_ == FieldMethod::gather
@@ -128,17 +129,18 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
                                : std::stable_partition(looks.begin(), looks.end(), [](const Look& l) { return l.diffuse; });
     for (const Look& l : std::span(looks.begin(), to_gather)) {
         const Patches::Place place = fields.fine.space().patches().place(l.x);
-        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, 1.0f, l.sample->values);
+        const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
+        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, weight, l.sample->values);
         if (!l.sample->difference) continue;
-        const float weight = l.sample->difference_weight;
-        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, weight, l.sample->difference);
-        add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, -weight, l.sample->difference);
+        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, of_difference, l.sample->difference);
+        add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, -of_difference, l.sample->difference);
     }
     rays[2] = gather(fields, std::span(to_gather, looks.end()));
     return rays;
 }
 
-void FieldReader::find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const {
+std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const {
+    std::uint64_t cast = samples.size();
     looks.reserve(samples.size());
     std::array<SurfacePoint, packet> hits;
     std::array<Ray, packet> rays;
@@ -148,9 +150,12 @@ void FieldReader::find_first_points(std::span<const PixelSample> samples, std::v
         const std::uint32_t found = scene_.geometry.first_hits(std::span<const Ray>(rays).first(n),
                                                                [&](std::size_t i) -> SurfacePoint& { return hits[i]; });
         for (std::size_t i = 0; i < n; ++i) {
-            if (!(found >> i & 1u)) {
+            const bool hit = found >> i & 1u;
+            if (scene_.hide_emitters && (!hit || !pass_lights(scene_.emitters, scene_.geometry, rays[i].direction, hits[i], cast)))
+                continue;
+            if (!hit) {
                 hits[i].shape = SurfacePoint::infinity;
-                add(samples[begin + i].values, 0, scene_.emitters.emitted(hits[i], -rays[i].direction));
+                add(samples[begin + i].values, 0, samples[begin + i].weight * scene_.emitters.emitted(hits[i], -rays[i].direction));
                 continue;
             }
             Look& l = looks.emplace_back();
@@ -161,6 +166,7 @@ void FieldReader::find_first_points(std::span<const PixelSample> samples, std::v
             l.diffuse = l.bsdf && lobe(*l.bsdf).kind == Lobe::Kind::diffuse;
         }
     }
+    return cast;
 }
 
 // Points on lights.
@@ -174,7 +180,8 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
         const SurfaceSide side = scene_.materials.side(l.x, l.wo);
         const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
         const double pdf_other = looks_for_lights(l) ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
-        l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight * (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
+        l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight *
+                   (l.sample->weight * std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
         if (is_black(l.weight)) continue;
         l.y = light.point;
         asking.push_back(&l);
@@ -198,7 +205,8 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
     const Emitters& emitters = scene_.emitters;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction(scene_.materials, *l.sample->sampler)) asking.push_back(&l);
+        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
+            asking.push_back(&l);
     }
     for_hits(
         scene_.geometry, asking.size(),
@@ -208,7 +216,8 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
             const Look& l = *asking[i];
             const Rgb emitted = emitters.emitted(l.y, -l.wi);
             if (is_black(emitted)) return;
-            add(l.sample->values, 1, l.weight * emitted * power_heuristic(l.pdf, emitters.pdf(l.x.position, l.wi, l.y)));
+            add(l.sample->values, 1,
+                l.weight * emitted * (l.sample->weight * power_heuristic(l.pdf, emitters.pdf(l.x.position, l.wi, l.y))));
         });
     return asking.size();
 }
@@ -274,7 +283,7 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
         asking.assign(looks.begin(), looks.end());
         for (Look& l : asking) {
             l.goes_on = true;
-            l.through = Rgb(1.0 / gather_rays_);
+            l.through = Rgb(l.sample->weight / gather_rays_);
         }
         for (;;) {
             for (Look& l : asking) {

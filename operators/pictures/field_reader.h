@@ -26,12 +26,13 @@ struct FieldPair {
     const FieldStack& coarse;
 };
 
-// A camera ray and where its sample is added up: three floats for each quantity of FieldStack. `difference` takes, where it is not
-// null, `difference_weight` times what finer patches show more than coarser ones. `sampler` has not been asked for numbers that
-// belong to what follows; `gather_sampler` is for all gather rays of the pixel, and those of this sample begin at
+// A camera ray, and where its sample is added up, times `weight`: three floats for each quantity of FieldStack. `difference` takes,
+// where it is not null, `difference_weight` times what finer patches show more than coarser ones. `sampler` has not been asked for
+// numbers that belong to what follows; `gather_sampler` is for all gather rays of the pixel, and those of this sample begin at
 // `first_gather_ray`, so that they are stratified together.
 struct PixelSample {
     CameraRay ray;
+    double weight;
     float* values;
     float* difference;
     float difference_weight;
@@ -50,7 +51,8 @@ public:
 
 private:
     struct Look;
-    void find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const;
+    // Returns the rays cast.
+    std::uint64_t find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const;
     std::uint64_t find_lights(std::vector<Look>& looks) const;
     std::uint64_t find_lights_by_chance(std::vector<Look>& looks) const;
     std::uint64_t gather(const FieldPair& fields, std::span<const Look> looks) const;

@@ -23,12 +23,14 @@ constexpr std::uint32_t walks_at_once = 64;
 struct Workspace {
     Workspace(std::size_t pixels, std::size_t replicate_size, std::size_t quantities, std::size_t levels)
         : rays(pixels * replicate_size),
+          weights(rays.size()),
           samples(rays.size() * quantities),
           sum(quantities),
           carry(quantities * PixelMoments::doubles_per_quantity),
           waiting(pixels, std::vector(levels, carry)),
           tally(quantities) {}
     std::vector<CameraRay> rays;
+    std::vector<double> weights;  // of the film's filter
     Walkers walkers;
     std::vector<Rgb> samples, sum;
     std::vector<double> carry;
@@ -71,16 +73,24 @@ void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> sam
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         const Pixel& pixel = pixels[i / size];
         samplers[i].start(replicate * size + i % size);
-        work.rays[i] = scene.camera.ray(sample(film.filter, samplers[i].next2(), pixel.x, pixel.y, film.width, film.height));
+        const FilmSample sample = film.sample(samplers[i].next2(), pixel.x, pixel.y);
+        work.rays[i] = scene.camera.ray(sample.position);
+        work.weights[i] = sample.weight;
     }
     std::fill(work.samples.begin(), work.samples.end(), Rgb(0.0));
     TermSamples result{work.samples, work.tally.rays};
     estimate(std::span<const CameraRay>(work.rays).first(samplers.size()), samplers, work.walkers, result);
     work.tally.given_up += result.given_up;
+    const std::size_t quantities = work.sum.size();
+    for (std::size_t i = 0; i < samplers.size(); ++i) {
+        if (work.weights[i] == 1.0) continue;
+        for (Rgb& x : std::span(work.samples).subspan(i * quantities, quantities)) x *= work.weights[i];
+    }
 }
 
 // The means of one pixel's samples of a replicate, into work.sum.
-void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, Workspace& work) {
+void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, bool has_negative_weights,
+             Workspace& work) {
     const std::size_t quantities = work.sum.size();
     std::copy_n(samples.begin(), quantities, work.sum.begin());
     for (std::size_t i = 1; i < size; ++i)
@@ -91,9 +101,9 @@ void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::
         largest.add_count(size);
         if (!is_finite(sum)) [[unlikely]]
             sum = leave_out_non_finite(samples, size, q, pixel, replicate, work);
-        // Samples are not negative, so none exceeds the sum.
-        if (max_component(sum) > largest.threshold())
-            for (std::size_t i = 0; i < size; ++i) largest.add(max_component(samples[i * quantities + q]));
+        // Samples that are not negative do not exceed their sum.
+        if (has_negative_weights || max_component(sum) > largest.threshold())
+            for (std::size_t i = 0; i < size; ++i) largest.add(max_component(glm::abs(samples[i * quantities + q])));
         sum *= 1.0 / static_cast<double>(size);
     }
 }
@@ -166,7 +176,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             trace(scene_, estimate, std::span(samplers), some, first + r, work);
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.samples).subspan(i * size * quantities(), size * quantities()), size, some[i], first + r,
-                        work);
+                        std::holds_alternative<SignedFilter>(scene_.film.filter), work);
                 append(r, work.waiting[i], work);
             }
         }

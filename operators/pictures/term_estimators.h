@@ -48,7 +48,11 @@ public:
             for (std::size_t k = 0; k < terms_.size(); ++k) result.rays[k] += k + 1;
             const CameraRay& ray = rays[i];
             SurfacePoint seen;
-            if (!scene_->geometry.first_hit(ray.origin, ray.direction, ray.length, seen)) seen.shape = SurfacePoint::infinity;
+            const bool hit = scene_->geometry.first_hit(ray.origin, ray.direction, ray.length, seen);
+            if (!hit) seen.shape = SurfacePoint::infinity;
+            if (scene_->hide_emitters &&
+                (!hit || !pass_lights(scene_->emitters, scene_->geometry, ray.direction, seen, result.rays[0])))
+                continue;
             FromSampler random(samplers[i]);
             const auto quantities = result.quantities.subspan(i * (terms_.size() + 1), terms_.size());
             for (std::size_t k = 0; k < terms_.size(); ++k) quantities[k] += terms_[k](seen, -ray.direction, random);

@@ -11,7 +11,7 @@
 #include "core/base/frame.h"
 #include "core/base/hot.h"
 #include "core/sampling/power_heuristic.h"
-#include "core/scene/scene.h"
+#include "core/scene/pass_lights.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -110,6 +110,8 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
             [&](Walker& w, std::uint32_t i) {
                 w.wo = -rays[i].direction;
                 w.beta = Rgb(1.0);
+                if (scene.hide_emitters && (w.x.is_infinite() || !pass_lights(emitters, T, rays[i].direction, w.x, out.rays[0])))
+                    return false;
                 add(i, 0, emitters.emitted(w.x, w.wo));
                 return !w.x.is_infinite();
             });
@@ -209,9 +211,8 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
             if ((settings.direct != DirectLight::light || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);
                 if (!is_black(emitted)) {
-                    const double weight = settings.direct == DirectLight::mis
-                                              ? power_heuristic(w.pdf, emitters.pdf(w.from, w.wi, w.x))
-                                              : 1.0;
+                    const double weight =
+                        settings.direct == DirectLight::mis ? power_heuristic(w.pdf, emitters.pdf(w.from, w.wi, w.x)) : 1.0;
                     add(i, q, w.beta * emitted * weight);
                 }
             }

@@ -63,8 +63,7 @@ struct Setup {
                     Counting& sampler = samplers[camera_rays.size()];
                     sampler.sampler.start(i);
                     const int x = static_cast<int>(pixel) % film.width, y = static_cast<int>(pixel) / film.width;
-                    camera_rays.push_back(
-                        scene.camera.ray(neumann::sample(film.filter, sampler.next2(), x, y, film.width, film.height)));
+                    camera_rays.push_back(scene.camera.ray(film.sample(sampler.next2(), x, y).position));
                 }
             }
             walk(scene, rays, settings.walk, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);

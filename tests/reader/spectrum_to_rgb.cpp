@@ -1,6 +1,7 @@
 // Spectra as colours, against the CIE's figures and the colours that Mitsuba's Cornell box gives for its own spectra.
 #include "core/spectrum/spectrum_to_rgb.h"
 
+#include "core/spectrum/blackbody.h"
 #include "core/spectrum/cie.h"
 
 #include <gtest/gtest.h>
@@ -112,6 +113,41 @@ TEST(SpectrumToRgb, CornellBoxAsReflectance) {
 TEST(SpectrumToRgb, CornellBoxLamp) {
     const SpectrumTable lamp = {{400.0, 500.0, 600.0, 700.0}, {0.0, 8.0, 15.6, 18.4}};
     expect_near(spectrum_to_rgb(lamp, Illuminant::equal_energy), {20.7113, 10.85459, 2.771149}, 1e-4);
+}
+
+TEST(BlackBody, LawsOfStefanAndBoltzmannAndOfWien) {
+    for (const double temperature : {1000.0, 5000.0}) {
+        double sum = 0.0, largest = 0.0, at = 0.0;
+        for (double w = 50.0; w < 200'000.0; w += 1.0) {
+            const double radiance = blackbody_radiance(w, temperature);
+            sum += radiance;
+            if (radiance > largest) largest = radiance, at = w;
+        }
+        EXPECT_NEAR(3.14159265358979 * sum / (5.670374419e-8 * std::pow(temperature, 4.0)), 1.0, 1e-5);
+        EXPECT_NEAR(at, 2.897771955e6 / temperature, 1.0);
+    }
+}
+
+// Chromaticities of black bodies (Wyszecki and Stiles, Color Science, 2nd edition, table 3(3.11), to four digits) and of the CIE's
+// illuminant A, which is one of 2855.5 K.
+TEST(BlackBody, Chromaticities) {
+    struct Published {
+        double temperature, x, y;
+    };
+    for (const auto& [temperature, x, y] : {Published{2000.0, 0.5267, 0.4133}, Published{2855.5, 0.44758, 0.40745},
+                                            Published{4000.0, 0.3805, 0.3768}, Published{10000.0, 0.2807, 0.2884}}) {
+        SpectrumTable s;
+        for (int w = 360; w <= 830; ++w) {
+            s.wavelengths.push_back(w);
+            s.values.push_back(blackbody_radiance(w, temperature));
+        }
+        const Rgb c = spectrum_to_rgb(s, Illuminant::equal_energy);
+        // ITU-R BT.709's way back.
+        const Vec3 xyz(0.412453 * c.r + 0.357580 * c.g + 0.180423 * c.b, 0.212671 * c.r + 0.715160 * c.g + 0.072169 * c.b,
+                       0.019334 * c.r + 0.119193 * c.g + 0.950227 * c.b);
+        EXPECT_NEAR(xyz.x / (xyz.x + xyz.y + xyz.z), x, 2e-4) << temperature << " K";
+        EXPECT_NEAR(xyz.y / (xyz.x + xyz.y + xyz.z), y, 2e-4) << temperature << " K";
+    }
 }
 
 TEST(Srgb, Decode) {

@@ -103,6 +103,65 @@ TEST_F(XmlAccepted, MaxDepthCountsOneMoreThanBounces) {
     EXPECT_EQ(bounces(""), std::nullopt);
 }
 
+TEST_F(XmlAccepted, Integrators) {
+    const auto scene = [&](const std::string& integrator) { return read(integrator); };
+    const SceneParts direct = scene("<integrator type='direct'><integer name='emitter_samples' value='0'/></integrator>");
+    EXPECT_EQ(direct.bounces, 1);
+    EXPECT_FALSE(direct.hide_emitters);
+    EXPECT_EQ(scene("<integrator type='direct'><integer name='shading_samples' value='4'/></integrator>").bounces, 1);
+    EXPECT_TRUE(scene("<integrator type='direct'><boolean name='hide_emitters' value='true'/></integrator>").hide_emitters);
+    const SceneParts moment = scene(
+        "<integrator type='moment'><integrator type='path' name='first'><integer name='max_depth' value='4'/>"
+        "<boolean name='hide_emitters' value='true'/></integrator></integrator>");
+    EXPECT_EQ(moment.bounces, 3);
+    EXPECT_TRUE(moment.hide_emitters);
+    EXPECT_EQ(scene("<integrator type='path'><integer name='samples_per_pass' value='8'/><integer name='block_size' value='32'/>"
+                    "<float name='timeout' value='-1'/></integrator>")
+                  .bounces,
+              std::nullopt);
+}
+
+TEST_F(XmlAccepted, Filters) {
+    const auto filter = [&](const std::string& inside) {
+        return read_sensor("<float name='fov' value='9'/><film type='hdrfilm'>" + inside + "</film>").film.filter;
+    };
+    EXPECT_EQ(std::get<TentFilter>(filter("<rfilter type='tent'/>")).radius(), 1.0);
+    EXPECT_EQ(std::get<TentFilter>(filter("<rfilter type='tent'><float name='radius' value='2.5'/></rfilter>")).radius(), 2.5);
+    EXPECT_EQ(std::get<GaussianFilter>(filter("<rfilter type='gaussian'><float name='stddev' value='1'/></rfilter>")).radius(),
+              4.0);
+    const auto at = [&](const std::string& inside, double x) { return std::get<SignedFilter>(filter(inside))(x); };
+    // Mitchell and Netravali's values at 0 and 1: 1 − B/3 and B/6.
+    EXPECT_NEAR(at("<rfilter type='mitchell'/>", 0.0), 8.0 / 9.0, 1e-15);
+    EXPECT_NEAR(at("<rfilter type='mitchell'/>", -1.0), 1.0 / 18.0, 1e-15);
+    EXPECT_NEAR(at("<rfilter type='mitchell'><float name='B' value='1'/><float name='C' value='0'/></rfilter>", 1.0), 1.0 / 6.0,
+                1e-15);
+    EXPECT_NEAR(at("<rfilter type='catmullrom'/>", 0.0), 1.0, 1e-15);
+    EXPECT_NEAR(at("<rfilter type='catmullrom'/>", 1.5), -0.0625, 1e-15);
+    // sinc(3/2) sinc(1/2) = −4 / (3 π²).
+    EXPECT_NEAR(at("<rfilter type='lanczos'/>", 1.5), -4.0 / (3.0 * std::numbers::pi * std::numbers::pi), 1e-15);
+    EXPECT_EQ(std::get<SignedFilter>(filter("<rfilter type='lanczos'/>")).radius(), 3.0);
+    EXPECT_EQ(std::get<SignedFilter>(filter("<rfilter type='lanczos'><integer name='lobes' value='5'/></rfilter>")).radius(), 5.0);
+    EXPECT_FALSE(read("").film.sample_border);
+    EXPECT_TRUE(read_sensor("<float name='fov' value='9'/><film type='hdrfilm'><boolean name='sample_border' value='true'/>"
+                            "<string name='file_format' value='exr'/></film>")
+                    .film.sample_border);
+}
+
+// As in Mitsuba, what <path> names comes first, the last one before the others.
+TEST_F(XmlAccepted, OrderOfFolders) {
+    const auto sphere = [](int radius) {
+        return "<scene version='3.0.0'><shape type='sphere'><float name='radius' value='" + std::to_string(radius) +
+               "'/></shape></scene>";
+    };
+    write("one/a.xml", sphere(1));
+    write("two/a.xml", sphere(2));
+    write("a.xml", sphere(3));
+    const auto radius = [&](const std::string& body) { return std::get<Sphere>(read(body).shapes.at(0)).radius; };
+    EXPECT_EQ(radius("<include filename='a.xml'/>"), 3.0);
+    EXPECT_EQ(radius("<path value='one'/><include filename='a.xml'/>"), 1.0);
+    EXPECT_EQ(radius("<path value='one'/><path value='two'/><include filename='a.xml'/>"), 2.0);
+}
+
 TEST_F(XmlAccepted, Substitution) {
     const std::string body =
         "<default name='r' value='2'/><default name='radius' value='$r.5'/><default name='r' value='7'/>"

@@ -31,10 +31,8 @@ TEST_F(XmlDocumentErrors, WrongRoot) {
 
 TEST_F(XmlDocumentErrors, Versions) {
     EXPECT_EQ(file_error("<scene/>"), "scene.xml:1:1: <scene> lacks the attribute 'version'");
-    EXPECT_EQ(file_error("<scene version=\"0.6.0\"/>"),
-              "scene.xml:1:8: scene version 0.6.0 is not read yet, expected 2.0.0 or above; a later version of neumann will "
-              "upgrade such files");
-    EXPECT_EQ(file_error("<scene version=\"4.0.0\"/>"), "scene.xml:1:8: scene version 4.0.0 is not known, expected 2.x or 3.x");
+    EXPECT_EQ(file_error("<scene version=\"0.3.0\"/>"), "scene.xml:1:8: scene version 0.3.0 is not known, expected 0.4 to 3.x");
+    EXPECT_EQ(file_error("<scene version=\"4.0.0\"/>"), "scene.xml:1:8: scene version 4.0.0 is not known, expected 0.4 to 3.x");
     for (const char* bad : {"three", "", "3.", "3.0.0.0", "3.0.0b", "-3.0.0"})
         EXPECT_EQ(file_error(std::string("<scene version=\"") + bad + "\"/>"),
                   std::string("scene.xml:1:8: '") + bad + "' is not a version, expected for example 3.0.0");
@@ -65,8 +63,8 @@ TEST_F(XmlDocumentErrors, Attributes) {
               "scene.xml:2:22: unknown attribute 'kind' of <shape>; allowed: type, id, name");
     EXPECT_EQ(error("<shape type='sphere'\n       type='cube'/>"), "scene.xml:3:8: attribute 'type' of <shape> is given twice");
     EXPECT_EQ(error("<shape/>"), "scene.xml:2:1: <shape> lacks the attribute 'type'");
-    EXPECT_EQ(error("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" filename=\"a.spd\"/></bsdf>"),
-              "scene.xml:2:51: unknown attribute 'filename' of <spectrum>; allowed: name, value");
+    EXPECT_EQ(error("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" file=\"a.spd\"/></bsdf>"),
+              "scene.xml:2:51: unknown attribute 'file' of <spectrum>; allowed: name, value, filename, type");
 }
 
 TEST_F(XmlDocumentErrors, ElementsTooDeep) {

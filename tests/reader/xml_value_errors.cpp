@@ -23,7 +23,8 @@ TEST_F(XmlValueErrors, UnknownTypes) {
     EXPECT_EQ(error("<bsdf type=\"plastic\"/>"),
               "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: conductor, diffuse, roughconductor, twosided");
     EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
-    EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: path");
+    EXPECT_EQ(error("<integrator type=\"volpath\"/>"),
+              "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: direct, moment, path");
     EXPECT_EQ(
         error("<shape type=\"bsplinecurve\"/>"),
         "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, obj, ply, rectangle, sphere");
@@ -31,7 +32,8 @@ TEST_F(XmlValueErrors, UnknownTypes) {
               "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
               "ldsampler, multijitter, orthogonal, stratified");
     EXPECT_EQ(error("<film type=\"specfilm\"/>"), "scene.xml:2:7: film type 'specfilm' is not supported; allowed: hdrfilm");
-    EXPECT_EQ(error("<rfilter type=\"tent\"/>"), "scene.xml:2:10: rfilter type 'tent' is not supported; allowed: box, gaussian");
+    EXPECT_EQ(error("<rfilter type=\"sinc\"/>"),
+              "scene.xml:2:10: rfilter type 'sinc' is not supported; allowed: box, catmullrom, gaussian, lanczos, mitchell, tent");
     EXPECT_EQ(file_error("<scene version=\"3.0.0\"><sensor type=\"thinlens\"/></scene>"),
               "scene.xml:1:32: sensor type 'thinlens' is not supported; allowed: perspective");
 }
@@ -48,7 +50,8 @@ TEST_F(XmlValueErrors, UnknownParameters) {
     EXPECT_EQ(error("<rfilter type=\"box\"><float name=\"radius\" value=\"1\"/></rfilter>"),
               "scene.xml:2:28: unknown parameter 'radius' of rfilter 'box'; it has none");
     EXPECT_EQ(error("<integrator type=\"path\"><integer name=\"maxdepth\" value=\"1\"/></integrator>"),
-              "scene.xml:2:34: unknown parameter 'maxdepth' of integrator 'path'; allowed: max_depth, rr_depth, hide_emitters");
+              "scene.xml:2:34: unknown parameter 'maxdepth' of integrator 'path'; allowed: max_depth, rr_depth, hide_emitters, "
+              "block_size, samples_per_pass, timeout");
 }
 
 TEST_F(XmlValueErrors, NestedWhereItDoesNotBelong) {
@@ -111,7 +114,7 @@ TEST_F(XmlValueErrors, Colours) {
     EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"0.1, -0.2, 0.3\"/>"),
               "scene.xml:3:25: reflectance is negative: '0.1, -0.2, 0.3'");
     EXPECT_EQ(diffuse_error("<spectrum name=\"reflectance\" value=\"400:0.1, 500:-0.1\"/>"),
-              "scene.xml:3:30: reflectance is negative: '400:0.1, 500:-0.1'");
+              "scene.xml:3:30: reflectance is negative at 500 nm: -0.1");
     EXPECT_EQ(error("<emitter type=\"area\"><float name=\"radiance\" value=\"-1\"/></emitter>"),
               "scene.xml:2:45: radiance is negative: '-1'");
     EXPECT_EQ(diffuse_error("<rgb name=\"reflectance\" value=\"#12345g\"/>"),
@@ -160,18 +163,39 @@ TEST_F(XmlValueErrors, Films) {
     EXPECT_EQ(film_error("<integer name='crop_offset_y' value='500'/><integer name='crop_height' value='77'/>"),
               "scene.xml:3:72: film crop_height is 77, but only 76 pixels are left after the offset");
     EXPECT_EQ(film_error("<string name='pixel_format' value='xyz'/>"), "scene.xml:3:29: pixel_format is 'xyz'; allowed: rgb, rgba");
-    EXPECT_EQ(film_error("<string name='file_format' value='rgbe'/>"), "scene.xml:3:28: file_format is 'rgbe'; allowed: openexr");
-    EXPECT_EQ(film_error("<boolean name='sample_border' value='true'/>"),
-              "scene.xml:3:31: sample_border is true, which is not supported; allowed: false");
+    EXPECT_EQ(film_error("<string name='file_format' value='rgbe'/>"),
+              "scene.xml:3:28: file_format is 'rgbe'; allowed: exr, openexr");
     EXPECT_EQ(film_error("<rfilter type='gaussian'><float name='stddev' value='0'/></rfilter>"),
               "scene.xml:3:47: stddev is 0, expected more than 0");
+    EXPECT_EQ(film_error("<rfilter type='tent'><float name='radius' value='-1'/></rfilter>"),
+              "scene.xml:3:43: radius is -1, expected more than 0");
+    EXPECT_EQ(film_error("<rfilter type='mitchell'><float name='B' value='1.5'/></rfilter>"),
+              "scene.xml:3:42: B is 1.5, expected from 0 to 1");
+    EXPECT_EQ(film_error("<rfilter type='mitchell'><float name='A' value='0'/></rfilter>"),
+              "scene.xml:3:33: unknown parameter 'A' of rfilter 'mitchell'; allowed: B, C");
+    EXPECT_EQ(film_error("<rfilter type='lanczos'><integer name='lobes' value='0'/></rfilter>"),
+              "scene.xml:3:47: lobes is 0, expected from 1 to 64");
 }
 
 TEST_F(XmlValueErrors, IntegratorsAndSamplers) {
     EXPECT_EQ(error("<integrator type='path'><integer name='max_depth' value='0'/></integrator>"),
               "scene.xml:2:51: max_depth is 0, expected -1 or at least 1");
-    EXPECT_EQ(error("<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>"),
-              "scene.xml:2:55: hide_emitters is true, which is not supported; allowed: false");
+    EXPECT_EQ(error("<integrator type='direct'><integer name='max_depth' value='2'/></integrator>"),
+              "scene.xml:2:36: unknown parameter 'max_depth' of integrator 'direct'; allowed: shading_samples, emitter_samples, "
+              "bsdf_samples, hide_emitters, block_size, samples_per_pass, timeout");
+    EXPECT_EQ(error("<integrator type='direct'>\n<integer name='shading_samples' value='2'/><integer name='bsdf_samples' "
+                    "value='2'/></integrator>"),
+              "scene.xml:3:33: both shading_samples and bsdf_samples are given, expected one of them");
+    EXPECT_EQ(error("<integrator type='direct'>\n<integer name='emitter_samples' value='-1'/></integrator>"),
+              "scene.xml:3:33: emitter_samples is -1, expected at least 0");
+    EXPECT_EQ(error("<integrator type='direct'>\n<integer name='emitter_samples' value='0'/><integer name='bsdf_samples' "
+                    "value='0'/></integrator>"),
+              "scene.xml:3:33: integrator 'direct' takes no samples of emitters nor of bsdfs, expected at least 1");
+    EXPECT_EQ(error("<integrator type='moment'/>"), "scene.xml:2:1: integrator 'moment' has no <integrator> inside, expected one");
+    EXPECT_EQ(error("<integrator type='moment'><integrator type='moment'/></integrator>"),
+              "scene.xml:2:1: integrator 'moment' stands inside another one");
+    EXPECT_EQ(error("<integrator type='moment'><integrator type='ptracer'/></integrator>"),
+              "scene.xml:2:39: integrator type 'ptracer' is not supported; allowed: direct, moment, path");
     EXPECT_EQ(error("<sampler type='independent'><integer name='sample_count' value='0'/></sampler>"),
               "scene.xml:2:58: sample_count is 0, expected at least 1");
 }

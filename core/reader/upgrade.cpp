@@ -1,0 +1,79 @@
+#include "core/reader/upgrade.h"
+
+#include <algorithm>
+#include <array>
+
+namespace neumann::reader {
+
+namespace {
+
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+
+// toWorld: to_world; intIOR: int_ior; B: B.
+std::string snake_case(const std::string& name) {
+    std::string result;
+    bool lowering = false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool begins_word = i > 0 && is_lower(name[i - 1]) && is_upper(name[i]);
+        lowering = is_upper(name[i]) && (lowering || begins_word);
+        if (begins_word) result += '_';
+        result += lowering ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
+    }
+    return result;
+}
+
+Element make_operation(const std::string& tag, const Element* x, const Element* y, const Location& place) {
+    Element e{tag, {}, {}, place};
+    for (const auto& [axis, number] : {std::pair{"x", x}, std::pair{"y", y}})
+        if (number) e.attributes.push_back({axis, number->attribute("value").value, number->attribute("value").place});
+    return e;
+}
+
+// As Mitsuba 3 has it, to_uv moves first and scales then.
+void gather_uv_transform(Element& parent, Warnings& warnings) {
+    const auto find = [&](const std::string& name) -> const Element* {
+        const auto found = std::find_if(parent.children.begin(), parent.children.end(),
+                                        [&](const Element& e) { return e.tag == "float" && e.attribute("name").value == name; });
+        return found == parent.children.end() ? nullptr : &*found;
+    };
+    const std::array<const Element*, 4> given = {find("uoffset"), find("voffset"), find("uscale"), find("vscale")};
+    const auto first = std::find_if(given.begin(), given.end(), [](const Element* e) { return e != nullptr; });
+    if (first == given.end()) return;
+    const Element& at = **first;
+    Element transform{"transform", {{"name", "to_uv", at.attribute("name").place}}, {}, at.place};
+    transform.children = {make_operation("translate", given[0], given[1], at.place),
+                          make_operation("scale", given[2], given[3], at.place)};
+    std::vector<Element> others;
+    for (Element& e : parent.children)
+        if (std::find(given.begin(), given.end(), &e) == given.end()) others.push_back(std::move(e));
+    others.push_back(std::move(transform));
+    parent.children = std::move(others);
+    warnings.add("old scene file: uoffset, voffset, uscale and vscale taken as a transform to_uv");
+}
+
+}  // namespace
+
+void upgrade_tag(Element& e, Warnings& warnings) {
+    if (e.tag != "lookAt") return;
+    e.tag = "lookat";
+    warnings.add("old scene file: <lookAt> taken as <lookat>");
+}
+
+void upgrade_parameters(Element& e, Warnings& warnings) {
+    for (Attribute& a : e.attributes) {
+        if (a.name != "name" || e.tag == "default" || snake_case(a.value) == a.value) continue;
+        a.value = snake_case(a.value);
+        warnings.add("old scene file: a name in camelCase taken in snake_case");
+    }
+    if (e.tag == "bsdf" && e.attribute("type").value == "diffuse")
+        for (Element& child : e.children)
+            for (Attribute& a : child.attributes)
+                if (a.name == "name" && a.value == "diffuse_reflectance") {
+                    a.value = "reflectance";
+                    warnings.add("old scene file: diffuseReflectance of bsdf 'diffuse' taken as reflectance");
+                }
+    gather_uv_transform(e, warnings);
+}
+
+}  // namespace neumann::reader

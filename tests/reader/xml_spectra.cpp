@@ -1,0 +1,121 @@
+// <spectrum> in all its forms.
+#include "tests/reader/xml_scene_files.h"
+
+namespace neumann {
+
+class XmlSpectra : public XmlTest {
+protected:
+    Rgb radiance(const std::string& spectrum) const {
+        return read("<shape type='cube'><emitter type='area'>" + spectrum + "</emitter></shape>").lights.at(0).largest;
+    }
+    Rgb reflectance(const std::string& spectrum) const {
+        return largest_albedo(read("<shape type='cube'><bsdf type='diffuse'>" + spectrum + "</bsdf></shape>").bsdfs.at(0));
+    }
+    std::string radiance_error(const std::string& spectrum) const {
+        return error("<shape type='cube'><emitter type='area'>\n" + spectrum + "</emitter></shape>");
+    }
+    static std::string object(const std::string& type, const std::string& inside) {
+        return "<spectrum name='radiance' type='" + type + "'>" + inside + "</spectrum>";
+    }
+};
+
+TEST_F(XmlSpectra, Files) {
+    write("lamps/lamp.spd", "# nm  value\n400 0\n500\t8 # blue\r\n\n  600 15.6\n700 18.4");
+    const std::string list = "<spectrum name='radiance' value='400:0, 500:8, 600:15.6, 700:18.4'/>";
+    EXPECT_EQ(radiance("<spectrum name='radiance' filename='lamps/lamp.spd'/>"), radiance(list));
+    // The file is part of what the scene's hash tells.
+    const std::string body =
+        "<shape type='cube'><emitter type='area'><spectrum name='radiance' filename='lamps/lamp.spd'/></emitter></shape>";
+    const std::string before = read(body).hash;
+    write("lamps/lamp.spd", "400 0\n700 18");
+    EXPECT_NE(read(body).hash, before);
+}
+
+TEST_F(XmlSpectra, FilesThatAreWrong) {
+    const auto file_error = [&](const std::string& text) {
+        write("a.spd", text);
+        return radiance_error("<spectrum name='radiance' filename='a.spd'/>");
+    };
+    EXPECT_EQ(file_error("400 1\n 500 2 3\n"), "a.spd:2:2: the line has 3 numbers, expected a wavelength and a value");
+    EXPECT_EQ(file_error("400 1\n500\n"), "a.spd:2:1: the line has 1 numbers, expected a wavelength and a value");
+    EXPECT_EQ(file_error("400 1\n500 x\n"), "a.spd:2:1: 'x' is not a number");
+    EXPECT_EQ(file_error("400 1\n#\n400 2\n"), "a.spd:3:1: the wavelength 400 follows 400, expected increasing ones");
+    EXPECT_EQ(file_error("400 1\n500 -2\n"), "scene.xml:3:27: radiance is negative at 500 nm: -2");
+    EXPECT_EQ(file_error("400 1\n"), "scene.xml:3:27: found 1 of the at least 2 pairs wavelength:value of a spectrum");
+    EXPECT_EQ(file_error("# nothing\n"), "scene.xml:3:27: '' is not a number");
+    EXPECT_EQ(radiance_error("<spectrum name='radiance' filename='none.spd'/>"),
+              "scene.xml:3:27: there is no file 'none.spd'; looked in: .");
+}
+
+// A radiance that is the same at all wavelengths has X = Y = Z, which is the sum of the matrix' rows and not white; numbers and rgb
+// are white. A reflectance is grey.
+TEST_F(XmlSpectra, OneValue) {
+    const Rgb equal_energy = radiance("<spectrum name='radiance' value='2'/>");
+    EXPECT_NEAR(equal_energy.r, 2.0 * 1.204794, 1e-12);
+    EXPECT_NEAR(equal_energy.g, 2.0 * 0.948291, 1e-12);
+    EXPECT_NEAR(equal_energy.b, 2.0 * 0.908916, 1e-12);
+    const Rgb list = radiance("<spectrum name='radiance' value='360:2, 830:2'/>");
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(equal_energy[i], list[i], 1e-3);
+    EXPECT_EQ(radiance("<float name='radiance' value='2'/>"), Rgb(2.0));
+    EXPECT_EQ(radiance("<rgb name='radiance' value='2'/>"), Rgb(2.0));
+    EXPECT_EQ(reflectance("<spectrum name='reflectance' value='0.5'/>"), Rgb(0.5));
+}
+
+TEST_F(XmlSpectra, Objects) {
+    EXPECT_EQ(radiance(object("uniform", "<float name='value' value='3'/>")), Rgb(3.0));
+    EXPECT_EQ(radiance(object("d65", "<float name='scale' value='3'/>")), Rgb(3.0));
+    EXPECT_EQ(radiance(object("d65", "")), Rgb(1.0));
+    const Rgb list = radiance("<spectrum name='radiance' value='400:1, 500:2, 600:4'/>");
+    EXPECT_EQ(
+        radiance(object("irregular", "<string name='wavelengths' value='400, 500, 600'/><string name='values' value='1 2 4'/>")),
+        list);
+    EXPECT_EQ(radiance(object("regular",
+                              "<float name='wavelength_min' value='400'/><float name='wavelength_max' value='600'/>"
+                              "<string name='values' value='1, 2, 4'/>")),
+              list);
+    EXPECT_EQ(reflectance("<spectrum name='reflectance' type='uniform'><float name='value' value='0.25'/></spectrum>"), Rgb(0.25));
+}
+
+TEST_F(XmlSpectra, BlackBodies) {
+    const Rgb warm = radiance(object("blackbody", "<float name='temperature' value='2856'/>"));
+    EXPECT_GT(warm.r, warm.g);
+    EXPECT_GT(warm.g, warm.b);
+    // The candela was 1/60 of what 1 cm² of a black body gives off at the freezing point of platinum, 2041.4 K.
+    const Rgb platinum = radiance(object("blackbody", "<float name='temperature' value='2041.4'/>"));
+    const double y = 0.2126 * platinum.r + 0.7152 * platinum.g + 0.0722 * platinum.b;
+    EXPECT_NEAR(683.0 * 106.857 * y, 6e5, 3e3);
+    const Rgb part =
+        radiance(object("blackbody", "<float name='temperature' value='2856'/><float name='wavelength_min' value='600'/>"));
+    EXPECT_LT(part.g, warm.g);
+}
+
+TEST_F(XmlSpectra, Errors) {
+    EXPECT_EQ(radiance_error(object("blackbody", "")),
+              "scene.xml:3:1: spectrum 'blackbody' lacks the parameter 'temperature', expected float or integer");
+    EXPECT_EQ(radiance_error(object("blackbody", "<float name='temperature' value='0'/>")),
+              "scene.xml:3:69: temperature is 0, expected more than 0");
+    EXPECT_EQ(
+        radiance_error(object("blackbody", "<float name='temperature' value='9'/><float name='wavelength_min' value='900'/>")),
+        "scene.xml:3:109: wavelength_max is 830, expected more than wavelength_min, 900");
+    EXPECT_EQ(
+        radiance_error(object("blackbody", "<float name='temperature' value='9'/><float name='kelvin' value='9'/>")),
+        "scene.xml:3:86: unknown parameter 'kelvin' of spectrum 'blackbody'; allowed: temperature, wavelength_min, wavelength_max");
+    EXPECT_EQ(error("<bsdf type='diffuse'>\n<spectrum name='reflectance' type='blackbody'><float name='temperature' "
+                    "value='5000'/></spectrum></bsdf>"),
+              "scene.xml:3:1: reflectance is a spectrum 'blackbody', which is for what gives off light");
+    EXPECT_EQ(radiance_error(object("rawconstant", "")),
+              "scene.xml:3:27: spectrum type 'rawconstant' is not supported; allowed: blackbody, d65, irregular, regular, uniform");
+    EXPECT_EQ(radiance_error(object("irregular", "<string name='wavelengths' value='1 2'/><string name='values' value='1'/>")),
+              "scene.xml:3:104: values has 1 numbers, expected 2, as wavelengths has");
+    EXPECT_EQ(radiance_error(object("regular", "<string name='values' value='1'/>")),
+              "scene.xml:3:65: values has 1 numbers, expected at least 2");
+    EXPECT_EQ(radiance_error("<spectrum name='radiance'/>"), "scene.xml:3:1: <spectrum> lacks the attribute 'value'");
+    EXPECT_EQ(radiance_error("<spectrum name='radiance' filename='a.spd' value='1'/>"),
+              "scene.xml:3:44: <spectrum> has both 'filename' and 'value', expected one of them");
+    EXPECT_EQ(radiance_error("<spectrum name='radiance' type='uniform' value='1'/>"),
+              "scene.xml:3:42: <spectrum> has both 'type' and 'value', expected one of them");
+    EXPECT_EQ(radiance_error("<spectrum name='radiance' value='1'>\n<float name='value' value='1'/></spectrum>"),
+              "scene.xml:4:1: <float> is not supported in <spectrum> without 'type'");
+}
+
+}  // namespace neumann

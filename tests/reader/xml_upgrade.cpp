@@ -1,0 +1,132 @@
+// Files of older versions mean what the same scene means in today's names.
+#include "tests/reader/xml_scene_files.h"
+
+namespace neumann {
+
+namespace {
+
+const std::string names = "old scene file: a name in camelCase taken in snake_case";
+const std::string lookat = "old scene file: <lookAt> taken as <lookat>";
+
+}  // namespace
+
+class XmlUpgrade : public XmlTest {
+protected:
+    SceneParts read_version(const std::string& version, const std::string& body) const {
+        return read_file("<scene version=\"" + version + "\">\n" + body + "</scene>");
+    }
+    std::string version_error(const std::string& version, const std::string& body) const {
+        return file_error("<scene version=\"" + version + "\">\n" + body + "</scene>");
+    }
+};
+
+TEST_F(XmlUpgrade, WholeScene) {
+    const SceneParts now = read_version(
+        "3.0.0",
+        "<integrator type='path'><integer name='max_depth' value='5'/><integer name='rr_depth' value='3'/>"
+        "<boolean name='hide_emitters' value='true'/></integrator>"
+        "<sensor type='perspective'><float name='fov' value='30'/><string name='fov_axis' value='smaller'/>"
+        "<float name='near_clip' value='10'/><float name='far_clip' value='2800'/><float name='focus_distance' value='1000'/>"
+        "<transform name='to_world'><lookat origin='0 1 5' target='0 1 0' up='0 1 0'/></transform>"
+        "<sampler type='independent'><integer name='sample_count' value='32'/></sampler>"
+        "<film type='hdrfilm'><integer name='width' value='64'/><integer name='height' value='32'/>"
+        "<integer name='crop_offset_x' value='4'/><string name='pixel_format' value='rgb'/><rfilter type='tent'/></film></sensor>"
+        "<shape type='sphere'><float name='radius' value='2'/><boolean name='flip_normals' value='true'/>"
+        "<transform name='to_world'><translate x='1'/></transform>"
+        "<bsdf type='diffuse'><rgb name='reflectance' value='0.1, 0.2, 0.3'/></bsdf></shape>"
+        "<shape type='cube'><bsdf type='roughconductor'><float name='alpha_u' value='0.2'/><float name='alpha_v' value='0.2'/>"
+        "<rgb name='specular_reflectance' value='0.9'/></bsdf></shape>");
+    const std::string old_text =
+        "<integrator type='path'><integer name='maxDepth' value='5'/><integer name='rrDepth' value='3'/>"
+        "<boolean name='hideEmitters' value='true'/></integrator>"
+        "<sensor type='perspective'><float name='fov' value='30'/><string name='fovAxis' value='smaller'/>"
+        "<float name='nearClip' value='10'/><float name='farClip' value='2800'/><float name='focusDistance' value='1000'/>"
+        "<transform name='toWorld'><lookAt origin='0 1 5' target='0 1 0' up='0 1 0'/></transform>"
+        "<sampler type='independent'><integer name='sampleCount' value='32'/></sampler>"
+        "<film type='hdrfilm'><integer name='width' value='64'/><integer name='height' value='32'/>"
+        "<integer name='cropOffsetX' value='4'/><string name='pixelFormat' value='rgb'/><rfilter type='tent'/></film></sensor>"
+        "<shape type='sphere'><float name='radius' value='2'/><boolean name='flipNormals' value='true'/>"
+        "<transform name='toWorld'><translate x='1'/></transform>"
+        "<bsdf type='diffuse'><rgb name='diffuseReflectance' value='0.1, 0.2, 0.3'/></bsdf></shape>"
+        "<shape type='cube'><bsdf type='roughconductor'><float name='alphaU' value='0.2'/><float name='alphaV' value='0.2'/>"
+        "<rgb name='specularReflectance' value='0.9'/></bsdf></shape>";
+    EXPECT_TRUE(now.warnings.counts().empty());
+    for (const char* version : {"0.4.0", "0.5.0", "0.6.0", "1.0.0"}) {
+        const SceneParts old = read_version(version, old_text);
+        EXPECT_EQ(old.bounces, now.bounces);
+        EXPECT_EQ(old.hide_emitters, now.hide_emitters);
+        EXPECT_TRUE(old.hide_emitters);
+        EXPECT_EQ(old.sampler, now.sampler);
+        EXPECT_EQ(old.camera.to_world, now.camera.to_world);
+        EXPECT_EQ(old.camera.fov, now.camera.fov);
+        EXPECT_EQ(old.camera.fov_axis, now.camera.fov_axis);
+        EXPECT_EQ(old.camera.near_clip, now.camera.near_clip);
+        EXPECT_EQ(old.camera.far_clip, now.camera.far_clip);
+        EXPECT_EQ(old.film.width, now.film.width);
+        EXPECT_EQ(old.film.crop_x, now.film.crop_x);
+        EXPECT_EQ(old.film.crop_width, now.film.crop_width);
+        EXPECT_EQ(old.film.filter.index(), now.film.filter.index());
+        ASSERT_EQ(old.shapes.size(), now.shapes.size());
+        const auto &old_sphere = std::get<Sphere>(old.shapes[0]), &sphere = std::get<Sphere>(now.shapes[0]);
+        EXPECT_EQ(old_sphere.center, sphere.center);
+        EXPECT_EQ(old_sphere.radius, sphere.radius);
+        EXPECT_EQ(old_sphere.flip_normals, sphere.flip_normals);
+        ASSERT_EQ(old.bsdfs.size(), now.bsdfs.size());
+        for (std::size_t i = 0; i < now.bsdfs.size(); ++i) EXPECT_EQ(largest_albedo(old.bsdfs[i]), largest_albedo(now.bsdfs[i]));
+        EXPECT_EQ(lobe(old.bsdfs[1]).alpha, 0.2);
+        EXPECT_EQ(old.warnings.counts(),
+                  (std::map<std::string, std::uint64_t>{
+                      {names, 17}, {lookat, 1}, {"old scene file: diffuseReflectance of bsdf 'diffuse' taken as reflectance", 1}}));
+    }
+}
+
+TEST_F(XmlUpgrade, NamesOfSeveralCapitals) {
+    EXPECT_EQ(version_error("0.6.0",
+                            "<sensor type='perspective'><float name='fov' value='40'/></sensor>"
+                            "<bsdf type='conductor'>\n<float name='intIOR' value='1.5'/></bsdf>"),
+              "scene.xml:3:8: unknown parameter 'int_ior' of bsdf 'conductor'; allowed: material, eta, k, specular_reflectance");
+}
+
+TEST_F(XmlUpgrade, ParametersKeepTheirNames) {
+    const SceneParts parts = read_version("0.6.0",
+                                          "<default name='maxDepth' value='7'/>"
+                                          "<integrator type='path'><integer name='maxDepth' value='$maxDepth'/></integrator>"
+                                          "<sensor type='perspective'><float name='fov' value='40'/></sensor>");
+    EXPECT_EQ(parts.bounces, 6);
+}
+
+TEST_F(XmlUpgrade, EachFileHasItsVersion) {
+    write("old.xml",
+          "<scene version='0.5.0'><bsdf type='diffuse' id='grey'><float name='diffuseReflectance' value='0.25'/></bsdf></scene>");
+    const SceneParts parts = read("<include filename='old.xml'/><shape type='cube'><ref id='grey'/></shape>");
+    EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(0.25));
+    EXPECT_EQ(error("<include filename='old.xml'/><shape type='sphere'>\n<transform name='toWorld'/></shape>"),
+              "scene.xml:3:12: unknown parameter 'toWorld' of shape 'sphere'; allowed: flip_normals, to_world, center, radius");
+}
+
+// Mitsuba 3 makes a transform to_uv of them; where nothing varies over the surface it is refused by its new name.
+TEST_F(XmlUpgrade, TextureCoordinates) {
+    EXPECT_EQ(version_error("0.6.0",
+                            "<bsdf type='diffuse'>\n<float name='vscale' value='2'/><float name='uoffset' value='1'/></bsdf>"
+                            "<sensor type='perspective'><float name='fov' value='40'/></sensor>"),
+              "scene.xml:3:39: unknown parameter 'to_uv' of bsdf 'diffuse'; allowed: reflectance");
+}
+
+TEST_F(XmlUpgrade, WhatMitsubaLeavesIsRefused) {
+    EXPECT_EQ(version_error("0.6.0", "<film type='ldrfilm'/><sensor type='perspective'><float name='fov' value='40'/></sensor>"),
+              "scene.xml:2:7: film type 'ldrfilm' is not supported; allowed: hdrfilm");
+    EXPECT_EQ(version_error("0.6.0", "<integrator type='path'>\n<boolean name='strictNormals' value='true'/></integrator>"),
+              "scene.xml:3:10: unknown parameter 'strict_normals' of integrator 'path'; allowed: max_depth, rr_depth, "
+              "hide_emitters, block_size, samples_per_pass, timeout");
+    EXPECT_EQ(version_error("0.6.0", "<bsdf type='diffuse'>\n<srgb name='reflectance' value='#ff8000'/></bsdf>").substr(0, 56),
+              "scene.xml:3:1: <srgb> is not supported in <bsdf>; allowe");
+    EXPECT_EQ(version_error("0.6.0", "<bsdf type='diffuse'>\n<spectrum name='reflectance' value='1' intent='reflectance'/></bsdf>"),
+              "scene.xml:3:40: unknown attribute 'intent' of <spectrum>; allowed: name, value, filename, type");
+    EXPECT_EQ(version_error("0.6.0",
+                            "<sensor type='perspective'><float name='fov' value='40'/></sensor>"
+                            "<bsdf type='diffuse'>\n<spectrum name='reflectance' value='0.1, 0.2, 0.3'/></bsdf>"),
+              "scene.xml:3:30: '0.1, 0.2, 0.3' is not a number");
+    EXPECT_EQ(version_error("0.3.0", ""), "scene.xml:1:8: scene version 0.3.0 is not known, expected 0.4 to 3.x");
+}
+
+}  // namespace neumann
