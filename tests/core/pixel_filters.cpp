@@ -113,7 +113,9 @@ TEST(PixelFilters, WeightsAreOneOnAverage) {
             double sum = 0.0;
             for (int i = 0; i < n; ++i) {
                 const double weight = sample(known.filter, (i + 0.5) / n, cut).weight;
-                if (!std::holds_alternative<SignedFilter>(known.filter)) ASSERT_EQ(weight, 1.0) << known.name;
+                if (!std::holds_alternative<SignedFilter>(known.filter)) {
+                    ASSERT_EQ(weight, 1.0) << known.name;
+                }
                 sum += weight / n;
             }
             EXPECT_NEAR(sum, 1.0, 1e-4) << known.name << ", pixel " << cut.pixel << " of " << cut.film.to;

@@ -142,7 +142,9 @@ TEST(Filters, EveryBounceWeighsAlike) {
                 worst = std::max(worst, std::abs(ratio - w));
             }
             EXPECT_NEAR(product / square, 1.0, i == 1 ? 0.05 : 0.02) << "bounce " << i;
-            if (i > 1) EXPECT_LE(worst, 0.1) << "bounce " << i;
+            if (i > 1) {
+                EXPECT_LE(worst, 0.1) << "bounce " << i;
+            }
         }
     }
 }
