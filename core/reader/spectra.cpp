@@ -53,10 +53,11 @@ struct Range {
 };
 
 Range read_range(Properties& p) {
-    const Range range{p.number("wavelength_min").value_or(cie::first_wavelength),
-                      p.number("wavelength_max").value_or(cie::last_wavelength)};
+    const std::optional<double> from = p.number("wavelength_min"), to = p.number("wavelength_max");
+    const Range range{from.value_or(cie::first_wavelength), to.value_or(cie::last_wavelength)};
     if (!(range.from < range.to))
-        p.fail("wavelength_max", fmt::format("wavelength_max is {}, expected more than wavelength_min, {}", range.to, range.from));
+        p.fail(to ? "wavelength_max" : "wavelength_min",
+               fmt::format("wavelength_max is {}, expected more than wavelength_min, {}", range.to, range.from));
     return range;
 }
 

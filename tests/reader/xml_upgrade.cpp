@@ -109,7 +109,7 @@ TEST_F(XmlUpgrade, TextureCoordinates) {
     EXPECT_EQ(version_error("0.6.0",
                             "<bsdf type='diffuse'>\n<float name='vscale' value='2'/><float name='uoffset' value='1'/></bsdf>"
                             "<sensor type='perspective'><float name='fov' value='40'/></sensor>"),
-              "scene.xml:3:39: unknown parameter 'to_uv' of bsdf 'diffuse'; allowed: reflectance");
+              "scene.xml:3:40: unknown parameter 'to_uv' of bsdf 'diffuse'; allowed: reflectance");
 }
 
 TEST_F(XmlUpgrade, WhatMitsubaLeavesIsRefused) {
