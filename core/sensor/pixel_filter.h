@@ -57,7 +57,7 @@ private:
 };
 
 // A filter with negative lobes. What is drawn from is |f| made piecewise linear, in cells so small that a weight is ±∫|f| / ∫f up
-// to 1e-4; as the weights have the exact f in them, the expected picture is exact.
+// to 1e-4, but beside a zero; as the weights have the exact f in them, the expected picture is exact.
 class SignedFilter {
 public:
     // Mitsuba's `mitchell`: Mitchell and Netravali, Reconstruction Filters in Computer Graphics, 1988. B and C from 0 to 1.
