@@ -78,7 +78,7 @@ Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illumi
     const Rgb c = e.tag == "rgb" ? parse_rgb(value) : Rgb(parse_number(value));
     if (std::min({c.r, c.g, c.b}) < 0.0) p.fail(name, fmt::format("{} is negative: '{}'", name, value.value));
     // The same power at all wavelengths is not white.
-    return e.tag == "spectrum" && illuminant == Illuminant::equal_energy ? c * xyz_to_rgb(Vec3(1.0)) : c;
+    return e.tag == "spectrum" && illuminant == Illuminant::equal_energy ? c * (rgb_from_xyz() * Vec3(1.0)) : c;
 }
 
 }  // namespace neumann::reader

@@ -28,13 +28,13 @@ public:
     Loader(Document& document, const std::map<std::string, std::string>& definitions, Warnings& warnings)
         : document_(document), definitions_(definitions), warnings_(warnings) {}
 
-    void read_main(const std::string& path) {
+    void read_main(const std::string& path, bool optional) {
         document_.folders.push_back(fs::path(path).parent_path().string());
         document_.root = read_file(path);
         if (document_.root.tag != "scene")
             throw InputError(document_.root.place,
                              fmt::format("the outermost element is <{}>, expected <scene>", document_.root.tag));
-        definitions_.check_used(path);
+        if (!optional) definitions_.check_used(path);
     }
 
 private:
@@ -191,9 +191,10 @@ std::string Document::find_file(const Attribute& name) const {
     throw InputError(name.place, fmt::format("there is no file '{}'; looked in: {}", name.value, join(shown)));
 }
 
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings) {
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
+                       bool optional) {
     Document document;
-    Loader(document, definitions, warnings).read_main(path);
+    Loader(document, definitions, warnings).read_main(path, optional);
     return document;
 }
 

@@ -18,7 +18,9 @@ struct Document {
     std::string find_file(const Attribute& name) const;
 };
 
-// What was upgraded in files of older versions is noted in `warnings`.
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings);
+// What was upgraded in files of older versions is noted in `warnings`. Definitions that nothing uses are an error, unless they are
+// `optional`.
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
+                       bool optional = false);
 
 }  // namespace neumann::reader

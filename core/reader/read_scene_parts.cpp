@@ -47,10 +47,10 @@ void check_unused(const Element& root, const Context& context, const Bsdfs& bsdf
 
 }  // namespace reader
 
-SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions) {
+SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional) {
     using namespace reader;
     SceneParts parts;
-    const Document document = read_document(path, definitions, parts.warnings);
+    const Document document = read_document(path, definitions, parts.warnings, optional);
     const Objects objects(document.root);
     std::vector<std::string> mesh_files;
     const Context context{document, objects, parts.warnings, mesh_files};
