@@ -128,7 +128,7 @@ TEST(BlackBody, LawsOfStefanAndBoltzmannAndOfWien) {
     }
 }
 
-// Chromaticities of black bodies (Wyszecki and Stiles, Color Science, 2nd edition, table 3(3.11), to four digits) and of the CIE's
+// Chromaticities of black bodies as published for the CIE 1931 observer (Wyszecki and Stiles, Color Science, 1982), and of the CIE's
 // illuminant A, which is one of 2855.5 K.
 TEST(BlackBody, Chromaticities) {
     struct Published {
