@@ -13,8 +13,6 @@ struct MeshFile {
     TriangleMesh mesh;
     // One per vertex, or empty; file space, as long as the file gives them.
     std::vector<Vec3> normals;
-    // The file asks for a flat look.
-    bool face_normals = false;
 };
 
 // The first two read polygons as fans around their first vertex, which is right for convex polygons, and refuse files without faces. Errors
@@ -30,6 +28,9 @@ MeshFile read_ply(const std::string& path);
 
 // Versions 3 and 4, in single or double precision; `index` counts the meshes of a file from 0. Vertex colours are skipped. Errors are
 // "file: mesh 0: byte 12: …", the byte of the compressed file, or "file: mesh 0: triangle 12: …", counted from 1.
-MeshFile read_serialized(const std::string& path, std::uint64_t index);
+struct SerializedMesh : MeshFile {
+    bool face_normals = false;  // the file asks for a flat look
+};
+SerializedMesh read_serialized(const std::string& path, std::uint64_t index);
 
 }  // namespace neumann

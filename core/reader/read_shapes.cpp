@@ -20,6 +20,7 @@ namespace {
 
 // Of a triangle, with its part of the vertices and of the search structures.
 constexpr double bytes_of_triangle = 300.0;
+constexpr double part_of_memory = 0.5;
 
 struct Reading {
     const Element* element;
@@ -92,6 +93,7 @@ public:
     }
 
     void hand_out(const std::function<void(ReadShape)>& take) {
+        add_up_instances();
         for (Item& item : items_) {
             if (item.error) std::rethrow_exception(item.error);
             if (item.shape) {
@@ -166,15 +168,23 @@ private:
             if (known_files_.insert(file).second) context_.mesh_files.push_back(file);
     }
 
+    // Up to the first instance that no longer fits, before there is any.
+    void add_up_instances() {
+        for (const Item& item : items_) {
+            if (!item.group || item.group == item.element || item.error) continue;
+            for (const Reading* reading : groups_.at(item.group).shapes) expanded_ += triangle_count(reading->shape.shape);
+            if (expanded_ * bytes_of_triangle <= part_of_memory * physical_memory()) continue;
+            too_many_ = &item;
+            return;
+        }
+    }
+
     void expand(const Item& item, const Group& group, const std::function<void(ReadShape)>& take) {
-        for (const Reading* reading : group.shapes) expanded_ += triangle_count(reading->shape.shape);
-        const double bytes = expanded_ * bytes_of_triangle;
-        if (bytes > physical_memory())
-            throw InputError(
-                item.element->place,
-                fmt::format("with this instance there are {:.0f} triangles of instances, each of them kept, which need "
-                            "about {:.1f} GiB; the machine has {:.1f}",
-                            expanded_, bytes / 0x1p30, physical_memory() / 0x1p30));
+        if (too_many_)
+            throw InputError(too_many_->element->place,
+                             fmt::format("with this instance there are {:.0f} triangles of instances, each of them kept; they need "
+                                         "about {:.1f} GiB, more than half of the machine's {:.1f}",
+                                         expanded_, expanded_ * bytes_of_triangle / 0x1p30, physical_memory() / 0x1p30));
         for (const Reading* reading : group.shapes) {
             const ReadShape& shape = reading->shape;
             std::optional<Shape> placed = transformed(shape.shape, item.to_world);
@@ -194,7 +204,8 @@ private:
     std::deque<Reading> readings_;  // in the order in which hand_out() comes to them
     std::map<const Element*, Group> groups_;
     std::set<std::string> known_files_;
-    double expanded_ = 0.0;  // triangles of instances
+    double expanded_ = 0.0;           // triangles of instances
+    const Item* too_many_ = nullptr;  // the instance with which they do not fit
 };
 
 }  // namespace

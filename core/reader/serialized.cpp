@@ -93,7 +93,7 @@ public:
     SerializedReader(const std::string& path, std::uint64_t index)
         : path_(path), index_(index), mesh_(fmt::format("{}: mesh {}", path, index)), open_(open_mesh_file(path)) {}
 
-    MeshFile read() {
+    SerializedMesh read() {
         std::uint64_t start = 0;
         const std::uint16_t version = read_version(start);
         if (index_ > 0) {
@@ -216,11 +216,11 @@ private:
     std::uint64_t index_;
     std::string mesh_;  // for messages
     OpenFile open_;
-    MeshFile result_;
+    SerializedMesh result_;
 };
 
 }  // namespace
 
-MeshFile read_serialized(const std::string& path, std::uint64_t index) { return SerializedReader(path, index).read(); }
+SerializedMesh read_serialized(const std::string& path, std::uint64_t index) { return SerializedReader(path, index).read(); }
 
 }  // namespace neumann
