@@ -80,10 +80,18 @@ void write_scene(const std::string& folder) {
     xml << "</scene>\n";
 }
 
-double peak_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+rusage usage() {
+    rusage result{};
+    getrusage(RUSAGE_SELF, &result);
+    return result;
+}
+
+double peak_bytes() { return 1024.0 * static_cast<double>(usage().ru_maxrss); }
+
+// Of all threads, which a busy machine does not change.
+double processor_seconds() {
+    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    return seconds(usage().ru_utime) + seconds(usage().ru_stime);
 }
 
 }  // namespace
@@ -93,7 +101,7 @@ int main() {
     std::filesystem::create_directories(folder);
     write_scene(folder);
     malloc_trim(0);
-    const double before = peak_bytes();
+    const double before = peak_bytes(), processor_before = processor_seconds();
     neumann::Stopwatch all;
     neumann::SceneParts parts = neumann::read_scene_parts(folder + "/scene.xml");
     const double files = all.seconds(), peak_of_files = peak_bytes();
@@ -101,7 +109,8 @@ int main() {
     const double seconds = all.seconds(), peak = peak_bytes();
     const struct mallinfo2 heap = mallinfo2();
     std::filesystem::remove_all(folder);
-    fmt::print("{} meshes, {} triangles: {:.2f} s, of which {:.2f} s for the files\n", meshes, triangles, seconds, files);
+    fmt::print("{} meshes, {:.0f} triangles: {:.2f} s, of which {:.2f} s for the files; {:.2f} s of processors\n", meshes,
+               triangles, seconds, files, processor_seconds() - processor_before);
     fmt::print("memory at the peak: {:.0f} MB, {:.0f} bytes a triangle ({:.0f} MB after the files, {:.0f} MB before)\n", peak / 1e6,
                peak / triangles, peak_of_files / 1e6, before / 1e6);
     fmt::print("in the end on the heap: {:.0f} MB\n", static_cast<double>(heap.uordblks + heap.hblkhd) / 1e6);
