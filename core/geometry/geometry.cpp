@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string>
 
+#include <oneapi/tbb/parallel_for.h>
+
 namespace neumann {
 
 namespace {
@@ -98,7 +100,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
     caster_ = std::make_unique<RayCaster>(*shapes_, center_, scale);
     triangles_.resize(shapes_->size());
     error_.resize(shapes_->size());
-    for (std::size_t i = 0; i < shapes_->size(); ++i) {
+    oneapi::tbb::parallel_for(std::size_t{0}, shapes_->size(), [&](std::size_t i) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[i])) {
             triangles_[i].reserve(mesh->triangles.size());
             for (const auto& t : mesh->triangles) {
@@ -114,7 +116,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
         } else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[i])) {
             error_[i] = hit_error((cylinder->radius + cylinder->length) * scale) / scale;
         }
-    }
+    });
 }
 
 namespace {

@@ -228,15 +228,13 @@ struct RayCaster::Impl {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                      3 * sizeof(float), mesh.vertices.size()));
-        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                            3 * sizeof(std::uint32_t), mesh.triangles.size()));
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                                   sizeof(mesh.triangles.front()), mesh.triangles.size());
         check("building the scene");
         for (const Vec3& world : mesh.vertices) {
             const Vec3 p = caster.to_embree(world);
             for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(p[axis]);
         }
-        for (const auto& triangle : mesh.triangles)
-            for (const std::uint32_t index : triangle) *indices++ = index;
         attach(geometry, id);
     }
 

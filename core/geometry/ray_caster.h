@@ -16,7 +16,7 @@ namespace neumann {
 class RayCaster {
 public:
     // Coordinates are moved by −center and multiplied by scale before Embree sees them. Triangles without extent must have been
-    // taken out; other shapes without extent are left out here.
+    // taken out; other shapes without extent are left out here. The shapes have to outlive the caster.
     RayCaster(const std::vector<Shape>& shapes, const Vec3& center, double scale);
     ~RayCaster();
 

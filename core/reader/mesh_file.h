@@ -1,4 +1,4 @@
-// OBJ and PLY files as triangle meshes. Written by hand because vertices are needed in double precision and errors need
+// OBJ, PLY and Mitsuba's serialized files as triangle meshes. Written by hand because vertices are needed in double precision and errors need
 // file:line:column; the libraries at hand (tinyobjloader as packaged, assimp) read floats and give no place.
 #pragma once
 
@@ -15,7 +15,7 @@ struct MeshFile {
     std::vector<Vec3> normals;
 };
 
-// Both read polygons as fans around their first vertex, which is right for convex polygons, and refuse files without faces. Errors
+// The first two read polygons as fans around their first vertex, which is right for convex polygons, and refuse files without faces. Errors
 // are InputError "file:line:column: …"; where a binary body has no lines, "file: face 12: …", counted from 1.
 
 // Texture coordinates, groups, materials, lines and points are ignored, free-form geometry is refused. With normals, a vertex is
@@ -25,5 +25,12 @@ MeshFile read_obj(const std::string& path);
 
 // ASCII and binary of both byte orders. Elements and properties beyond positions, normals and vertex indices are skipped.
 MeshFile read_ply(const std::string& path);
+
+// Versions 3 and 4, in single or double precision; `index` counts the meshes of a file from 0. Vertex colours are skipped. Errors are
+// "file: mesh 0: byte 12: …", the byte of the compressed file, or "file: mesh 0: triangle 12: …", counted from 1.
+struct SerializedMesh : MeshFile {
+    bool face_normals = false;  // the file asks for a flat look
+};
+SerializedMesh read_serialized(const std::string& path, std::uint64_t index);
 
 }  // namespace neumann

@@ -61,11 +61,21 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
     const Mat4 to_world = p.transform("to_world");
     const std::string& type = p.element().attribute("type").value;
     const Attribute& filename = p.require("filename", {"string"}).attribute("value");
-    const bool flip_normals = p.boolean("flip_normals").value_or(false), face_normals = p.boolean("face_normals").value_or(false);
+    const bool flip_normals = p.boolean("flip_normals").value_or(false);
+    bool face_normals = p.boolean("face_normals").value_or(false);
+    const std::int64_t index = type == "serialized" ? p.integer("shape_index").value_or(0) : 0;
+    if (index < 0) p.fail("shape_index", fmt::format("shape_index is {}, expected 0 or more", index));
 
     const std::string path = context.document.find_file(filename);
     context.mesh_files.push_back(path);
-    MeshFile file = type == "obj" ? read_obj(path) : read_ply(path);
+    MeshFile file;
+    if (type == "serialized") {
+        SerializedMesh serialized = read_serialized(path, static_cast<std::uint64_t>(index));
+        face_normals = face_normals || serialized.face_normals;
+        file = std::move(serialized);
+    } else {
+        file = type == "obj" ? read_obj(path) : read_ply(path);
+    }
     TriangleMesh mesh = std::move(file.mesh);
     for (Vec3& v : mesh.vertices) {
         v = Vec3(to_world * glm::dvec4(v, 1.0));

@@ -1,4 +1,4 @@
-// <shape type="obj"> and "ply".
+// <shape type="obj">, "ply" and "serialized".
 #pragma once
 
 #include "core/geometry/shape.h"

@@ -3,17 +3,15 @@
 #include "core/base/error.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace neumann {
 
-std::string read_mesh_bytes(const std::string& path) {
+OpenFile open_mesh_file(const std::string& path) {
     // Pipes and devices may have no end, and directories open without an error.
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -22,14 +20,18 @@ std::string read_mesh_bytes(const std::string& path) {
         throw InputError(path + ": cannot be opened: Not a regular file");
     }
 
-    const auto close = [](std::FILE* file) { std::fclose(file); };
-    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-    if (!file) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-    const auto size = std::filesystem::file_size(path, error);
+    OpenFile result{decltype(OpenFile::file)(std::fopen(path.c_str(), "rb")), 0};
+    if (!result.file) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+    result.size = std::filesystem::file_size(path, error);
     if (error) throw InputError(fmt::format("{}: cannot be read: {}", path, error.message()));
-    std::string bytes(size, '\0');
-    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
-    if (std::ferror(file.get()) != 0) throw InputError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+    return result;
+}
+
+std::string read_mesh_bytes(const std::string& path) {
+    const OpenFile open = open_mesh_file(path);
+    std::string bytes(open.size, '\0');
+    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), open.file.get()));
+    if (std::ferror(open.file.get()) != 0) throw InputError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
     return bytes;
 }
 
@@ -45,7 +47,7 @@ std::string printable(std::string_view text) {
 
 std::string counted(std::size_t count, std::string_view noun) {
     if (count == 1) return fmt::format("1 {}", noun);
-    return fmt::format("{} {}", count, noun == "vertex" ? "vertices" : std::string(noun) + "s");
+    return fmt::format("{} {}", count, noun == "vertex" ? "vertices" : std::string(noun) + (noun == "mesh" ? "es" : "s"));
 }
 
 std::string out_of_range(std::size_t available, std::string_view noun) {

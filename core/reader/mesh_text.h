@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -17,6 +19,15 @@ namespace neumann {
 // Vertices and triangles have 32-bit numbers.
 inline constexpr std::size_t max_mesh_count = std::numeric_limits<std::uint32_t>::max();
 
+struct OpenFile {
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::unique_ptr<std::FILE, Close> file;
+    std::uint64_t size;
+};
+// Throws InputError for what is no regular file or cannot be opened.
+OpenFile open_mesh_file(const std::string& path);
 std::string read_mesh_bytes(const std::string& path);
 
 // For messages: printable ASCII and not too long.

@@ -4,8 +4,8 @@
 #include "core/reader/integrator.h"
 #include "core/reader/properties.h"
 #include "core/reader/read_scene.h"
+#include "core/reader/read_shapes.h"
 #include "core/reader/sensor.h"
-#include "core/reader/shapes.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +40,9 @@ void check_unused(const Element& root, const Context& context, const Bsdfs& bsdf
         if (e.tag == "film") read_film(e, aside);
         if (e.tag == "rfilter") read_filter(e, aside);
         if (e.tag == "sampler") read_sampler(e, aside);
+        for (const Element& shape : e.children)  // of a group
+            for (const Element& bsdf : shape.children)
+                if (shape.tag == "shape" && bsdf.tag == "bsdf" && !bsdfs.has(bsdf)) other_bsdfs.sides(bsdf);
     }
 }
 
@@ -69,13 +72,11 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
 
     Bsdfs bsdfs(context);
     AreaLights lights(context);
-    for (const Element& e : document.root.children) {
-        if (e.tag != "shape") continue;
-        ReadShape shape = read_shape(e, context);
+    read_shapes(document.root, context, [&](ReadShape shape) {
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
-    }
+    });
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();
     parts.lights.area = lights.take();

@@ -1,6 +1,6 @@
 #include "core/reader/shapes.h"
 
-#include "core/base/frame.h"
+#include "core/geometry/transformed.h"
 #include "core/reader/mesh_shape.h"
 #include "core/reader/properties.h"
 
@@ -12,14 +12,6 @@ namespace neumann::reader {
 
 namespace {
 
-constexpr double tolerance = 1e-4;
-
-// Squares of small lengths vanish.
-double length_of(const Vec3& v) {
-    const double largest = max_component(glm::abs(v));
-    return largest * glm::length(v / largest);
-}
-
 double read_radius(Properties& p) {
     const double radius = p.number("radius").value_or(1.0);
     if (radius <= 0.0) p.fail("radius", fmt::format("radius is {}, expected more than 0", radius));
@@ -27,38 +19,31 @@ double read_radius(Properties& p) {
 }
 
 Sphere read_sphere(Properties& p, bool flip_normals) {
-    const Mat4 m = p.transform("to_world");
+    const Mat4 to_world = p.transform("to_world");
     const Vec3 center = p.point("center").value_or(Vec3(0.0));
-    const double radius = read_radius(p), scale = length_of(Vec3(m[0]));
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j <= i; ++j)
-            if (std::abs(glm::dot(Vec3(m[i]) / scale, Vec3(m[j]) / scale) - (i == j ? 1.0 : 0.0)) > tolerance)
-                p.fail("to_world",
-                       "to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
-    return {Vec3(m * glm::dvec4(center, 1.0)), radius * scale, flip_normals};
+    const std::optional<Sphere> sphere = transformed(Sphere{center, read_radius(p), flip_normals}, to_world);
+    if (!sphere)
+        p.fail("to_world",
+               "to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
+    return *sphere;
 }
 
 Cylinder read_cylinder(Properties& p, bool flip_normals) {
-    const Mat4 m = p.transform("to_world");
+    const Mat4 to_world = p.transform("to_world");
     const Vec3 p0 = p.point("p0").value_or(Vec3(0.0)), p1 = p.point("p1").value_or(Vec3(0.0, 0.0, 1.0));
-    const double radius = read_radius(p);
+    const double radius = read_radius(p), length = length_of(p1 - p0);
     if (p0 == p1) p.fail("p1", "p0 and p1 of shape 'cylinder' are the same point");
-
-    const Frame frame((p1 - p0) / length_of(p1 - p0));
-    Vec3 images[3] = {Vec3(m * glm::dvec4(frame.s, 0.0)), Vec3(m * glm::dvec4(frame.t, 0.0)), Vec3(m * glm::dvec4(frame.n, 0.0))};
-    const double around = length_of(images[0]), around2 = length_of(images[1]), along = length_of(images[2]);
-    for (Vec3& v : images) v /= length_of(v);
-    if (std::abs(around2 / around - 1.0) > tolerance || std::abs(glm::dot(images[0], images[1])) > tolerance ||
-        std::abs(glm::dot(images[0], images[2])) > tolerance || std::abs(glm::dot(images[1], images[2])) > tolerance)
+    const std::optional<Cylinder> cylinder = transformed(Cylinder{p0, (p1 - p0) / length, length, radius, flip_normals}, to_world);
+    if (!cylinder)
         p.fail("to_world",
                "to_world of shape 'cylinder' makes it elliptic or oblique, expected the same scale all around the axis, rotations "
                "and translations");
-    return {Vec3(m * glm::dvec4(p0, 1.0)), images[2], length_of(p1 - p0) * along, radius * around, flip_normals};
+    return *cylinder;
 }
 
 Shape read_geometry(Properties& p, const Context& context) {
     const std::string& type = p.element().attribute("type").value;
-    if (type == "obj" || type == "ply") return read_mesh_shape(p, context);
+    if (type == "obj" || type == "ply" || type == "serialized") return read_mesh_shape(p, context);
     const bool flip_normals = p.boolean("flip_normals").value_or(false);
     if (type == "sphere") return read_sphere(p, flip_normals);
     if (type == "cylinder") return read_cylinder(p, flip_normals);
@@ -71,7 +56,8 @@ Shape read_geometry(Properties& p, const Context& context) {
 }  // namespace
 
 ReadShape read_shape(const Element& e, const Context& context) {
-    static const std::vector<std::string> types = {"cube", "cylinder", "disk", "obj", "ply", "rectangle", "sphere"};
+    static const std::vector<std::string> types = {"cube", "cylinder",  "disk",       "instance",   "obj",
+                                                   "ply",  "rectangle", "serialized", "shapegroup", "sphere"};
     if (std::find(types.begin(), types.end(), e.attribute("type").value) == types.end()) fail_type(e, types);
     Properties p(e, context.objects);
     ReadShape result;

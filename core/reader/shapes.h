@@ -1,4 +1,4 @@
-// <shape>: obj, ply, rectangle, cube, disk, sphere, cylinder.
+// <shape>: obj, ply, serialized, rectangle, cube, disk, sphere, cylinder. Groups and instances are in read_shapes.h.
 #pragma once
 
 #include "core/geometry/shape.h"

@@ -27,7 +27,7 @@ TEST_F(XmlValueErrors, UnknownTypes) {
               "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: direct, moment, path");
     EXPECT_EQ(
         error("<shape type=\"bsplinecurve\"/>"),
-        "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, obj, ply, rectangle, sphere");
+        "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, serialized, shapegroup, sphere");
     EXPECT_EQ(error("<sampler type=\"halton\"/>"),
               "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
               "ldsampler, multijitter, orthogonal, stratified");

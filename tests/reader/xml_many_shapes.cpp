@@ -1,0 +1,65 @@
+// Shapes are read side by side; nothing of that shows.
+#include "tests/reader/xml_scene_files.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+class XmlManyShapes : public XmlTest {
+protected:
+    // A triangle whose first vertex is at (index, 0, 0), behind enough comments that small files overtake large ones.
+    void write_obj(int index, int comments = 0) const {
+        std::string text;
+        for (int i = 0; i < comments; ++i) text += "# a comment\n";
+        write(fmt::format("{}.obj", index), text + fmt::format("v {} 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", index));
+    }
+    static std::string obj(const std::string& name) {
+        return "<shape type='obj'><string name='filename' value='" + name + "'/></shape>\n";
+    }
+};
+
+TEST_F(XmlManyShapes, KeepTheirOrder) {
+    constexpr int count = 300;
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+        write_obj(i, i % 7 == 0 ? 5000 : 0);
+        text += obj(fmt::format("{}.obj", i));
+    }
+    const SceneParts parts = read(text);
+    ASSERT_EQ(parts.shapes.size(), static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+        EXPECT_EQ(std::get<TriangleMesh>(parts.shapes[static_cast<std::size_t>(i)]).vertices[0], Vec3(i, 0, 0));
+    EXPECT_EQ(read(text).hash, parts.hash);
+}
+
+TEST_F(XmlManyShapes, TheFirstErrorIsTold) {
+    std::string text;
+    for (int i = 0; i < 100; ++i) {
+        write_obj(i);
+        text += obj(fmt::format("{}.obj", i));
+    }
+    write("10.obj", std::string(100'000, '\n') + "v 0 0 zero\n");  // found last
+    write("11.obj", "v 0 0\n");
+    write("90.obj", "v");
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(error(text), "10.obj:100001:7: expected a number, found 'zero'");
+    // The material of an earlier shape comes before a later file, and after its own.
+    const std::string wrong = "<shape type='cube'><bsdf type='diffuse'><float name='reflectance' value='x'/></bsdf></shape>\n";
+    EXPECT_EQ(error(wrong + text), "scene.xml:2:67: 'x' is not a number");
+    EXPECT_EQ(error(text + wrong), "10.obj:100001:7: expected a number, found 'zero'");
+    EXPECT_EQ(error("<shape type='instance'/>\n" + text), "scene.xml:2:1: shape 'instance' has no shapegroup inside, expected one");
+    EXPECT_EQ(error(text + "<shape type='instance'/>\n"), "10.obj:100001:7: expected a number, found 'zero'");
+}
+
+// The meshes of a serialized file, by their number.
+TEST_F(XmlManyShapes, SerializedParameters) {
+    write("s", "no mesh");
+    const auto shape = [](const std::string& parameters) {
+        return "<shape type='serialized'><string name='filename' value='s'/>\n" + parameters + "</shape>";
+    };
+    EXPECT_EQ(error(shape("")), "s: byte 0: 0x6f6e where a serialized mesh begins, expected 0x041c");
+    EXPECT_EQ(error(shape("<integer name='shape_index' value='-1'/>")), "scene.xml:3:29: shape_index is -1, expected 0 or more");
+    EXPECT_EQ(error("<shape type='obj'><string name='filename' value='s'/>\n<integer name='shape_index' value='1'/></shape>"),
+              "s:1:1: unsupported OBJ element 'no', expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl");
+}
+
+}  // namespace neumann
