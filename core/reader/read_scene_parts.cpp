@@ -3,6 +3,7 @@
 #include "core/reader/file_hash.h"
 #include "core/reader/properties.h"
 #include "core/reader/read_scene.h"
+#include "core/reader/scene_lights.h"
 #include "core/reader/sensor.h"
 #include "core/reader/shapes.h"
 
@@ -35,7 +36,7 @@ void check_unused(const Element& root, const Context& context, const Bsdfs& bsdf
     AreaLights other_lights(aside);
     for (const Element& e : root.children) {
         if (e.tag == "bsdf" && !bsdfs.has(e)) other_bsdfs.sides(e);
-        if (e.tag == "emitter" && !lights.has(e)) other_lights.index(e);
+        if (e.tag == "emitter" && e.attribute("type").value == "area" && !lights.has(e)) other_lights.index(e);
         if (e.tag == "film") read_film(e, aside);
         if (e.tag == "rfilter") read_filter(e, aside);
         if (e.tag == "sampler") read_sampler(e, aside);
@@ -57,14 +58,16 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     if (const Element* e = only(document.root, "integrator")) parts.bounces = read_integrator(*e, context);
     const Element* sensor = only(document.root, "sensor");
     if (!sensor) throw InputError(document.root.place, "the scene has no <sensor>, expected one");
-    const Sensor s = read_sensor(*sensor, context);
+    const ReadSensor s = read_sensor(*sensor, context);
     parts.camera = s.camera;
     parts.film = s.film;
     parts.sampler = s.sampler;
 
     Bsdfs bsdfs(context);
     AreaLights lights(context);
+    SceneLights scene_lights(context);
     for (const Element& e : document.root.children) {
+        if (e.tag == "emitter") scene_lights.add(e);
         if (e.tag != "shape") continue;
         ReadShape shape = read_shape(e, context);
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
@@ -74,6 +77,8 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();
     parts.lights.area = lights.take();
+    parts.lights.environment = scene_lights.take_environment();
+    parts.lights.delta = scene_lights.take_delta();
     std::vector<std::string> files = document.files;
     files.insert(files.end(), mesh_files.begin(), mesh_files.end());
     parts.hash = hash_files(files);

@@ -153,7 +153,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                 sampler.start(sample_number);
                 const Vec2 film = sample(scene.film.filter, sampler.next2(), scene.film.crop_x + static_cast<int>(pixel) % width,
                                          scene.film.crop_y + static_cast<int>(pixel) / width, scene.film.width, scene.film.height);
-                work.samples.push_back({scene.camera.ray(film), work.values.data() + offset * all + r * stride,
+                work.samples.push_back({scene.camera.sample_ray(film, sampler), work.values.data() + offset * all + r * stride,
                                         i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr,
                                         difference_weight, &sampler, &work.gather_samplers[offset],
                                         sample_number * settings.gather_rays});

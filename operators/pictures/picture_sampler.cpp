@@ -71,7 +71,8 @@ void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> sam
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         const Pixel& pixel = pixels[i / size];
         samplers[i].start(replicate * size + i % size);
-        work.rays[i] = scene.camera.ray(sample(film.filter, samplers[i].next2(), pixel.x, pixel.y, film.width, film.height));
+        const Vec2 position = sample(film.filter, samplers[i].next2(), pixel.x, pixel.y, film.width, film.height);
+        work.rays[i] = scene.camera.sample_ray(position, samplers[i]);
     }
     std::fill(work.samples.begin(), work.samples.end(), Rgb(0.0));
     TermSamples result{work.samples, work.tally.rays};

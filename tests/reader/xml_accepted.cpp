@@ -31,7 +31,7 @@ TEST_F(XmlAccepted, Defaults) {
     EXPECT_EQ(std::get<GaussianFilter>(parts.film.filter).radius(), 2.0);
     EXPECT_EQ(parts.camera.to_world, Mat4(1.0));
     EXPECT_DOUBLE_EQ(parts.camera.fov, radians(40.0));
-    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::x);
+    EXPECT_EQ(parts.camera.fov_axis, FovAxis::x);
     EXPECT_EQ(parts.camera.near_clip, 1e-2);
     EXPECT_EQ(parts.camera.far_clip, 1e4);
     EXPECT_TRUE(parts.warnings.counts().empty());
@@ -49,7 +49,7 @@ TEST_F(XmlAccepted, Camera) {
         "<integer name='far_clip' value='2800'/><float name='focus_distance' value='1000'/>"
         "<float name='principal_point_offset_x' value='0.25'/><float name='principal_point_offset_y' value='-0.5'/>");
     EXPECT_DOUBLE_EQ(parts.camera.fov, radians(30.0));
-    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::smaller);
+    EXPECT_EQ(parts.camera.fov_axis, FovAxis::smaller);
     EXPECT_EQ(parts.camera.near_clip, 10.0);
     EXPECT_EQ(parts.camera.far_clip, 2800.0);
     EXPECT_EQ(parts.camera.principal_point_offset, Vec2(0.25, -0.5));
@@ -57,7 +57,7 @@ TEST_F(XmlAccepted, Camera) {
 
 TEST_F(XmlAccepted, FocalLength) {
     const SceneParts parts = read_sensor("<string name='focal_length' value='50mm'/>");
-    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::diagonal);
+    EXPECT_EQ(parts.camera.fov_axis, FovAxis::diagonal);
     EXPECT_NEAR(parts.camera.fov * 180.0 / std::numbers::pi, 46.7930, 1e-4);  // what a 50 mm lens is known for
 }
 
@@ -186,7 +186,7 @@ TEST_F(XmlAccepted, ShapesWithoutBsdf) {
     EXPECT_EQ(parts.sides_of_shape.at(1).front, 0);
     EXPECT_EQ(parts.sides_of_shape.at(2).front, Materials::absorbing);  // a lamp without a material is black in Mitsuba
     EXPECT_EQ(parts.lights.of_shape, (std::vector<int>{Emitters::none, Emitters::none, 0}));
-    EXPECT_EQ(parts.lights.at(0).largest, Rgb(3.0));
+    EXPECT_EQ(parts.lights.area.at(0).largest, Rgb(3.0));
 }
 
 TEST_F(XmlAccepted, EmittersByReference) {
@@ -196,7 +196,7 @@ TEST_F(XmlAccepted, EmittersByReference) {
         "<emitter type='area'><rgb name='radiance' value='9'/></emitter>");
     EXPECT_EQ(parts.lights.of_shape, std::vector<int>{0});
     ASSERT_EQ(parts.lights.area.size(), 1u);
-    EXPECT_EQ(parts.lights[0].largest, Rgb(1.0, 2.0, 3.0));
+    EXPECT_EQ(parts.lights.area[0].largest, Rgb(1.0, 2.0, 3.0));
 }
 
 TEST_F(XmlAccepted, Colours) {
@@ -216,7 +216,7 @@ TEST_F(XmlAccepted, Wavelengths) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(white[i], 0.5, 1e-4);
     const SceneParts parts =
         read("<shape type='cube'><emitter type='area'><spectrum name='radiance' value='360:2, 830:2'/></emitter></shape>");
-    const Rgb lamp = parts.lights.at(0).largest;
+    const Rgb lamp = parts.lights.area.at(0).largest;
     EXPECT_NEAR(lamp.r, 2.0 * 1.2048, 1e-3);
     EXPECT_NEAR(lamp.g, 2.0 * 0.9483, 1e-3);
     EXPECT_NEAR(lamp.b, 2.0 * 0.9089, 1e-3);
