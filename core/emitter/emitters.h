@@ -79,7 +79,7 @@ public:
         return density_of_shape_[y.shape] * glm::dot(d, d) / std::abs(glm::dot(y.normal, w));
     }
 
-    // ‖Le‖∞ for each channel; of lights with an extent.
+    // ‖Le‖∞ for each channel; infinite where a light has no extent.
     const Rgb& largest_radiance() const { return largest_radiance_; }
     // All channels of all lights are known to be alike.
     bool is_grey() const;

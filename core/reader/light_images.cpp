@@ -7,8 +7,6 @@
 
 namespace neumann::reader {
 
-namespace {
-
 Slide read_bitmap(const Element& e, const Context& context) {
     static const std::map<std::string, Slide::Wrap> wraps = {
         {"repeat", Slide::Wrap::repeat}, {"mirror", Slide::Wrap::mirror}, {"clamp", Slide::Wrap::clamp}};
@@ -24,8 +22,6 @@ Slide read_bitmap(const Element& e, const Context& context) {
     p.finish();
     return Slide(read_light_image(filename, raw, context), filter == "bilinear", wraps.at(wrap));
 }
-
-}  // namespace
 
 Image read_light_image(const Attribute& filename, bool raw, const Context& context) {
     const std::string path = context.document.find_file(filename);

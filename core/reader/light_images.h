@@ -12,6 +12,7 @@ namespace neumann::reader {
 // The file becomes part of the scene's hash. Throws InputError where a pixel is negative or not finite.
 Image read_light_image(const Attribute& filename, bool raw, const Context& context);
 
+Slide read_bitmap(const Element& e, const Context& context);
 // The <texture> of this name inside an emitter, if there is one.
 std::optional<Slide> read_slide(Properties& p, const std::string& name, const Context& context);
 

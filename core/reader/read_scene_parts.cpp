@@ -1,6 +1,7 @@
 #include "core/reader/area_lights.h"
 #include "core/reader/bsdfs.h"
 #include "core/reader/file_hash.h"
+#include "core/reader/light_images.h"
 #include "core/reader/properties.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/scene_lights.h"
@@ -31,12 +32,14 @@ const Element* only(const Element& root, const std::string& tag) {
 // What stands at the top level and nothing refers to is checked and dropped.
 void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
     Warnings dropped;
-    const Context aside{context.document, context.objects, dropped, context.mesh_files};
+    std::vector<std::string> dropped_files;
+    const Context aside{context.document, context.objects, dropped, dropped_files};
     Bsdfs other_bsdfs(aside);
     AreaLights other_lights(aside);
     for (const Element& e : root.children) {
         if (e.tag == "bsdf" && !bsdfs.has(e)) other_bsdfs.sides(e);
         if (e.tag == "emitter" && e.attribute("type").value == "area" && !lights.has(e)) other_lights.index(e);
+        if (e.tag == "texture") read_bitmap(e, aside);
         if (e.tag == "film") read_film(e, aside);
         if (e.tag == "rfilter") read_filter(e, aside);
         if (e.tag == "sampler") read_sampler(e, aside);

@@ -1,4 +1,5 @@
 // Rays of the sensors, against the optics that they stand for.
+#include "core/sampling/independent_sampler.h"
 #include "core/sensor/sensor.h"
 #include "tests/physics/probe.h"
 
