@@ -45,7 +45,7 @@ TEST_F(XmlLights, Point) {
               Rgb(1.0, 2.0, 3.0));
     EXPECT_EQ(arrives("point", "<transform name='to_world'><translate x='1'/></transform>", {1, 2, 0}), Rgb(0.25));
     EXPECT_EQ(light_error("point", "<point name='position' value='1'/><transform name='to_world'/>"),
-              "scene.xml:3:30: both position and to_world are given, expected one of them");
+              "scene.xml:3:24: both position and to_world are given, expected one of them");
 }
 
 TEST_F(XmlLights, Directional) {
@@ -80,11 +80,11 @@ TEST_F(XmlLights, Spot) {
     EXPECT_NEAR(beam(parts.lights.delta.at(0), {0, 0, 1}, {}).irradiance.r, 1.5, 1e-12);
 
     EXPECT_EQ(light_error("spot", "<float name='cutoff_angle' value='181'/>"),
-              "scene.xml:3:35: cutoff_angle is 181, expected more than 0 and at most 180 degrees");
+              "scene.xml:3:28: cutoff_angle is 181, expected more than 0 and at most 180 degrees");
     EXPECT_EQ(light_error("spot", std::string("<float name='cutoff_angle' value='90'/>") + slide),
-              "scene.xml:3:35: cutoff_angle is 90, expected more than 0 and with a texture less than 90 degrees");
+              "scene.xml:3:28: cutoff_angle is 90, expected more than 0 and with a texture less than 90 degrees");
     EXPECT_EQ(light_error("spot", "<float name='beam_width' value='21'/>"),
-              "scene.xml:3:33: beam_width is 21, expected at least 0 and at most cutoff_angle, 20 degrees");
+              "scene.xml:3:26: beam_width is 21, expected at least 0 and at most cutoff_angle, 20 degrees");
     EXPECT_EQ(light_error("spot", "<texture type='bitmap' name='image'/>"),
               "scene.xml:3:24: a <texture> of emitter 'spot' is named 'image', expected the name 'texture'");
     EXPECT_EQ(light_error("spot", "<texture type='checkerboard' name='texture'/>"),
@@ -113,7 +113,7 @@ TEST_F(XmlLights, Projector) {
     EXPECT_EQ(light_error("projector", ""),
               "scene.xml:2:1: emitter 'projector' lacks the parameter 'irradiance', expected rgb, spectrum, float or integer");
     EXPECT_EQ(light_error("projector", "<rgb name='irradiance' value='2'/><float name='scale' value='-1'/>"),
-              "scene.xml:3:62: scale is -1, expected at least 0");
+              "scene.xml:3:55: scale is -1, expected at least 0");
     EXPECT_EQ(
         light_error("projector", "<rgb name='irradiance' value='2'/><transform name='to_world'><scale value='2'/></transform>"),
         "scene.xml:3:35: to_world of emitter 'projector' scales or shears, expected rotations and translations");
@@ -177,7 +177,7 @@ TEST_F(XmlLights, SeveralAndOneThatSurrounds) {
     EXPECT_EQ(error("<shape type='cube'>\n<emitter type='point'/></shape>"),
               "scene.xml:3:10: emitter type 'point' is not supported; allowed: area");
     EXPECT_EQ(light_error("point", "<float name='radius' value='1'/>"),
-              "scene.xml:3:14: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity");
+              "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity");
 }
 
 }  // namespace neumann
