@@ -81,6 +81,12 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (request.patches || request.directions)
         throw InputError(
             fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
+    if (scene.emitters.has_delta_lights() && (request.method == "pointwise" || request.direct == DirectLight::bsdf))
+        throw InputError(
+            fmt::format("{} finds lights by chance, and no ray meets a light without extent (directional, point, "
+                        "projector, spot), of which the scene has some; take {}",
+                        request.method == "pointwise" ? "--method pointwise" : "--direct bsdf",
+                        request.method == "pointwise" ? "--method walk, matrix or gather" : "--direct mis or light"));
     PictureSampler::Settings settings;
     settings.method = request.method == "pointwise" ? Method::pointwise : Method::walk;
     settings.walk.bounces = choose_bounces(job);

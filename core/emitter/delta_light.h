@@ -1,23 +1,13 @@
 // Lights without extent: no ray finds them, they have to be asked. What they bring is the irradiance on a surface that faces them.
 #pragma once
 
-#include "core/base/vec.h"
+#include "core/emitter/beam.h"
+#include "core/emitter/projector_light.h"
+#include "core/emitter/spot_light.h"
 
 #include <variant>
 
 namespace neumann {
-
-// What arrives at a point from such a light.
-struct Beam {
-    Vec3 from;             // a point of the light; of one infinitely far away, beyond the scene
-    Rgb irradiance{0.0};  // per area across the beam, W·m⁻²
-};
-
-// The sphere around a scene.
-struct Surroundings {
-    Vec3 center{0.0};
-    double radius = 1.0;
-};
 
 // The same radiant intensity in all directions (Mitsuba's `point`): I / d².
 class PointLight {
@@ -54,7 +44,7 @@ private:
     Rgb irradiance_;
 };
 
-using DeltaLight = std::variant<PointLight, DirectionalLight>;
+using DeltaLight = std::variant<PointLight, DirectionalLight, SpotLight, ProjectorLight>;
 
 inline Beam beam(const DeltaLight& light, const Vec3& at, const Surroundings& scene) {
     return std::visit([&](const auto& x) { return x.beam(at, scene); }, light);

@@ -35,7 +35,11 @@ Emitters::Emitters(const Geometry& geometry, Lights lights)
         environment_share_ = brightness(*lights_.environment) * sphere;
         add(environment_share_);
     }
-    for (const DeltaLight& light : lights_.delta) add(brightness(light, surroundings_));
+    for (const DeltaLight& light : lights_.delta) {
+        const double power = brightness(light, surroundings_);
+        if (power > 0.0) largest_radiance_ = Rgb(std::numeric_limits<double>::infinity());
+        add(power);
+    }
     const double total = cumulative_.empty() ? 0.0 : cumulative_.back();
     if (total == 0.0) {
         cumulative_.clear();

@@ -21,10 +21,10 @@ struct Lights {
 };
 
 struct LightSample {
-    SurfacePoint point;   // where it comes from; of an infinitely distant light, a point beyond the scene
-    Vec3 w;               // towards it
-    Rgb weight{0.0};      // the radiance that arrives from there unless something stands between, over pdf
-    double pdf = 0.0;     // of w, per solid angle, or delta_pdf where the light has no extent
+    SurfacePoint point;  // where it comes from; of an infinitely distant light, a point beyond the scene
+    Vec3 w;              // towards it
+    Rgb weight{0.0};     // the radiance that arrives from there unless something stands between, over pdf
+    double pdf = 0.0;    // of w, per solid angle, or delta_pdf where the light has no extent
 };
 
 class Emitters {
@@ -79,7 +79,7 @@ public:
         return density_of_shape_[y.shape] * glm::dot(d, d) / std::abs(glm::dot(y.normal, w));
     }
 
-    // ‖Le‖∞ for each channel; of lights with an extent.
+    // ‖Le‖∞ for each channel; infinite where a light has no extent.
     const Rgb& largest_radiance() const { return largest_radiance_; }
     // All channels of all lights are known to be alike.
     bool is_grey() const;
@@ -97,7 +97,7 @@ private:
     std::shared_ptr<const std::vector<Shape>> shapes_;
     Surroundings surroundings_;
     std::vector<Primitive> primitives_;
-    std::vector<double> cumulative_;  // of the probabilities of primitives_, then of the environment, then of lights_.delta
+    std::vector<double> cumulative_;        // of the probabilities of primitives_, then of the environment, then of lights_.delta
     std::vector<double> density_of_shape_;  // per area
     double environment_share_ = 0.0;
     Rgb largest_radiance_{0.0};

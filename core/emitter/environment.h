@@ -1,12 +1,14 @@
-// Light from infinitely far away, from all directions: the same everywhere (Mitsuba's `constant`).
+// Light from infinitely far away, from all directions.
 #pragma once
 
+#include "core/emitter/environment_map.h"
 #include "core/sampling/warp.h"
 
 #include <variant>
 
 namespace neumann {
 
+// The same from everywhere (Mitsuba's `constant`).
 class ConstantEnvironment {
 public:
     explicit ConstantEnvironment(const Rgb& radiance) : radiance_(radiance) {}
@@ -22,7 +24,7 @@ private:
     Rgb radiance_;
 };
 
-using Environment = std::variant<ConstantEnvironment>;
+using Environment = std::variant<ConstantEnvironment, EnvironmentMap>;
 
 // What arrives from direction w.
 inline Rgb radiance(const Environment& e, const Vec3& w) {
@@ -39,7 +41,7 @@ inline double pdf(const Environment& e, const Vec3& w) {
 inline Rgb largest(const Environment& e) {
     return std::visit([](const auto& x) { return x.largest(); }, e);
 }
-// The mean radiance over all directions and channels.
+// The mean radiance over all directions, in a weighting of the channels; positive where there is light.
 inline double brightness(const Environment& e) {
     return std::visit([](const auto& x) { return x.brightness(); }, e);
 }

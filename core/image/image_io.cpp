@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/image/gif_frames.h"
+#include "core/spectrum/spectrum_to_rgb.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
@@ -109,6 +110,27 @@ void expect_readable(const std::string& path) {
     }
 }
 
+// Alpha is not multiplied into the colours.
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
+    expect_readable(path);
+    OIIO::ImageSpec as_they_are;
+    as_they_are.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(path, &as_they_are);
+    if (!input) {
+        OIIO::geterror();
+        throw InputError(path + ": not a picture that can be read");
+    }
+    return input;
+}
+
+std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path) {
+    const OIIO::ImageSpec& spec = input.spec();
+    std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
+        throw InputError(fmt::format("{}: the picture is damaged: {}", path, input.geterror()));
+    return values;
+}
+
 }  // namespace
 
 std::string encode_exr(const Estimate& picture, const Attributes& attributes) {
@@ -159,26 +181,31 @@ std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_s
 }
 
 Estimate read_exr(const std::string& path, Attributes* attributes) {
-    expect_readable(path);
-    const auto input = OIIO::ImageInput::open(path);
-    if (!input) {
-        OIIO::geterror();
-        throw InputError(path + ": not a picture that can be read");
-    }
+    const auto input = open_picture(path);
     const OIIO::ImageSpec spec = input->spec();
     const auto mean_places = find_channels(spec, mean_channels);
     if (!mean_places) {
         throw InputError(fmt::format("{}: no channels R, G, B; it has {}", path, fmt::join(spec.channelnames, ", ")));
     }
-    std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
-        throw InputError(fmt::format("{}: the picture is damaged: {}", path, input->geterror()));
-    }
+    const std::vector<float> values = read_values(*input, path);
     if (attributes != nullptr) get_attributes(spec, *attributes);
     Estimate picture{pick_channels(spec, values, *mean_places), {}};
     if (const auto places = find_channels(spec, error_channels)) picture.standard_error = pick_channels(spec, values, *places);
     if (const auto places = find_channels(spec, discretisation_channels))
         picture.discretisation = pick_channels(spec, values, *places);
+    return picture;
+}
+
+Image read_light_image(const std::string& path, bool raw) {
+    const auto input = open_picture(path);
+    const OIIO::ImageSpec spec = input->spec();
+    auto places = find_channels(spec, mean_channels);
+    if (!places && spec.nchannels <= 2) places = {0, 0, 0};
+    if (!places) throw InputError(fmt::format("{}: no channels R, G, B; it has {}", path, fmt::join(spec.channelnames, ", ")));
+    Image picture = pick_channels(spec, read_values(*input, path), *places);
+    if (!raw && !spec.format.is_floating_point())
+        for (Rgb& c : picture.pixels)
+            for (int i = 0; i < 3; ++i) c[i] = srgb_decode(c[i]);
     return picture;
 }
 

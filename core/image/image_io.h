@@ -34,6 +34,10 @@ std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_s
 // empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such file, not a picture, damaged, no channels R, G, B.
 Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
 
+// Any picture that OpenImageIO reads as linear RGB, as Mitsuba takes pictures for light: integers are decoded as sRGB unless `raw`,
+// floats are linear already, a single channel is grey, alpha is left out. Throws InputError, beginning with the path.
+Image read_light_image(const std::string& path, bool raw = false);
+
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
 std::optional<std::string> find_label_font();
 

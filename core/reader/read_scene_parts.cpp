@@ -2,9 +2,11 @@
 #include "core/reader/bsdfs.h"
 #include "core/reader/file_hash.h"
 #include "core/reader/integrator.h"
+#include "core/reader/light_images.h"
 #include "core/reader/properties.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/read_shapes.h"
+#include "core/reader/scene_lights.h"
 #include "core/reader/sensor.h"
 
 #include <fmt/format.h>
@@ -31,12 +33,14 @@ const Element* only(const Element& root, const std::string& tag) {
 // What stands at the top level and nothing refers to is checked and dropped.
 void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
     Warnings dropped;
-    const Context aside{context.document, context.objects, dropped, context.mesh_files};
+    std::vector<std::string> dropped_files;
+    const Context aside{context.document, context.objects, dropped, dropped_files};
     Bsdfs other_bsdfs(aside);
     AreaLights other_lights(aside);
     for (const Element& e : root.children) {
         if (e.tag == "bsdf" && !bsdfs.has(e)) other_bsdfs.sides(e);
-        if (e.tag == "emitter" && !lights.has(e)) other_lights.index(e);
+        if (e.tag == "emitter" && e.attribute("type").value == "area" && !lights.has(e)) other_lights.index(e);
+        if (e.tag == "texture") read_bitmap(e, aside);
         if (e.tag == "film") read_film(e, aside);
         if (e.tag == "rfilter") read_filter(e, aside);
         if (e.tag == "sampler") read_sampler(e, aside);
@@ -65,13 +69,16 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     }
     const Element* sensor = only(document.root, "sensor");
     if (!sensor) throw InputError(document.root.place, "the scene has no <sensor>, expected one");
-    const Sensor s = read_sensor(*sensor, context);
+    const ReadSensor s = read_sensor(*sensor, context);
     parts.camera = s.camera;
     parts.film = s.film;
     parts.sampler = s.sampler;
 
     Bsdfs bsdfs(context);
     AreaLights lights(context);
+    SceneLights scene_lights(context);
+    for (const Element& e : document.root.children)
+        if (e.tag == "emitter") scene_lights.add(e);
     read_shapes(document.root, context, [&](ReadShape shape) {
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
@@ -80,6 +87,8 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();
     parts.lights.area = lights.take();
+    parts.lights.environment = scene_lights.take_environment();
+    parts.lights.delta = scene_lights.take_delta();
     std::vector<std::string> files = document.files;
     files.insert(files.end(), mesh_files.begin(), mesh_files.end());
     parts.hash = hash_files(files);

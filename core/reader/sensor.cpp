@@ -22,29 +22,70 @@ double parse_focal_length(const Properties& p, std::string text) {
     return value;
 }
 
-void read_fov(Properties& p, Perspective::Options& camera) {
-    using Axis = Perspective::FovAxis;
-    static const std::map<std::string, Axis> axes = {
-        {"x", Axis::x}, {"y", Axis::y}, {"diagonal", Axis::diagonal}, {"smaller", Axis::smaller}, {"larger", Axis::larger}};
+void read_clipping(Properties& p, SensorOptions& camera) {
+    camera.near_clip = p.number("near_clip").value_or(1e-2);
+    camera.far_clip = p.number("far_clip").value_or(1e4);
+    if (camera.near_clip <= 0.0) p.fail("near_clip", fmt::format("near_clip is {}, expected more than 0", camera.near_clip));
+    if (camera.far_clip <= camera.near_clip)
+        p.fail("far_clip", fmt::format("far_clip is {}, expected more than near_clip, {}", camera.far_clip, camera.near_clip));
+}
+
+SensorOptions read_perspective(Properties& p) {
+    SensorOptions camera;
+    camera.to_world = read_rigid_transform(p);
+    const FieldOfView field = read_field_of_view(p);
+    camera.fov = field.angle;
+    camera.fov_axis = field.axis;
+    read_clipping(p, camera);
+    const std::optional<double> focus_distance = p.number("focus_distance");
+    if (p.element().attribute("type").value == "perspective") {
+        // A pinhole is sharp everywhere.
+        camera.principal_point_offset = {p.number("principal_point_offset_x").value_or(0.0),
+                                         p.number("principal_point_offset_y").value_or(0.0)};
+        return camera;
+    }
+    camera.kind = SensorOptions::Kind::thin_lens;
+    camera.focus_distance = focus_distance.value_or(camera.far_clip);
+    if (camera.focus_distance <= 0.0)
+        p.fail("focus_distance", fmt::format("focus_distance is {}, expected more than 0", camera.focus_distance));
+    p.require("aperture_radius", {"float", "integer"});
+    camera.aperture_radius = *p.number("aperture_radius");
+    if (camera.aperture_radius < 0.0)
+        p.fail("aperture_radius", fmt::format("aperture_radius is {}, expected at least 0", camera.aperture_radius));
+    return camera;
+}
+
+SensorOptions read_orthographic(Properties& p) {
+    SensorOptions camera;
+    camera.kind = SensorOptions::Kind::orthographic;
+    camera.to_world = p.transform("to_world");
+    read_clipping(p, camera);
+    p.number("focus_distance");  // parallel rays are sharp everywhere
+    return camera;
+}
+
+}  // namespace
+
+FieldOfView read_field_of_view(Properties& p) {
+    static const std::map<std::string, FovAxis> axes = {{"x", FovAxis::x},
+                                                        {"y", FovAxis::y},
+                                                        {"diagonal", FovAxis::diagonal},
+                                                        {"smaller", FovAxis::smaller},
+                                                        {"larger", FovAxis::larger}};
     const std::string axis = p.choice("fov_axis", {"x", "y", "diagonal", "smaller", "larger"}, "x");
     const std::optional<double> fov = p.number("fov");
     const std::optional<std::string> focal_length = p.text("focal_length");
     if (fov && focal_length) p.fail("focal_length", "both fov and focal_length are given, expected one of them");
-    if (!fov && !focal_length)
-        throw InputError(p.element().place, fmt::format("{} lacks the parameter 'fov', expected float", p.title()));
-    if (fov) {
-        if (!(*fov > 0.0 && *fov < 180.0))
-            p.fail("fov", fmt::format("fov is {}, expected more than 0 and less than 180 degrees", *fov));
-        camera.fov = glm::radians(*fov);
-        camera.fov_axis = axes.at(axis);
-    } else {
-        // Of 35 mm film, 36 mm × 24 mm.
-        camera.fov = 2.0 * std::atan(0.5 * std::hypot(36.0, 24.0) / parse_focal_length(p, *focal_length));
-        camera.fov_axis = Axis::diagonal;
-    }
+    // Of 35 mm film, 36 mm × 24 mm.
+    if (!fov)
+        return {2.0 * std::atan(0.5 * std::hypot(36.0, 24.0) / parse_focal_length(p, focal_length.value_or("50mm"))),
+                FovAxis::diagonal};
+    if (!(*fov > 0.0 && *fov < 180.0))
+        p.fail("fov", fmt::format("fov is {}, expected more than 0 and less than 180 degrees", *fov));
+    return {glm::radians(*fov), axes.at(axis)};
 }
 
-Mat4 read_camera_to_world(Properties& p) {
+Mat4 read_rigid_transform(Properties& p) {
     const Mat4 m = p.transform("to_world");
     constexpr double tolerance = 1e-3;
     for (int i = 0; i < 3; ++i)
@@ -54,22 +95,13 @@ Mat4 read_camera_to_world(Properties& p) {
     return m;
 }
 
-}  // namespace
-
-Sensor read_sensor(const Element& e, const Context& context) {
-    if (e.attribute("type").value != "perspective") fail_type(e, {"perspective"});
+ReadSensor read_sensor(const Element& e, const Context& context) {
+    const std::string& type = e.attribute("type").value;
+    if (type != "orthographic" && type != "perspective" && type != "thinlens")
+        fail_type(e, {"orthographic", "perspective", "thinlens"});
     Properties p(e, context.objects);
-    Sensor s;
-    s.camera.to_world = read_camera_to_world(p);
-    read_fov(p, s.camera);
-    s.camera.near_clip = p.number("near_clip").value_or(1e-2);
-    s.camera.far_clip = p.number("far_clip").value_or(1e4);
-    if (s.camera.near_clip <= 0.0) p.fail("near_clip", fmt::format("near_clip is {}, expected more than 0", s.camera.near_clip));
-    if (s.camera.far_clip <= s.camera.near_clip)
-        p.fail("far_clip", fmt::format("far_clip is {}, expected more than near_clip, {}", s.camera.far_clip, s.camera.near_clip));
-    p.number("focus_distance");  // a pinhole is sharp everywhere
-    s.camera.principal_point_offset = {p.number("principal_point_offset_x").value_or(0.0),
-                                       p.number("principal_point_offset_y").value_or(0.0)};
+    ReadSensor s;
+    s.camera = type == "orthographic" ? read_orthographic(p) : read_perspective(p);
     const std::vector<const Element*> films = p.nested("film"), samplers = p.nested("sampler");
     p.finish();
     if (!films.empty()) s.film = read_film(*films.front(), context);

@@ -37,7 +37,7 @@ Scene make_scene(SceneParts parts) {
     if (emitters.empty()) warnings.add("the scene has no light");
     if (max_component(materials.largest_albedo()) > 1.0)
         warnings.add("reflectance above 1: a surface gives back more light than it receives");
-    const Perspective camera(parts.camera, parts.film);
+    const Sensor camera(parts.camera, parts.film);
     return {std::move(geometry), std::move(materials),  std::move(emitters), camera, parts.film, parts.bounces, parts.sampler,
             parts.hide_emitters, std::move(parts.hash), std::move(warnings)};
 }

@@ -5,7 +5,7 @@
 #include "core/emitter/emitters.h"
 #include "core/geometry/geometry.h"
 #include "core/material/materials.h"
-#include "core/sensor/perspective.h"
+#include "core/sensor/sensor.h"
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ struct Scene {
     Geometry geometry;
     Materials materials;
     Emitters emitters;
-    Perspective camera;
+    Sensor camera;
     Film film;
 
     // What the scene file asks for, if it does; the command line overrides it.
@@ -37,7 +37,7 @@ struct SceneParts {
     std::vector<Bsdf> bsdfs;
     std::vector<Materials::Sides> sides_of_shape;
     Lights lights;
-    Perspective::Options camera;
+    SensorOptions camera;
     Film film;
     std::optional<int> bounces;
     std::optional<SamplerKind> sampler;

@@ -21,10 +21,11 @@ std::uint32_t directions_of(const Bsdf& bsdf) {
 
 std::vector<SideDirections> side_directions(const Scene& scene) {
     std::vector<SideDirections> sides;
+    const bool lit_from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights();
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const bool emits = scene.emitters.is_emitter(shape);
         const Bsdf *front = scene.materials.at(shape, true), *back = scene.materials.at(shape, false);
-        sides.push_back({front ? directions_of(*front) : emits ? 1u : 0u, back ? directions_of(*back) : 0u, emits});
+        sides.push_back({front ? directions_of(*front) : emits ? 1u : 0u, back ? directions_of(*back) : 0u, emits, lit_from_elsewhere});
     }
     return sides;
 }

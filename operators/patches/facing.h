@@ -1,4 +1,4 @@
-// Sides that face nothing: the outsides of a room's walls. No light gets there and none leaves for elsewhere.
+// Sides that face nothing: the outsides of a room's walls. No surface's light gets there and none leaves for another.
 #pragma once
 
 #include "operators/patches/chart.h"

@@ -18,8 +18,10 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
         if (chart != &patches_.chart(patch)) {
             chart = &patches_.chart(patch);
             directions = sides_[chart->shape()];
-            if (!directions.emits && facing.nothing(*chart, true)) directions.front = 0;
-            if (facing.nothing(*chart, false)) directions.back = 0;
+            if (!directions.lit_from_elsewhere) {
+                if (!directions.emits && facing.nothing(*chart, true)) directions.front = 0;
+                if (facing.nothing(*chart, false)) directions.back = 0;
+            }
         }
         for (const bool front : {true, false}) {
             const std::uint32_t k = directions.of(front);

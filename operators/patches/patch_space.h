@@ -14,7 +14,8 @@ namespace neumann {
 // Directions of the two sides of a shape, as DirectionCells::k; 0: this side is neither seen nor lit.
 struct SideDirections {
     std::uint32_t front = 1, back = 0;
-    bool emits = false;  // the front does
+    bool emits = false;               // the front does
+    bool lit_from_elsewhere = false;  // by more than surfaces: what faces no surface may be lit
     std::uint32_t of(bool front_side) const { return front_side ? front : back; }
 };
 

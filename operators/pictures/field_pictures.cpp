@@ -154,7 +154,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                 const FilmSample film = scene.film.sample(sampler.next2(), scene.film.crop_x + static_cast<int>(pixel) % width,
                                                           scene.film.crop_y + static_cast<int>(pixel) / width);
                 work.samples.push_back(
-                    {scene.camera.ray(film.position), film.weight, work.values.data() + offset * all + r * stride,
+                    {scene.camera.sample_ray(film.position, sampler), film.weight, work.values.data() + offset * all + r * stride,
                      i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr, difference_weight,
                      &sampler, &work.gather_samplers[offset], sample_number * settings.gather_rays});
             }

@@ -99,12 +99,17 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
     }
     const SobolPoints points(256);
     SobolSampler sampler(points, 0, 0);
+    Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
-        const Vec3 p = scene.emitters.sample(scene.geometry, scene.geometry.center(), sampler.next2()).point.position;
-        low_ = i == 0 ? p : glm::min(low_, p);
-        high_ = i == 0 ? p : glm::max(high_, p);
+        const LightSample light = scene.emitters.sample(scene.geometry, scene.geometry.center(), sampler.next2());
+        if (light.pdf == delta_pdf) continue;
+        low = glm::min(low, light.point.position);
+        high = glm::max(high, light.point.position);
     }
+    if (low.x > high.x) return;  // no light has an extent
+    low_ = low;
+    high_ = high;
     near_ = glm::length(high_ - low_);
 }
 

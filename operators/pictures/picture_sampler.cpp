@@ -74,7 +74,7 @@ void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> sam
         const Pixel& pixel = pixels[i / size];
         samplers[i].start(replicate * size + i % size);
         const FilmSample sample = film.sample(samplers[i].next2(), pixel.x, pixel.y);
-        work.rays[i] = scene.camera.ray(sample.position);
+        work.rays[i] = scene.camera.sample_ray(sample.position, samplers[i]);
         work.weights[i] = sample.weight;
     }
     std::fill(work.samples.begin(), work.samples.end(), Rgb(0.0));

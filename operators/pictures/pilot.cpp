@@ -44,7 +44,7 @@ Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
                 sampler.start(0);
                 const Vec2 u = sampler.next2();
                 camera_rays.push_back(
-                    scene.camera.ray({film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height}));
+                    scene.camera.sample_ray({film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height}, sampler));
             }
             std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
             TermSamples result{sampled, round[b].rays};

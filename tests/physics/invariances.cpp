@@ -38,7 +38,7 @@ Scene furnished_room(const Units& units) {
     maker.add(place(parallelogram({-0.3, 0.1, 0.83}, {0, 0.5, 0}, {0.6, 0, 0})),
               {grey(0.3), Rgb(17.0, 12.0, 4.0) * units.radiance});
 
-    Perspective::Options& camera = maker.parts.camera;
+    SensorOptions& camera = maker.parts.camera;
     // Looks along +y, z is up.
     camera.to_world = Mat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 1, 0, 0),
                            glm::dvec4(Vec3(0.05, -0.93, 0.07) * units.length + units.origin, 1.0));

@@ -31,7 +31,7 @@ TEST_F(XmlAccepted, Defaults) {
     EXPECT_EQ(std::get<GaussianFilter>(parts.film.filter).radius(), 2.0);
     EXPECT_EQ(parts.camera.to_world, Mat4(1.0));
     EXPECT_DOUBLE_EQ(parts.camera.fov, radians(40.0));
-    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::x);
+    EXPECT_EQ(parts.camera.fov_axis, FovAxis::x);
     EXPECT_EQ(parts.camera.near_clip, 1e-2);
     EXPECT_EQ(parts.camera.far_clip, 1e4);
     EXPECT_TRUE(parts.warnings.counts().empty());
@@ -49,16 +49,36 @@ TEST_F(XmlAccepted, Camera) {
         "<integer name='far_clip' value='2800'/><float name='focus_distance' value='1000'/>"
         "<float name='principal_point_offset_x' value='0.25'/><float name='principal_point_offset_y' value='-0.5'/>");
     EXPECT_DOUBLE_EQ(parts.camera.fov, radians(30.0));
-    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::smaller);
+    EXPECT_EQ(parts.camera.fov_axis, FovAxis::smaller);
     EXPECT_EQ(parts.camera.near_clip, 10.0);
     EXPECT_EQ(parts.camera.far_clip, 2800.0);
     EXPECT_EQ(parts.camera.principal_point_offset, Vec2(0.25, -0.5));
 }
 
 TEST_F(XmlAccepted, FocalLength) {
-    const SceneParts parts = read_sensor("<string name='focal_length' value='50mm'/>");
-    EXPECT_EQ(parts.camera.fov_axis, Perspective::FovAxis::diagonal);
-    EXPECT_NEAR(parts.camera.fov * 180.0 / std::numbers::pi, 46.7930, 1e-4);  // what a 50 mm lens is known for
+    for (const char* given : {"<string name='focal_length' value='50mm'/>", ""}) {
+        const SceneParts parts = read_sensor(given);
+        EXPECT_EQ(parts.camera.fov_axis, FovAxis::diagonal);
+        EXPECT_NEAR(parts.camera.fov * 180.0 / std::numbers::pi, 46.7930, 1e-4);  // what a 50 mm lens is known for
+    }
+}
+
+TEST_F(XmlAccepted, OtherSensors) {
+    const auto camera = [&](const std::string& type, const std::string& inside) {
+        return read_file("<scene version='3.0.0'><sensor type='" + type + "'>" + inside + "</sensor></scene>").camera;
+    };
+    const SensorOptions lens = camera("thinlens", "<float name='aperture_radius' value='0.1'/><float name='fov' value='30'/>");
+    EXPECT_EQ(lens.kind, SensorOptions::Kind::thin_lens);
+    EXPECT_EQ(lens.aperture_radius, 0.1);
+    EXPECT_EQ(lens.focus_distance, 1e4);  // the far plane
+    EXPECT_DOUBLE_EQ(lens.fov, radians(30.0));
+    EXPECT_EQ(
+        camera("thinlens", "<float name='aperture_radius' value='0.1'/><float name='focus_distance' value='3'/>").focus_distance,
+        3.0);
+    const SensorOptions flat = camera("orthographic", "<transform name='to_world'><scale x='10' y='10'/></transform>");
+    EXPECT_EQ(flat.kind, SensorOptions::Kind::orthographic);
+    EXPECT_EQ(flat.to_world[0][0], 10.0);
+    EXPECT_EQ(flat.near_clip, 1e-2);
 }
 
 TEST_F(XmlAccepted, MirroredCamera) {

@@ -22,9 +22,10 @@ protected:
 TEST_F(XmlValueErrors, UnknownTypes) {
     EXPECT_EQ(error("<bsdf type=\"plastic\"/>"),
               "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: conductor, diffuse, roughconductor, twosided");
-    EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
-    EXPECT_EQ(error("<integrator type=\"volpath\"/>"),
-              "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: direct, moment, path");
+    EXPECT_EQ(error("<emitter type=\"sunsky\"/>"),
+              "scene.xml:2:10: emitter type 'sunsky' is not supported; allowed: area, constant, directional, envmap, point, "
+              "projector, spot");
+    EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: direct, moment, path");
     EXPECT_EQ(
         error("<shape type=\"bsplinecurve\"/>"),
         "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, serialized, shapegroup, sphere");
@@ -34,8 +35,8 @@ TEST_F(XmlValueErrors, UnknownTypes) {
     EXPECT_EQ(error("<film type=\"specfilm\"/>"), "scene.xml:2:7: film type 'specfilm' is not supported; allowed: hdrfilm");
     EXPECT_EQ(error("<rfilter type=\"sinc\"/>"),
               "scene.xml:2:10: rfilter type 'sinc' is not supported; allowed: box, catmullrom, gaussian, lanczos, mitchell, tent");
-    EXPECT_EQ(file_error("<scene version=\"3.0.0\"><sensor type=\"thinlens\"/></scene>"),
-              "scene.xml:1:32: sensor type 'thinlens' is not supported; allowed: perspective");
+    EXPECT_EQ(file_error("<scene version=\"3.0.0\"><sensor type=\"radiancemeter\"/></scene>"),
+              "scene.xml:1:32: sensor type 'radiancemeter' is not supported; allowed: orthographic, perspective, thinlens");
 }
 
 TEST_F(XmlValueErrors, UnknownParameters) {
@@ -87,7 +88,8 @@ TEST_F(XmlValueErrors, MissingParameter) {
     EXPECT_EQ(error("<emitter type=\"area\"/>"),
               "scene.xml:2:1: emitter 'area' lacks the parameter 'radiance', expected rgb, spectrum, float or integer");
     EXPECT_EQ(error("<shape type=\"obj\"/>"), "scene.xml:2:1: shape 'obj' lacks the parameter 'filename', expected string");
-    EXPECT_EQ(sensor_error(""), "scene.xml:1:24: sensor 'perspective' lacks the parameter 'fov', expected float");
+    EXPECT_EQ(file_error("<scene version='3.0.0'><sensor type='thinlens'/></scene>"),
+              "scene.xml:1:24: sensor 'thinlens' lacks the parameter 'aperture_radius', expected float or integer");
     EXPECT_EQ(error("<bsdf type=\"twosided\"/>"), "scene.xml:2:1: bsdf 'twosided' has no <bsdf> inside, expected one or two");
 }
 
@@ -150,6 +152,15 @@ TEST_F(XmlValueErrors, Sensors) {
               "scene.xml:2:53: far_clip is 0.01, expected more than near_clip, 0.01");
     EXPECT_EQ(sensor_error("<float name='fov' value='9'/><transform name='to_world'><scale value='1.001'/></transform>"),
               "scene.xml:2:30: to_world of sensor 'perspective' scales or shears, expected rotations and translations");
+    EXPECT_EQ(
+        file_error("<scene version='3.0.0'><sensor type='thinlens'><float name='aperture_radius' value='-1'/></sensor></scene>"),
+        "scene.xml:1:85: aperture_radius is -1, expected at least 0");
+    EXPECT_EQ(file_error("<scene version='3.0.0'><sensor type='thinlens'><float name='aperture_radius' value='1'/>"
+                         "<float name='focus_distance' value='0'/></sensor></scene>"),
+              "scene.xml:1:125: focus_distance is 0, expected more than 0");
+    EXPECT_EQ(
+        file_error("<scene version='3.0.0'><sensor type='orthographic'><float name='fov' value='9'/></sensor></scene>"),
+        "scene.xml:1:65: unknown parameter 'fov' of sensor 'orthographic'; allowed: to_world, near_clip, far_clip, focus_distance");
     EXPECT_EQ(sensor_error("<float name='fov' value='9'/><transform name='to_world'><scale z='0'/></transform>"),
               "scene.xml:2:30: to_world of sensor 'perspective' has no inverse");
 }

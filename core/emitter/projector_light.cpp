@@ -1,0 +1,23 @@
+#include "core/emitter/projector_light.h"
+
+#include "core/sampling/warp.h"
+
+namespace neumann {
+
+ProjectorLight::ProjectorLight(const Mat4& to_world, Slide slide, double scale, double half_width)
+    : to_local_(glm::inverse(glm::dmat3(to_world))),
+      position_(to_world[3]),
+      slide_(std::move(slide)),
+      scale_(scale),
+      half_size_(half_width, half_width / slide_.aspect()) {}
+
+// π E / (z² cosθ): with the cosine of a surface across the axis, E at z = 1 wherever it lies.
+Beam ProjectorLight::beam(const Vec3& at, const Surroundings&) const {
+    const Vec3 local = to_local_ * (at - position_);
+    if (!(local.z > 0.0)) return {position_};
+    const Vec2 uv = Vec2(0.5) - Vec2(local) / (half_size_ * (2.0 * local.z));
+    if (uv.x < 0.0 || uv.x > 1.0 || uv.y < 0.0 || uv.y > 1.0) return {position_};
+    return {position_, slide_.at(uv) * (pi * scale_ * glm::length(local) / (local.z * local.z * local.z))};
+}
+
+}  // namespace neumann

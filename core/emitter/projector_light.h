@@ -1,0 +1,28 @@
+// A pinhole that throws a picture (Mitsuba's `projector`), the reverse of a camera: a white surface across its axis at the distance
+// 1 shows the picture.
+#pragma once
+
+#include "core/emitter/beam.h"
+#include "core/emitter/slide.h"
+
+namespace neumann {
+
+class ProjectorLight {
+public:
+    // `half_width`: tan of half the angle across the picture. `to_world`: as a camera's, without scale.
+    ProjectorLight(const Mat4& to_world, Slide slide, double scale, double half_width);
+
+    Beam beam(const Vec3& at, const Surroundings&) const;
+    // The power in all, over π.
+    double brightness(const Surroundings&) const { return slide_.mean() * scale_ * 4.0 * half_size_.x * half_size_.y; }
+    bool is_grey() const { return slide_.is_grey(); }
+
+private:
+    glm::dmat3 to_local_;
+    Vec3 position_;
+    Slide slide_;
+    double scale_;
+    Vec2 half_size_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,31 @@
+#include "core/emitter/spot_light.h"
+
+#include <cmath>
+
+namespace neumann {
+
+SpotLight::SpotLight(const Mat4& to_world, const Rgb& intensity, double cutoff, double beam_width, std::optional<Slide> slide)
+    : to_local_(glm::inverse(glm::dmat3(to_world))),
+      position_(to_world[3]),
+      intensity_(intensity),
+      cutoff_(cutoff),
+      beam_width_(beam_width),
+      slide_(std::move(slide)) {}
+
+Beam SpotLight::beam(const Vec3& at, const Surroundings&) const {
+    const Vec3 d = at - position_, local = to_local_ * d;
+    const double angle = std::atan2(std::hypot(local.x, local.y), local.z);
+    if (angle >= cutoff_) return {position_};
+    const double falloff = angle <= beam_width_ ? 1.0 : (cutoff_ - angle) / (cutoff_ - beam_width_);
+    Rgb intensity = intensity_ * falloff;
+    if (slide_) intensity *= slide_->at(Vec2(0.5) + Vec2(local) * (0.5 / (local.z * std::tan(cutoff_))));
+    return {position_, intensity / glm::dot(d, d)};
+}
+
+double SpotLight::brightness(const Surroundings&) const {
+    const double width = cutoff_ - beam_width_,
+                 slope = width > 0.0 ? (std::sin(cutoff_) - std::sin(beam_width_)) / width : std::cos(cutoff_);
+    return 2.0 * (1.0 - slope) * mean_component(intensity_) * (slide_ ? slide_->mean() : 1.0);
+}
+
+}  // namespace neumann

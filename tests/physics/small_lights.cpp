@@ -1,0 +1,204 @@
+// Lights that no ray meets, or that surround the scene alike on all sides: what they bring is known exactly.
+#include "core/sampling/independent_sampler.h"
+#include "tests/physics/pictures.h"
+#include "tests/physics/probe.h"
+#include "tests/physics/scene_maker.h"
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace neumann::physics {
+namespace {
+
+constexpr double rho = 0.7;
+const Surroundings nowhere;
+
+// Looks from `origin` along `ahead`, `up` upwards: +z, +y and +x to the left.
+Mat4 facing(const Vec3& origin, const Vec3& ahead, const Vec3& up) {
+    const Vec3 left = glm::normalize(glm::cross(up, ahead));
+    return {glm::dvec4(left, 0), glm::dvec4(glm::cross(ahead, left), 0), glm::dvec4(ahead, 0), glm::dvec4(origin, 1)};
+}
+
+// What a floor at z = 0 shows at p by the walk's two ways that ask for lights.
+void expect_reflected(const std::vector<DeltaLight>& lights, const Vec3& p, double exact, const std::string& what) {
+    SceneMaker maker;
+    maker.add(parallelogram({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), matte(rho));
+    maker.parts.lights.delta = lights;
+    const Scene scene = maker.make();
+    for (const Way way : {Way::mis, Way::light}) {
+        SCOPED_TRACE(what + ", " + name(way));
+        expect_matches(probe(scene, at(scene, p, {0, 0, 1}), way, {.samples = 1024, .bounces = 2}), std::vector{0.0, exact, 0.0});
+    }
+}
+
+// ρ I cosθ / (π d²).
+TEST(SmallLights, APointLightsByTheSquareOfItsDistance) {
+    expect_reflected({PointLight({1, 2, 2}, grey(5.0))}, {0, 0, 0}, rho * 5.0 * (2.0 / 3.0) / (pi * 9.0), "aside");
+    expect_reflected({PointLight({1, 2, 0.01}, grey(5.0))}, {1, 2, 0}, rho * 5.0 / (pi * 1e-4), "near");
+    expect_reflected({PointLight({1, 2, -1}, grey(5.0))}, {0, 0, 0}, 0.0, "behind");
+}
+
+// ρ E cosθ / π, wherever the floor is.
+TEST(SmallLights, ADirectionalLightIsTheSameEverywhere) {
+    const DirectionalLight sun(glm::normalize(Vec3(3, 0, -4)), grey(5.0));
+    for (const Vec3& p : {Vec3(0, 0, 0), Vec3(8, -7, 0)}) expect_reflected({sun}, p, rho * 5.0 * 0.8 / pi, "from above");
+    expect_reflected({DirectionalLight({0, 0, 1}, grey(5.0))}, {0, 0, 0}, 0.0, "from below");
+}
+
+// Full up to 30°, then linearly in the angle to nothing at 50°; a point at 40° gets half of it. At height 2, tan θ = x/2.
+TEST(SmallLights, ASpotFallsOffLinearlyInTheAngle) {
+    const Mat4 down = facing({0, 0, 2}, {0, 0, -1}, {0, 1, 0});
+    const SpotLight spot(down, grey(5.0), glm::radians(50.0), glm::radians(30.0));
+    for (const auto& [degrees, part] : {std::pair(0.0, 1.0), {29.9, 1.0}, {40.0, 0.5}, {45.0, 0.25}, {50.1, 0.0}, {70.0, 0.0}}) {
+        const double theta = glm::radians(degrees), cosine = std::cos(theta);
+        for (const double turn : {0.0, 1.0, 4.0}) {
+            const Vec3 p = Vec3(std::cos(turn), std::sin(turn), 0) * (2.0 * std::tan(theta));
+            expect_reflected({spot}, p, part * rho * 5.0 * cosine / pi * cosine * cosine / 4.0, std::to_string(degrees) + "°");
+        }
+    }
+    // Without a way from full to nothing.
+    const SpotLight hard(down, grey(5.0), glm::radians(50.0), glm::radians(50.0));
+    EXPECT_EQ(hard.beam({2, 0, 0.01}, nowhere).irradiance.r, 5.0 / (4.0 + 1.99 * 1.99));
+    EXPECT_EQ(hard.beam({3, 0, 0.01}, nowhere).irradiance.r, 0.0);
+}
+
+Image four_pixels() {
+    Image image(2, 2);
+    image.at(0, 0) = grey(1.0);
+    image.at(1, 0) = grey(2.0);
+    image.at(0, 1) = grey(3.0);
+    image.at(1, 1) = grey(4.0);
+    return image;
+}
+
+// The slide fills the square around the cone: u grows with the spot's own x and v with its y.
+TEST(SmallLights, ASpotThrowsItsSlide) {
+    const double cutoff = glm::radians(40.0), size = std::tan(cutoff);
+    const SpotLight spot(Mat4(1.0), grey(5.0), cutoff, cutoff, Slide(four_pixels(), false));
+    const auto thrown = [&](double x, double y) {
+        const Vec3 p(x * size, y * size, 1.0);
+        return spot.beam(p * 3.0, nowhere).irradiance.r * 9.0 * glm::dot(p, p) / 5.0;
+    };
+    EXPECT_NEAR(thrown(-0.5, -0.5), 1.0, 1e-14);
+    EXPECT_NEAR(thrown(0.5, -0.5), 2.0, 1e-14);
+    EXPECT_NEAR(thrown(-0.5, 0.5), 3.0, 1e-14);
+    EXPECT_NEAR(thrown(0.5, 0.5), 4.0, 1e-14);
+}
+
+// Bilinear between the middles of pixels; beyond the outer ones the slide is repeated, mirrored, or its edge goes on.
+TEST(SmallLights, ASlideIsInterpolated) {
+    const auto at = [&](Slide::Wrap wrap, double u, double v) { return Slide(four_pixels(), true, wrap).at({u, v}).r; };
+    for (const Slide::Wrap wrap : {Slide::Wrap::repeat, Slide::Wrap::mirror, Slide::Wrap::clamp}) {
+        EXPECT_DOUBLE_EQ(at(wrap, 0.25, 0.25), 1.0);
+        EXPECT_DOUBLE_EQ(at(wrap, 0.75, 0.75), 4.0);
+        EXPECT_DOUBLE_EQ(at(wrap, 0.5, 0.5), 2.5);
+        EXPECT_DOUBLE_EQ(at(wrap, 0.5, 0.25), 1.5);
+    }
+    EXPECT_DOUBLE_EQ(at(Slide::Wrap::repeat, 0.0, 0.25), 1.5);
+    EXPECT_DOUBLE_EQ(at(Slide::Wrap::mirror, 0.0, 0.25), 1.0);
+    EXPECT_DOUBLE_EQ(at(Slide::Wrap::clamp, 0.0, 0.25), 1.0);
+    EXPECT_DOUBLE_EQ(at(Slide::Wrap::repeat, 1.25, -0.75), 1.0);
+    EXPECT_DOUBLE_EQ(at(Slide::Wrap::mirror, 1.25, -0.25), 2.0);
+    EXPECT_DOUBLE_EQ(at(Slide::Wrap::clamp, 1.25, -0.75), 2.0);
+    EXPECT_EQ(Slide(four_pixels()).mean(), 2.5);
+}
+
+// A floor across the axis shows ρ E / z² wherever the picture falls; the first pixel is at +x and +y, as in a camera's film.
+TEST(SmallLights, AProjectorLightsAFloorEvenly) {
+    Image plain(2, 1);
+    plain.at(0, 0) = plain.at(1, 0) = grey(5.0);
+    const ProjectorLight projector(facing({0, 0, 2}, {0, 0, -1}, {0, 1, 0}), Slide(plain), 1.5, 0.8);
+    // The picture is 3.2 wide and 1.6 high there.
+    for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1.59, 0.79, 0), Vec3(-1.59, 0.4, 0), Vec3(0.3, -0.79, 0)})
+        expect_reflected({projector}, p, rho * 5.0 * 1.5 / 4.0, "inside");
+    expect_reflected({projector}, {1.61, 0, 0}, 0.0, "beside");
+    expect_reflected({projector}, {0, 0.81, 0}, 0.0, "above");
+
+    const ProjectorLight sharp(Mat4(1.0), Slide(four_pixels(), false), 1.0, 0.5);
+    const auto thrown = [&](double x, double y) {
+        const Vec3 p(x, y, 1.0);
+        return sharp.beam(p * 3.0, nowhere).irradiance.r * 9.0 / (pi * glm::length(p));
+    };
+    EXPECT_NEAR(thrown(0.2, 0.2), 1.0, 1e-14);
+    EXPECT_NEAR(thrown(-0.2, 0.2), 2.0, 1e-14);
+    EXPECT_NEAR(thrown(0.2, -0.2), 3.0, 1e-14);
+    EXPECT_NEAR(thrown(-0.2, -0.2), 4.0, 1e-14);
+    EXPECT_EQ(sharp.beam({0, 0, -1}, nowhere).irradiance.r, 0.0);
+}
+
+// Brightness is the power over π: 1/π ∫ I dω over all directions, which are drawn uniformly. To 4.5 standard errors: 3 lights.
+TEST(SmallLights, ChoiceIsByPower) {
+    const auto expect_power = [](const auto& light) {
+        constexpr int n = 1 << 16;
+        double sum = 0.0, squares = 0.0;
+        IndependentSampler sampler(fixed_seed, 0);
+        for (int i = 0; i < n; ++i) {
+            sampler.start(static_cast<std::uint64_t>(i));
+            const double x = 4.0 * mean_component(light.beam(uniform_sphere(sampler.next2()), nowhere).irradiance);
+            sum += x;
+            squares += x * x;
+        }
+        const double mean = sum / n, error = std::sqrt((squares / n - mean * mean) / n);
+        EXPECT_NEAR(light.brightness(nowhere), mean, 4.5 * error + 1e-12 * mean);
+    };
+    expect_power(PointLight({0, 0, 0}, {1, 2, 3}));
+    expect_power(SpotLight(Mat4(1.0), {1, 2, 3}, 1.0, 0.3));
+    expect_power(ProjectorLight(Mat4(1.0), Slide(four_pixels()), 1.5, 0.8));
+}
+
+// All kinds at once: the sum of what they bring alone, however they share the samples. A lamp of form factor 1/5 (a disc of radius
+// ½ at height 1), the constant environment where the lamp does not cover it, a point and the sun; the floor is convex. 3
+// comparisons by each way.
+TEST(SmallLights, ShareTheSamplesOfAllLights) {
+    SceneMaker maker;
+    maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(rho));
+    maker.add(Disk{{0, 0, 1}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, -1}}, lamp(3.0));
+    maker.parts.lights.environment = ConstantEnvironment(grey(2.0));
+    maker.parts.lights.delta = {PointLight({2, 0, 1}, grey(4.0)), DirectionalLight(glm::normalize(Vec3(3, 0, -4)), grey(5.0))};
+    const Scene scene = maker.make();
+    const double exact = rho * (3.0 * 0.2 + 2.0 * 0.8 + 4.0 / std::sqrt(5.0) / (pi * 5.0) + 5.0 * 0.8 / pi);
+    for (const Way way : {Way::mis, Way::light}) {
+        SCOPED_TRACE(name(way));
+        expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 2}),
+                       std::vector{0.0, exact, 0.0});
+    }
+}
+
+// A convex body of albedo ρ under radiance 1 shows exactly ρ at bounce 1 and nothing later.
+TEST(SmallLights, AConstantEnvironmentIsAFurnaceForAConvexBody) {
+    for (const Shape& body : {Shape(make_cube(Mat4(1.0))), Shape(Sphere{{0.1, 0.2, 0.3}, 1.0, false}), Shape(tetrahedron(1.0))}) {
+        SceneMaker maker;
+        const std::uint32_t shape = maker.add(body, matte(rho));
+        maker.parts.lights.environment = ConstantEnvironment(grey(1.0));
+        const Scene scene = maker.make();
+        for (const Way way : {Way::bsdf, Way::pointwise})
+            expect_exact(probe(scene, anywhere_on(scene, shape), way, {.samples = 1024, .bounces = 3}),
+                         [](int i) { return grey(i == 1 ? rho : 0.0); });
+        for (const Way way : {Way::mis, Way::light})
+            expect_matches(probe(scene, anywhere_on(scene, shape), way, {.samples = 65536, .bounces = 2}),
+                           std::vector{0.0, rho, 0.0});
+    }
+}
+
+// Bounce 0 of a pixel is the environment where the body is not, and 0 where it is.
+TEST(SmallLights, AnEnvironmentIsSeenDirectly) {
+    SceneMaker maker;
+    maker.add(parallelogram({-9, -9, 3}, {9, 0, 0}, {0, 18, 0}),
+              matte(rho));  // behind the half x < 0, its front away from the camera
+    maker.parts.lights.environment = ConstantEnvironment({1.0, 2.0, 3.0});
+    maker.parts.camera.fov = 1.0;
+    maker.parts.film = {4, 2, 0, 0, 4, 2, BoxFilter()};
+    const Scene scene = maker.make();
+    for (const Method method : {Method::walk, Method::pointwise}) {
+        const Pictures pictures =
+            render(scene, {.method = method, .walk = {.bounces = 2}, .seed = fixed_seed, .replicate_size = 8}, 2);
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 4; ++x) {  // +x is to the left
+                EXPECT_EQ(pictures.result.term(0).mean.at(x, y), x < 2 ? Rgb(1.0, 2.0, 3.0) : Rgb(0.0));
+                EXPECT_EQ(pictures.result.term(1).mean.at(x, y), Rgb(0.0));
+            }
+    }
+}
+
+}  // namespace
+}  // namespace neumann::physics

@@ -1,0 +1,183 @@
+// Lights that stand on no shape: what the reader makes of them, and what it refuses.
+#include "core/image/image_io.h"
+#include "core/sampling/warp.h"
+#include "tests/reader/xml_scene_files.h"
+
+namespace neumann {
+
+class XmlLights : public XmlTest {
+protected:
+    SceneParts light(const std::string& type, const std::string& inside) const {
+        return read("<emitter type='" + type + "'>" + inside + "</emitter>");
+    }
+    // Per area across the beam, at a point.
+    Rgb arrives(const std::string& type, const std::string& inside, const Vec3& at) const {
+        return beam(light(type, inside).lights.delta.at(0), at, {}).irradiance;
+    }
+    Rgb surrounds(const std::string& type, const std::string& inside, const Vec3& from) const {
+        return radiance(light(type, inside).lights.environment.value(), from);
+    }
+    std::string light_error(const std::string& type, const std::string& inside) const {
+        return error("<emitter type='" + type + "'>\n" + inside + "</emitter>");
+    }
+    // Grey, row by row.
+    void write_exr(const std::string& name, int width, const std::vector<double>& values) const {
+        Image image(width, static_cast<int>(values.size()) / width);
+        for (std::size_t i = 0; i < values.size(); ++i) image.pixels[i] = Rgb(values[i]);
+        write(name, encode_exr({image, {}}));
+    }
+};
+
+constexpr const char* quarter_turn = "<transform name='to_world'><rotate y='1' angle='90'/></transform>";  // takes +z to +x
+constexpr const char* slide =
+    "<texture type='bitmap' name='texture'><string name='filename' value='a.exr'/>"
+    "<string name='filter_type' value='nearest'/></texture>";
+
+TEST_F(XmlLights, Constant) {
+    EXPECT_EQ(surrounds("constant", "", {0, 1, 0}), Rgb(1.0));
+    EXPECT_EQ(surrounds("constant", "<rgb name='radiance' value='1, 2, 3'/>", {0, 0, 1}), Rgb(1.0, 2.0, 3.0));
+    EXPECT_TRUE(light("constant", "").lights.delta.empty());
+}
+
+TEST_F(XmlLights, Point) {
+    EXPECT_EQ(arrives("point", "", {0, 2, 0}), Rgb(0.25));
+    EXPECT_EQ(arrives("point", "<point name='position' x='1' y='0' z='0'/><rgb name='intensity' value='4, 8, 12'/>", {1, 2, 0}),
+              Rgb(1.0, 2.0, 3.0));
+    EXPECT_EQ(arrives("point", "<transform name='to_world'><translate x='1'/></transform>", {1, 2, 0}), Rgb(0.25));
+    EXPECT_EQ(light_error("point", "<point name='position' value='1'/><transform name='to_world'/>"),
+              "scene.xml:3:24: both position and to_world are given, expected one of them");
+}
+
+TEST_F(XmlLights, Directional) {
+    const auto from = [&](const std::string& inside) {
+        return glm::normalize(beam(light("directional", inside).lights.delta.at(0), {}, {}).from);
+    };
+    EXPECT_NEAR(glm::distance(from(""), Vec3(0, 0, -1)), 0.0, 1e-15);
+    EXPECT_NEAR(glm::distance(from("<vector name='direction' x='3' y='0' z='-4'/>"), Vec3(-0.6, 0, 0.8)), 0.0, 1e-15);
+    EXPECT_NEAR(glm::distance(from(quarter_turn), Vec3(-1, 0, 0)), 0.0, 1e-15);
+    EXPECT_EQ(arrives("directional", "<float name='irradiance' value='3'/>", {1, 2, 3}), Rgb(3.0));
+    EXPECT_EQ(light_error("directional", "<vector name='direction' value='0'/>"), "scene.xml:3:26: the direction is zero");
+}
+
+TEST_F(XmlLights, Spot) {
+    const auto at_angle = [](double degrees) {
+        const double a = degrees * pi / 180.0;
+        return Vec3(std::sin(a), 0.0, std::cos(a));
+    };
+    // 20° and three quarters of it.
+    for (const auto& [degrees, part] : {std::pair(14.9, 1.0), {17.5, 0.5}, {19.0, 0.2}, {20.1, 0.0}})
+        EXPECT_NEAR(arrives("spot", "", at_angle(degrees)).r, part, 1e-12) << degrees;
+    EXPECT_NEAR(arrives("spot", "<float name='cutoff_angle' value='60'/><float name='beam_width' value='10'/>", at_angle(35.0)).r,
+                0.5, 1e-12);
+    EXPECT_NEAR(arrives("spot", std::string(quarter_turn) + "<rgb name='intensity' value='1 2 3'/>", {2, 0, 0}).b, 0.75, 1e-15);
+
+    write_exr("a.exr", 2, {1.0, 2.0});
+    EXPECT_NEAR(arrives("spot", slide, {-0.1, 0, 1}).r, 1.0 / 1.01, 1e-12);
+    EXPECT_NEAR(arrives("spot", slide, {0.1, 0, 1}).r, 2.0 / 1.01, 1e-12);
+    const SceneParts parts = read(
+        "<texture type='bitmap' id='t'><string name='filename' value='a.exr'/></texture>"
+        "<emitter type='spot'><ref name='texture' id='t'/></emitter>");
+    EXPECT_NEAR(beam(parts.lights.delta.at(0), {0, 0, 1}, {}).irradiance.r, 1.5, 1e-12);
+
+    EXPECT_EQ(light_error("spot", "<float name='cutoff_angle' value='181'/>"),
+              "scene.xml:3:28: cutoff_angle is 181, expected more than 0 and at most 180 degrees");
+    EXPECT_EQ(light_error("spot", std::string("<float name='cutoff_angle' value='90'/>") + slide),
+              "scene.xml:3:28: cutoff_angle is 90, expected more than 0 and with a texture less than 90 degrees");
+    EXPECT_EQ(light_error("spot", "<float name='beam_width' value='21'/>"),
+              "scene.xml:3:26: beam_width is 21, expected at least 0 and at most cutoff_angle, 20 degrees");
+    EXPECT_EQ(light_error("spot", "<texture type='bitmap' name='image'/>"),
+              "scene.xml:3:24: a <texture> of emitter 'spot' is named 'image', expected the name 'texture'");
+    EXPECT_EQ(light_error("spot", "<texture type='checkerboard' name='texture'/>"),
+              "scene.xml:3:10: texture type 'checkerboard' is not supported; allowed: bitmap");
+}
+
+TEST_F(XmlLights, Projector) {
+    // Half of 90° is 45°: the picture at z = 1 is 2 wide. On the axis π E arrives.
+    const std::string wide = "<float name='fov' value='90'/>";
+    EXPECT_NEAR(arrives("projector", wide + "<rgb name='irradiance' value='2'/><float name='scale' value='3'/>", {0.9, 0.9, 1}).r,
+                6.0 * pi * std::sqrt(1.0 + 2.0 * 0.81), 1e-12);
+    EXPECT_EQ(arrives("projector", wide + "<rgb name='irradiance' value='2'/>", {1.1, 0, 1}), Rgb(0.0));
+    write_exr("a.exr", 2, {1.0, 2.0});
+    const std::string picture =
+        "<texture type='bitmap' name='irradiance'><string name='filename' value='a.exr'/>"
+        "<string name='wrap_mode' value='clamp'/></texture>";
+    EXPECT_NEAR(arrives("projector", wide + picture, {0.8, 0, 1}).r, pi * std::sqrt(1.64), 1e-12);  // +x is left
+    EXPECT_NEAR(arrives("projector", wide + picture, {-0.8, 0, 1}).r, 2.0 * pi * std::sqrt(1.64), 1e-12);
+    EXPECT_EQ(arrives("projector", wide + picture, {0, 0.51, 1}), Rgb(0.0));
+    // A lens of 50 mm before 36 mm × 24 mm, along the diagonal: tan of half of it is √1872/100, of which a picture of 2 × 1 has
+    // 2/√5 across.
+    const double half_width = std::sqrt(1872.0) / 100.0 * 2.0 / std::sqrt(5.0);
+    EXPECT_NE(arrives("projector", picture, {0.999 * half_width, 0, 1}), Rgb(0.0));
+    EXPECT_EQ(arrives("projector", picture, {1.001 * half_width, 0, 1}), Rgb(0.0));
+
+    EXPECT_EQ(light_error("projector", ""),
+              "scene.xml:2:1: emitter 'projector' lacks the parameter 'irradiance', expected rgb, spectrum, float or integer");
+    EXPECT_EQ(light_error("projector", "<rgb name='irradiance' value='2'/><float name='scale' value='-1'/>"),
+              "scene.xml:3:55: scale is -1, expected at least 0");
+    EXPECT_EQ(
+        light_error("projector", "<rgb name='irradiance' value='2'/><transform name='to_world'><scale value='2'/></transform>"),
+        "scene.xml:3:35: to_world of emitter 'projector' scales or shears, expected rotations and translations");
+}
+
+TEST_F(XmlLights, EnvironmentMap) {
+    write_exr("a.exr", 4, {9, 9, 9, 9, 1, 2, 3, 4, 7, 7, 7, 7});
+    const std::string file = "<string name='filename' value='a.exr'/>";
+    EXPECT_NEAR(surrounds("envmap", file, {0, 1, 0}).r, 9.0, 1e-12);
+    EXPECT_NEAR(surrounds("envmap", file, {0, -1, 0}).r, 7.0, 1e-12);
+    // The first pixel of the middle row is at φ = 45° from −z to +x.
+    const double s = std::sqrt(0.5);
+    EXPECT_NEAR(surrounds("envmap", file, {s, 0, -s}).r, 1.0, 1e-12);
+    EXPECT_NEAR(surrounds("envmap", file, {s, 0, s}).r, 2.0, 1e-12);
+    EXPECT_NEAR(
+        surrounds("envmap", file + "<float name='scale' value='5'/><boolean name='mis_compensation' value='true'/>", {-s, 0, s}).r,
+        15.0, 1e-12);
+    EXPECT_NEAR(surrounds("envmap", file + quarter_turn, {-s, 0, -s}).r, 1.0, 1e-12);  // −z goes to −x
+
+    EXPECT_EQ(light_error("envmap", ""), "scene.xml:2:1: emitter 'envmap' lacks the parameter 'filename', expected string");
+    EXPECT_EQ(light_error("envmap", "<string name='filename' value='b.exr'/>"),
+              "scene.xml:3:25: there is no file 'b.exr'; looked in: .");
+    write_exr("small.exr", 4, {1, 2, 3, 4, 5, 6, 7, 8});
+    EXPECT_EQ(light_error("envmap", "<string name='filename' value='small.exr'/>"),
+              "scene.xml:3:25: 'small.exr' is 4×2 pixels, expected at least 2×3");
+    write_exr("negative.exr", 2, {1, 2, 3, -4, 5, 6});
+    EXPECT_EQ(light_error("envmap", "<string name='filename' value='negative.exr'/>"),
+              "scene.xml:3:25: pixel (1, 1) of 'negative.exr' is (-4, -4, -4), expected finite numbers that are not negative");
+    EXPECT_EQ(light_error("envmap", file + "<transform name='to_world'><scale value='2'/></transform>"),
+              "scene.xml:3:40: to_world of emitter 'envmap' scales or shears, expected rotations and translations");
+}
+
+// Bytes are decoded as sRGB unless they are raw; alpha does not count.
+TEST_F(XmlLights, BytesAreDecoded) {
+    DisplayImage grey(4, 3, 188);
+    write("a.png", encode_png(grey));
+    const double byte = 188.0 / 255.0, decoded = std::pow((byte + 0.055) / 1.055, 2.4);
+    EXPECT_NEAR(surrounds("envmap", "<string name='filename' value='a.png'/>", {0, 1, 0}).r, decoded, 1e-7);
+    const std::string texture = "<texture type='bitmap' name='texture'><string name='filename' value='a.png'/>";
+    EXPECT_NEAR(arrives("spot", texture + "</texture>", {0, 0, 1}).g, decoded, 1e-7);
+    EXPECT_NEAR(arrives("spot", texture + "<boolean name='raw' value='true'/></texture>", {0, 0, 1}).g, byte, 1e-7);
+}
+
+TEST_F(XmlLights, PicturesAreInTheHash) {
+    const std::string scene = "<emitter type='envmap'><string name='filename' value='a.exr'/></emitter>";
+    write_exr("a.exr", 2, {1, 2, 3, 4, 5, 6});
+    const std::string first = read(scene).hash;
+    EXPECT_EQ(read(scene).hash, first);
+    write_exr("a.exr", 2, {1, 2, 3, 4, 5, 7});
+    EXPECT_NE(read(scene).hash, first);
+}
+
+TEST_F(XmlLights, SeveralAndOneThatSurrounds) {
+    const SceneParts parts = read(
+        "<emitter type='point'/><shape type='cube'><ref id='lamp'/></shape><emitter type='area' id='lamp'>"
+        "<float name='radiance' value='3'/></emitter><emitter type='directional'/><emitter type='constant'/>");
+    EXPECT_EQ(parts.lights.delta.size(), 2u);
+    EXPECT_EQ(parts.lights.area.size(), 1u);
+    EXPECT_EQ(error("<emitter type='constant'/>\n<emitter type='constant'/>"),
+              "scene.xml:3:1: a second light that surrounds the scene, expected only one; the first is at scene.xml:2:1");
+    EXPECT_EQ(error("<shape type='cube'>\n<emitter type='point'/></shape>"),
+              "scene.xml:3:10: emitter type 'point' is not supported; allowed: area");
+    EXPECT_EQ(light_error("point", "<float name='radius' value='1'/>"),
+              "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity");
+}
+
+}  // namespace neumann
