@@ -4,6 +4,7 @@
 
 #include "core/image/display.h"
 #include "core/image/image.h"
+#include "core/image/texels.h"
 
 #include <cstdint>
 #include <map>
@@ -33,6 +34,11 @@ std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_s
 // kept), and `attributes`, if asked for, with the numbers and texts of its header. Without stderr channels `standard_error` is
 // empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such file, not a picture, damaged, no channels R, G, B.
 Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
+
+// Any picture that OpenImageIO reads, as a texture: channels R, G, B where there are any of these names, otherwise the first three, or
+// the first where there are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value that is
+// not finite.
+Texels read_texels(const std::string& path);
 
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
 std::optional<std::string> find_label_font();
