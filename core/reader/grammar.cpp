@@ -32,6 +32,7 @@ const std::vector<Rule>& rules() {
         {"sampler", Kind::object, {"type"}, {"id", "name"}},
         {"sensor", Kind::object, {"type"}, {"id", "name"}},
         {"shape", Kind::object, {"type"}, {"id", "name"}},
+        {"texture", Kind::object, {"type"}, {"id", "name"}},
         {"boolean", Kind::parameter, {"name", "value"}, {}},
         {"float", Kind::parameter, {"name", "value"}, {}},
         {"integer", Kind::parameter, {"name", "value"}, {}},

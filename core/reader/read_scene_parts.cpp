@@ -5,6 +5,7 @@
 #include "core/reader/read_scene.h"
 #include "core/reader/sensor.h"
 #include "core/reader/shapes.h"
+#include "core/reader/textures.h"
 
 #include <fmt/format.h>
 
@@ -30,12 +31,13 @@ const Element* only(const Element& root, const std::string& tag) {
 // What stands at the top level and nothing refers to is checked and dropped.
 void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
     Warnings dropped;
-    const Context aside{context.document, context.objects, dropped, context.mesh_files};
+    const Context aside{context.document, context.objects, dropped, context.mesh_files, context.textures};
     Bsdfs other_bsdfs(aside);
     AreaLights other_lights(aside);
     for (const Element& e : root.children) {
         if (e.tag == "bsdf" && !bsdfs.has(e)) other_bsdfs.sides(e);
         if (e.tag == "emitter" && !lights.has(e)) other_lights.index(e);
+        if (e.tag == "texture" && !context.textures.known.count(&e)) read_texture(e, Illuminant::d65, aside);
         if (e.tag == "film") read_film(e, aside);
         if (e.tag == "rfilter") read_filter(e, aside);
         if (e.tag == "sampler") read_sampler(e, aside);
@@ -52,7 +54,8 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     const Objects objects(document.root);
     SceneParts parts;
     std::vector<std::string> mesh_files;
-    const Context context{document, objects, parts.warnings, mesh_files};
+    TextureStore textures;
+    const Context context{document, objects, parts.warnings, mesh_files, textures};
 
     if (const Element* e = only(document.root, "integrator")) parts.bounces = read_integrator(*e, context);
     const Element* sensor = only(document.root, "sensor");
@@ -64,9 +67,11 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
 
     Bsdfs bsdfs(context);
     AreaLights lights(context);
-    for (const Element& e : document.root.children) {
-        if (e.tag != "shape") continue;
-        ReadShape shape = read_shape(e, context);
+    // All shapes before their materials: textures may hold what meshes bring along.
+    std::vector<ReadShape> shapes;
+    for (const Element& e : document.root.children)
+        if (e.tag == "shape") shapes.push_back(read_shape(e, context));
+    for (ReadShape& shape : shapes) {
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));

@@ -3,6 +3,7 @@
 #include "core/base/frame.h"
 #include "core/reader/mesh_shape.h"
 #include "core/reader/properties.h"
+#include "core/reader/textures.h"
 
 #include <algorithm>
 
@@ -35,7 +36,8 @@ Sphere read_sphere(Properties& p, bool flip_normals) {
             if (std::abs(glm::dot(Vec3(m[i]) / scale, Vec3(m[j]) / scale) - (i == j ? 1.0 : 0.0)) > tolerance)
                 p.fail("to_world",
                        "to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
-    return {Vec3(m * glm::dvec4(center, 1.0)), radius * scale, flip_normals};
+    return {Vec3(m * glm::dvec4(center, 1.0)), radius * scale, flip_normals,
+            Frame(Vec3(m[0]) / scale, Vec3(m[1]) / scale, Vec3(m[2]) / scale)};
 }
 
 Cylinder read_cylinder(Properties& p, bool flip_normals) {
@@ -53,7 +55,8 @@ Cylinder read_cylinder(Properties& p, bool flip_normals) {
         p.fail("to_world",
                "to_world of shape 'cylinder' makes it elliptic or oblique, expected the same scale all around the axis, rotations "
                "and translations");
-    return {Vec3(m * glm::dvec4(p0, 1.0)), images[2], length_of(p1 - p0) * along, radius * around, flip_normals};
+    return {Vec3(m * glm::dvec4(p0, 1.0)),         images[2], length_of(p1 - p0) * along, radius * around, flip_normals,
+            Frame(images[0], images[1], images[2])};
 }
 
 Shape read_geometry(Properties& p, const Context& context) {
@@ -68,6 +71,22 @@ Shape read_geometry(Properties& p, const Context& context) {
     return make_disk(to_world, flip_normals);
 }
 
+// What its textures ask for has to be there.
+void check_attributes(const Properties& p, const Shape& shape, const Context& context) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    for (const auto& [name, e] : mesh_attributes_of(p.element(), context.objects))
+        if (!mesh || !mesh->attribute(name))
+            throw InputError(e->attribute("value").place,
+                             fmt::format("{} at {} has no mesh attribute '{}'", p.title(), to_string(p.element().place), name));
+    if (!mesh) return;
+    for (const MeshAttribute& a : mesh->attributes)
+        for (const auto& v : a.values) {
+            const Rgb value(v[0], v[1], v[2]);
+            TextureStore::Range& range = context.textures.attributes.try_emplace(a.name, value, value).first->second;
+            range = {glm::min(range.smallest, value), glm::max(range.largest, value)};
+        }
+}
+
 }  // namespace
 
 ReadShape read_shape(const Element& e, const Context& context) {
@@ -76,6 +95,7 @@ ReadShape read_shape(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     ReadShape result;
     result.shape = read_geometry(p, context);
+    check_attributes(p, result.shape, context);
     const std::vector<const Element*> bsdfs = p.nested("bsdf"), emitters = p.nested("emitter");
     p.finish();
     if (!bsdfs.empty()) result.bsdf = bsdfs.front();
