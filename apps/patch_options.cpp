@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
+#include "core/scene/shading_normals.h"
 
 #include <fmt/format.h>
 #include <bit>
@@ -51,7 +52,9 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
 
 Scene PatchScene::read(const PatchOptions& options) {
     settings(options);  // before anything is read
-    return read_scene(options.scene, parse_definitions(options.definitions));
+    Scene scene = read_scene(options.scene, parse_definitions(options.definitions));
+    if (has_shading_normals(scene)) scene.warnings.add(patches_are_flat);
+    return scene;
 }
 
 PatchScene::PatchScene(const PatchOptions& options)

@@ -5,6 +5,7 @@
 #include "apps/progress_line.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "core/scene/shading_normals.h"
 #include "operators/pictures/field_goal.h"
 
 #include <fmt/format.h>
@@ -80,6 +81,7 @@ RenderResult render_by_fields(const RenderJob& job) {
                          run.convergence.back());
 
     RenderResult result;
+    if (has_shading_normals(scene)) result.warnings.add(patches_are_flat);
     result.series.report = report_series(scene, run.pictures);
     result.series.convergence = run.convergence;
     result.series.outcome = run.outcome;

@@ -34,6 +34,23 @@ struct Bounds {
 
 double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::length(glm::cross(b - a, c - a)); }
 
+std::size_t erase_degenerate_triangles(TriangleMesh& mesh) {
+    const std::size_t count = mesh.triangles.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto t = mesh.triangles[i];
+        if (!(twice_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) > 0.0)) continue;
+        mesh.triangles[kept] = t;
+        for (MeshAttribute& a : mesh.attributes)
+            if (a.of_triangles) a.values[kept] = a.values[i];
+        ++kept;
+    }
+    mesh.triangles.resize(kept);
+    for (MeshAttribute& a : mesh.attributes)
+        if (a.of_triangles) a.values.resize(kept);
+    return count - kept;
+}
+
 void validate(const TriangleMesh& mesh) {
     for (const Vec3& v : mesh.vertices)
         if (!is_finite(v)) throw InputError("mesh vertex is not finite");
@@ -54,9 +71,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
     for (Shape& shape : shapes) {
         if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
             validate(*mesh);
-            degenerate_count_ += std::erase_if(mesh->triangles, [&](const auto& t) {
-                return !(twice_area(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]) > 0.0);
-            });
+            degenerate_count_ += erase_degenerate_triangles(*mesh);
             for (const auto& t : mesh->triangles)
                 for (const std::uint32_t index : t) bounds.add(mesh->vertices[index]);
         } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -237,17 +252,13 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
 }
 
 Vec2 Geometry::round_coordinates(std::uint32_t shape, const Vec3& position) const {
-    const auto turn = [](double x, double y) {
-        const double part = std::atan2(y, x) * (0.5 * inv_pi);
-        return part < 0.0 ? part + 1.0 : part;
-    };
     if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
         const Vec3 n = (position - sphere->center) / sphere->radius;
-        return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), turn(n.x, n.y)};
+        return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), part_of_circle(n.x, n.y)};
     }
     if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape])) {
         const Vec3 p = Frame(cylinder->axis).to_local(position - cylinder->base);
-        return {std::clamp(p.z / cylinder->length, 0.0, 1.0), turn(p.x, p.y)};
+        return {std::clamp(p.z / cylinder->length, 0.0, 1.0), part_of_circle(p.x, p.y)};
     }
     const Disk& disk = std::get<Disk>((*shapes_)[shape]);
     const Vec3 x = position - disk.center;

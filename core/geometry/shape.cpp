@@ -1,5 +1,6 @@
 #include "core/geometry/shape.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace neumann {
@@ -17,21 +18,39 @@ void orient(TriangleMesh& mesh, const Mat4& to_world, bool flip_normals) {
 
 }  // namespace
 
+const MeshAttribute* TriangleMesh::attribute(const std::string& name) const {
+    const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const MeshAttribute& a) { return a.name == name; });
+    return found == attributes.end() ? nullptr : &*found;
+}
+
 TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals) {
     TriangleMesh mesh;
     for (const Vec3 corner : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)})
         mesh.vertices.push_back(transform_point(to_world, corner));
+    mesh.uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     orient(mesh, to_world, flip_normals);
     return mesh;
 }
 
 TriangleMesh make_cube(const Mat4& to_world, bool flip_normals) {
+    // Where a face has (u, v) = (0, 0), and its edges along u and v, so that v × u points outwards.
+    struct Face {
+        Vec3 corner, u, v;
+    };
+    static const Face faces[] = {{{-1, 1, -1}, {0, -2, 0}, {2, 0, 0}}, {{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
+                                 {{-1, -1, -1}, {0, 0, 2}, {2, 0, 0}}, {{1, 1, 1}, {-2, 0, 0}, {0, 0, -2}},
+                                 {{-1, -1, -1}, {0, 2, 0}, {0, 0, 2}}, {{1, -1, 1}, {0, 2, 0}, {0, 0, -2}}};
     TriangleMesh mesh;
-    for (int corner = 0; corner < 8; ++corner)
-        mesh.vertices.push_back(transform_point(to_world, {corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1}));
-    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    for (const Face& f : faces) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const Vec2 uv : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) {
+            mesh.vertices.push_back(transform_point(to_world, f.corner + f.u * uv.x + f.v * uv.y));
+            mesh.uv.push_back(uv);
+        }
+        mesh.triangles.push_back({first, first + 2, first + 1});
+        mesh.triangles.push_back({first, first + 3, first + 2});
+    }
     orient(mesh, to_world, flip_normals);
     return mesh;
 }

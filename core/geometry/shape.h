@@ -1,14 +1,23 @@
 // The shapes: triangle meshes, and spheres, discs and cylinders that are exact rather than tessellated. Scene units, double.
 #pragma once
 
-#include "core/base/vec.h"
+#include "core/base/frame.h"
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
 namespace neumann {
+
+// Colours that a file gives to the vertices or to the triangles of a mesh ("vertex_color", "face_color"). Float, as files have
+// them.
+struct MeshAttribute {
+    std::string name;
+    bool of_triangles = false;
+    std::vector<std::array<float, 3>> values = {};
+};
 
 // Front side: vertices counter-clockwise.
 struct TriangleMesh {
@@ -17,6 +26,9 @@ struct TriangleMesh {
     // One for each vertex, or empty: shading normals, on the front side, and texture coordinates.
     std::vector<Vec3> normals = {};
     std::vector<Vec2> uv = {};
+    std::vector<MeshAttribute> attributes = {};
+
+    const MeshAttribute* attribute(const std::string& name) const;
 };
 
 // Front side: outside, or inside when flipped.
@@ -24,6 +36,8 @@ struct Sphere {
     Vec3 center{0.0};
     double radius = 1.0;
     bool flip_normals = false;
+    // Where its own axes are, for texture coordinates: u runs around n, from s to t, and v from n to −n.
+    Frame axes = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
 };
 
 // The ellipse center + a·u + b·v, a² + b² ≤ 1, with u ⟂ v not required; `normal` has unit length and is perpendicular to both.
@@ -37,6 +51,7 @@ struct Cylinder {
     Vec3 base{0.0}, axis{0.0, 0.0, 1.0};  // axis: unit length
     double length = 1.0, radius = 1.0;
     bool flip_normals = false;
+    Frame axes = Frame(axis);  // for texture coordinates: u runs around the axis, from s to t
 
     bool has_extent() const { return radius > 0.0 && length > 0.0; }
     // Half the size of the box around it.
@@ -46,7 +61,7 @@ struct Cylinder {
 
 using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder>;
 
-// Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed.
+// Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed. Texture coordinates [0,1]² on each face.
 TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals = false);
 TriangleMesh make_cube(const Mat4& to_world, bool flip_normals = false);
 // Mitsuba's unit disk facing +z, transformed.

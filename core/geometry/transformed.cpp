@@ -47,11 +47,13 @@ std::optional<Sphere> transformed(const Sphere& sphere, const Mat4& to_world) {
         for (int j = 0; j <= i; ++j)
             if (std::abs(glm::dot(Vec3(to_world[i]) / scale, Vec3(to_world[j]) / scale) - (i == j ? 1.0 : 0.0)) > tolerance)
                 return std::nullopt;
-    return Sphere{point(to_world, sphere.center), sphere.radius * scale, sphere.flip_normals};
+    const Frame& axes = sphere.axes;
+    return Sphere{point(to_world, sphere.center), sphere.radius * scale, sphere.flip_normals,
+                  Frame(vector(to_world, axes.s) / scale, vector(to_world, axes.t) / scale, vector(to_world, axes.n) / scale)};
 }
 
 std::optional<Cylinder> transformed(const Cylinder& cylinder, const Mat4& to_world) {
-    const Frame frame(cylinder.axis);
+    const Frame& frame = cylinder.axes;
     Vec3 images[3] = {vector(to_world, frame.s), vector(to_world, frame.t), vector(to_world, frame.n)};
     const double around = length_of(images[0]), around2 = length_of(images[1]), along = length_of(images[2]);
     for (Vec3& v : images) v /= length_of(v);
@@ -59,7 +61,7 @@ std::optional<Cylinder> transformed(const Cylinder& cylinder, const Mat4& to_wor
         std::abs(glm::dot(images[0], images[2])) > tolerance || std::abs(glm::dot(images[1], images[2])) > tolerance)
         return std::nullopt;
     return Cylinder{point(to_world, cylinder.base), images[2], cylinder.length * along, cylinder.radius * around,
-                    cylinder.flip_normals};
+                    cylinder.flip_normals, Frame(images[0], images[1], images[2])};
 }
 
 std::optional<Shape> transformed(const Shape& shape, const Mat4& to_world) {

@@ -100,6 +100,30 @@ Image pick_channels(const OIIO::ImageSpec& spec, const std::vector<float>& value
     return picture;
 }
 
+// Three channels of each pixel, or one.
+template <class T>
+std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type,
+                             const std::vector<std::size_t>& places) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<T> all(spec.image_pixels() * channels);
+    if (!input.read_image(0, 0, 0, spec.nchannels, type, all.data()))
+        throw InputError(fmt::format("{}: the picture is damaged: {}", path, input.geterror()));
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < all.size() / channels; ++i)
+        for (const std::size_t place : places) {
+            const T value = all[i * channels + place];
+            if constexpr (std::is_floating_point_v<T>)
+                if (!std::isfinite(value))
+                    throw InputError(
+                        fmt::format("{}: the pixel in column {} and row {} is not finite", path, i % width, i / width));
+            all[next++] = value;
+        }
+    all.resize(next);
+    all.shrink_to_fit();
+    return all;
+}
+
 // The system's word on a file that cannot be read; OpenImageIO's differs by version and format.
 void expect_readable(const std::string& path) {
     errno = 0;
@@ -207,6 +231,33 @@ Image read_light_image(const std::string& path, bool raw) {
         for (Rgb& c : picture.pixels)
             for (int i = 0; i < 3; ++i) c[i] = srgb_decode(c[i]);
     return picture;
+}
+
+Texels read_texels(const std::string& path) {
+    expect_readable(path);
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;  // colours as they are in the file, not times alpha
+    const auto input = OIIO::ImageInput::open(path, &config);
+    if (!input) {
+        OIIO::geterror();
+        throw InputError(path + ": not a picture that can be read");
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    std::vector<std::size_t> places{0};
+    if (const auto named = find_channels(spec, mean_channels))
+        places.assign(named->begin(), named->end());
+    else if (spec.nchannels >= 3)
+        places = {0, 1, 2};
+    Texels texels;
+    texels.width = spec.width;
+    texels.height = spec.height;
+    texels.channels = static_cast<int>(places.size());
+    texels.is_encoded = !spec.format.is_floating_point();
+    if (spec.format == OIIO::TypeDesc::UINT8)
+        texels.bytes = read_channels<std::uint8_t>(*input, path, OIIO::TypeDesc::UINT8, places);
+    else
+        texels.values = read_channels<float>(*input, path, OIIO::TypeDesc::FLOAT, places);
+    return texels;
 }
 
 std::optional<std::string> find_label_font() {

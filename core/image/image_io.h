@@ -4,6 +4,7 @@
 
 #include "core/image/display.h"
 #include "core/image/image.h"
+#include "core/image/texels.h"
 
 #include <cstdint>
 #include <map>
@@ -37,6 +38,11 @@ Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
 // Any picture that OpenImageIO reads as linear RGB, as Mitsuba takes pictures for light: integers are decoded as sRGB unless `raw`,
 // floats are linear already, a single channel is grey, alpha is left out. Throws InputError, beginning with the path.
 Image read_light_image(const std::string& path, bool raw = false);
+
+// Any picture that OpenImageIO reads, as a texture: channels R, G, B where there are any of these names, otherwise the first three, or
+// the first where there are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value that is
+// not finite.
+Texels read_texels(const std::string& path);
 
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
 std::optional<std::string> find_label_font();

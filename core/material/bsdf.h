@@ -6,6 +6,7 @@
 
 #include "core/material/conductor.h"
 #include "core/material/diffuse.h"
+#include "core/material/perturbed_normal.h"
 #include "core/material/rough_conductor.h"
 
 #include <variant>
@@ -14,7 +15,7 @@ namespace neumann {
 
 // A closed set: adding a material is a file beside diffuse.h and a name here. Of one side of a surface: ωo is always above it,
 // ωo.z > 0, and ωi is where light is transmitted from where ωi.z < 0. The other side of glass is another Bsdf.
-struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>> {
+struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, PerturbedNormal> {
     using variant::variant;
 };
 

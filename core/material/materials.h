@@ -45,7 +45,7 @@ public:
         return index == absorbing ? nullptr : &bsdfs_[static_cast<std::size_t>(index)];
     }
     // The largest albedo of any material that stands on a shape, for each channel: an upper bound on ‖R‖ in every L^p
-    // (Riesz–Thorin, with reciprocity).
+    // (Riesz–Thorin, with reciprocity), and in L^∞ alone where shading normals differ from geometric ones.
     Rgb largest_albedo() const;
 
     const std::vector<Bsdf>& bsdfs() const { return bsdfs_; }

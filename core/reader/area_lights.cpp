@@ -1,6 +1,6 @@
 #include "core/reader/area_lights.h"
 
-#include "core/reader/color.h"
+#include "core/reader/textures.h"
 
 namespace neumann::reader {
 
@@ -9,10 +9,13 @@ int AreaLights::index(const Element& e) {
     const auto known = index_.find(&e);
     if (known != index_.end()) return known->second;
     Properties p(e, context_.objects);
-    const Element& radiance = p.require("radiance", color_types);
-    const Rgb c = parse_color(p, "radiance", radiance, Illuminant::equal_energy, context_.warnings);
+    if (const auto texture = find_color_texture(p, "radiance", Illuminant::equal_energy, context_)) {
+        lights_.emplace_back([f = *texture](const ShadingPoint& at, const Vec3&) { return f(at); }, texture->upper_bound());
+    } else {
+        const Element& radiance = p.require("radiance", color_types);
+        lights_.emplace_back(parse_color(p, "radiance", radiance, Illuminant::equal_energy, context_.warnings));
+    }
     p.finish();
-    lights_.emplace_back(c);
     return index_[&e] = static_cast<int>(lights_.size()) - 1;
 }
 

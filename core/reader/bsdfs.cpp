@@ -78,7 +78,8 @@ Materials::Sides Bsdfs::read(const Element& e) {
     if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
     if (type == "conductor") return {store(read_conductor(e, context_)), Materials::absorbing};
     if (type == "roughconductor") return {store(read_rough_conductor(e, context_)), Materials::absorbing};
-    if (type != "twosided") fail_type(e, {"conductor", "diffuse", "roughconductor", "twosided"});
+    if (type == "normalmap" || type == "bumpmap") return read_perturbed_normal(e);
+    if (type != "twosided") fail_type(e, {"bumpmap", "conductor", "diffuse", "normalmap", "roughconductor", "twosided"});
 
     Properties p(e, context_.objects);
     const std::vector<const Element*> nested = p.nested("bsdf", 2);

@@ -1,4 +1,4 @@
-// <bsdf>: `diffuse`, `conductor`, `roughconductor`, and `twosided` around one or two of them.
+// <bsdf>: `diffuse`, `conductor`, `roughconductor`, `normalmap` and `bumpmap` around one of them, and `twosided` around one or two.
 #pragma once
 
 #include "core/material/materials.h"
@@ -21,10 +21,12 @@ public:
 private:
     int store(Bsdf bsdf);
     Materials::Sides read(const Element& e);
+    Materials::Sides read_perturbed_normal(const Element& e);
 
     const Context& context_;
     std::vector<Bsdf> bsdfs_;
     std::map<const Element*, Materials::Sides> sides_;
+    std::set<const Element*> open_;  // being read
     int default_ = Materials::absorbing;
 };
 

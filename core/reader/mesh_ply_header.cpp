@@ -29,6 +29,18 @@ PlyType read_type(MeshText& text) {
 
 bool is_integer(PlyType type) { return type != PlyType::f32 && type != PlyType::f64; }
 
+// The properties that may make up an attribute, by what follows "vertex_" or "face_" in its name.
+std::vector<std::array<std::string, 3>> attribute_properties(const std::string& name) {
+    if (name == "color") return {{"r", "g", "b"}, {"red", "green", "blue"}};
+    constexpr std::string_view color = "_color";
+    if (name.ends_with(color)) {
+        const std::string prefix = name.substr(0, name.size() - color.size());
+        return {{prefix + "_r", prefix + "_g", prefix + "_b"}};
+    }
+    return {
+        {name + "_x", name + "_y", name + "_z"}, {name + "_0", name + "_1", name + "_2"}, {name + "_1", name + "_2", name + "_3"}};
+}
+
 int find_slot(const PlyElement& element, std::string_view property) {
     if (element.name == "vertex") {
         for (std::size_t i = 0; i < vertex_slots.size(); ++i) {
@@ -41,7 +53,7 @@ int find_slot(const PlyElement& element, std::string_view property) {
 
 class HeaderReader {
 public:
-    explicit HeaderReader(MeshText& text) : text_(text) {}
+    HeaderReader(MeshText& text, const std::vector<std::string>& attributes) : text_(text), attributes_(attributes) {}
 
     PlyHeader read() {
         if (text_.token() != "ply") text_.fail_expected("'ply' at the beginning of a PLY file");
@@ -56,6 +68,10 @@ public:
         if (!has_format_) throw InputError(text_.file() + ": the header has no line 'format'");
         check_vertex();
         check_face();
+        find_coordinates();
+        for (PlyElement& e : header_.elements)
+            for (const std::string& name : attributes_)
+                if (name.starts_with(e.name + "_")) find_attribute(e, name);
         return std::move(header_);
     }
 
@@ -178,7 +194,39 @@ private:
         if (!face.find(0)) text_.fail(face.place, "element 'face' has no property 'vertex_indices'");
     }
 
+    static PlyProperty* number(PlyElement& element, std::string_view name) {
+        for (PlyProperty& p : element.properties)
+            if (p.name == name && !p.is_list && p.slot < 0) return &p;
+        return nullptr;
+    }
+
+    void find_coordinates() {
+        for (PlyElement& e : header_.elements) {
+            if (e.name != "vertex") continue;
+            for (const auto& [name_u, name_v] : {std::pair("u", "v"), std::pair("texture_u", "texture_v"), std::pair("s", "t")}) {
+                PlyProperty *u = number(e, name_u), *v = number(e, name_v);
+                if (!u || !v || header_.has_coordinates) continue;
+                u->slot = 6;
+                v->slot = 7;
+                header_.has_coordinates = true;
+            }
+        }
+    }
+
+    static void find_attribute(PlyElement& element, const std::string& name) {
+        for (const auto& names : attribute_properties(name.substr(element.name.size() + 1))) {
+            PlyProperty* found[3] = {number(element, names[0]), number(element, names[1]), number(element, names[2])};
+            const bool is_grey = found[0] && !found[1] && !found[2] && name != "face_color" && name != "vertex_color";
+            if (!is_grey && !(found[0] && found[1] && found[2])) continue;
+            for (int c = 0; c < (is_grey ? 1 : 3); ++c)
+                found[c]->slot = PlyProperty::first_attribute + 3 * static_cast<int>(element.attributes.size()) + c;
+            element.attributes.push_back({name, is_grey});
+            return;
+        }
+    }
+
     MeshText& text_;
+    const std::vector<std::string>& attributes_;
     PlyHeader header_;
     bool has_format_ = false;
 };
@@ -197,6 +245,8 @@ const PlyProperty* PlyElement::find(int slot) const {
     return nullptr;
 }
 
-PlyHeader read_ply_header(MeshText& text) { return HeaderReader(text).read(); }
+PlyHeader read_ply_header(MeshText& text, const std::vector<std::string>& attributes) {
+    return HeaderReader(text, attributes).read();
+}
 
 }  // namespace neumann

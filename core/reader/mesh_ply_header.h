@@ -18,8 +18,10 @@ struct PlyProperty {
     PlyType type;  // of the items of a list
     bool is_list = false;
     PlyType count_type = PlyType::u8;
-    // What it is to a mesh: x, y, z, nx, ny, nz of a vertex are 0 … 5, the vertex indices of a face 0, all else −1.
+    // What it is to a mesh: x, y, z, nx, ny, nz and the texture coordinates of a vertex are 0 … 7, the vertex indices of a face 0,
+    // channel c of the i-th attribute of the element is first_attribute + 3 i + c, all else −1.
     int slot = -1;
+    static constexpr int first_attribute = 8;
 };
 
 struct PlyElement {
@@ -27,6 +29,11 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
     MeshText::Place place;
+    struct Attribute {
+        std::string name;
+        bool is_grey;  // has one channel
+    };
+    std::vector<Attribute> attributes = {};
 
     const PlyProperty* find(int slot) const;
 };
@@ -35,10 +42,12 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
     std::uint64_t vertex_count = 0;
-    bool has_normals = false;
+    bool has_normals = false, has_coordinates = false;
 };
 
-// Leaves the cursor at the body.
-PlyHeader read_ply_header(MeshText& text);
+// Leaves the cursor at the body. The attributes are named as by Mitsuba: of properties r, g, b or red, green, blue of a vertex
+// "vertex_color", of p_r, p_g, p_b "vertex_p_color", and of p_x, p_y, p_z, or p_0, p_1, p_2, or p_1, p_2, p_3, or the first of them
+// alone "vertex_p"; likewise "face_…".
+PlyHeader read_ply_header(MeshText& text, const std::vector<std::string>& attributes);
 
 }  // namespace neumann

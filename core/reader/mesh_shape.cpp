@@ -1,15 +1,15 @@
 #include "core/reader/mesh_shape.h"
 
 #include "core/reader/mesh_file.h"
+#include "core/reader/textures.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
 namespace neumann::reader {
 
 namespace {
-
-// Of unit vectors, up to sign.
-constexpr double flat_cosine = 1.0 - 1e-4;
 
 // Length 1, or 0 where the triangle has no area; scaled first, since squares of small lengths vanish.
 Vec3 unit(const Vec3& v) {
@@ -22,37 +22,37 @@ Vec3 triangle_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3
     return unit(glm::cross(a, b));
 }
 
-// Turns each triangle to the side that its vertex normals are on; false if some triangle is not flat.
-bool orient_by_normals(TriangleMesh& mesh, const std::vector<Vec3>& normals) {
-    for (std::array<std::uint32_t, 3>& t : mesh.triangles) {
-        const Vec3 n = triangle_normal(mesh, t);
-        if (n == Vec3(0.0)) continue;
-        double least = 1.0, largest = -1.0;
-        for (const std::uint32_t i : t) {
-            const double cosine = glm::dot(n, normals[i]);
-            least = std::min(least, cosine);
-            largest = std::max(largest, cosine);
-        }
-        if (largest < -flat_cosine)
+// Turns each triangle to the side that its vertex normals are on.
+void orient_by_normals(TriangleMesh& mesh) {
+    for (std::array<std::uint32_t, 3>& t : mesh.triangles)
+        if (glm::dot(triangle_normal(mesh, t), mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]]) < 0.0)
             std::swap(t[1], t[2]);
-        else if (!(least > flat_cosine))
-            return false;
-    }
-    return true;
 }
 
-bool shares_vertices_across_edges(const TriangleMesh& mesh) {
-    std::vector<Vec3> normal_of_vertex(mesh.vertices.size(), Vec3(0.0));
+// Thürmer and Wüthrich, Computing Vertex Normals from Polygonal Facets, 1998.
+void smooth(TriangleMesh& mesh) {
+    mesh.normals.assign(mesh.vertices.size(), Vec3(0.0));
     for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {
         const Vec3 n = triangle_normal(mesh, t);
         if (n == Vec3(0.0)) continue;
-        for (const std::uint32_t i : t) {
-            Vec3& known = normal_of_vertex[i];
-            if (known == Vec3(0.0)) known = n;
-            if (glm::dot(known, n) < flat_cosine) return true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3& corner = mesh.vertices[t[i]];
+            const Vec3 a = unit(mesh.vertices[t[(i + 1) % 3]] - corner), b = unit(mesh.vertices[t[(i + 2) % 3]] - corner);
+            mesh.normals[t[i]] += n * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
         }
     }
-    return false;
+    for (Vec3& n : mesh.normals) n = unit(n);
+}
+
+// Up to the rounding of normals in files, and far below what a picture shows.
+bool is_flat(const TriangleMesh& mesh) {
+    constexpr double flat_cosine = 1.0 - 1e-8;
+    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {
+        const Vec3 n = triangle_normal(mesh, t);
+        return n == Vec3(0.0) || std::all_of(t.begin(), t.end(), [&](std::uint32_t i) {
+                   return mesh.normals[i] == Vec3(0.0) || glm::dot(n, mesh.normals[i]) > flat_cosine;
+               });
+    });
 }
 
 }  // namespace
@@ -66,6 +66,8 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
     const std::int64_t index = type == "serialized" ? p.integer("shape_index").value_or(0) : 0;
     if (index < 0) p.fail("shape_index", fmt::format("shape_index is {}, expected 0 or more", index));
 
+    const bool flip_coordinates = p.boolean("flip_tex_coords").value_or(type == "obj");
+
     const std::string path = context.document.find_file(filename);
     context.mesh_files.push_back(path);
     MeshFile file;
@@ -73,28 +75,39 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
         SerializedMesh serialized = read_serialized(path, static_cast<std::uint64_t>(index));
         face_normals = face_normals || serialized.face_normals;
         file = std::move(serialized);
+    } else if (type == "obj") {
+        file = read_obj(path);
     } else {
-        file = type == "obj" ? read_obj(path) : read_ply(path);
+        std::vector<std::string> attributes;
+        for (const auto& [name, e] : mesh_attributes_of(p.element(), context.objects)) attributes.push_back(name);
+        file = read_ply(path, attributes);
     }
     TriangleMesh mesh = std::move(file.mesh);
     for (Vec3& v : mesh.vertices) {
         v = Vec3(to_world * glm::dvec4(v, 1.0));
         if (!is_finite(v)) p.fail("to_world", "moves a vertex out of the range of numbers");
     }
+    if (flip_coordinates)
+        for (Vec2& uv : mesh.uv) uv.y = 1.0 - uv.y;
 
-    if (!face_normals && !file.normals.empty()) {
-        const glm::dmat3 to_world_normal = glm::transpose(glm::inverse(glm::dmat3(to_world)));
-        for (Vec3& n : file.normals) n = unit(to_world_normal * n);
-        if (!orient_by_normals(mesh, file.normals))
-            throw InputError(filename.place,
-                             fmt::format("'{}' has smooth vertex normals, which are not supported yet; set face_normals "
-                                         "to true to render it flat",
-                                         filename.value));
-    } else if (!face_normals && shares_vertices_across_edges(mesh)) {
-        context.warnings.add("mesh without vertex normals rendered flat, where Mitsuba smooths it unless face_normals is true");
+    if (!face_normals) {
+        mesh.normals = std::move(file.normals);
+        if (mesh.normals.empty()) {
+            smooth(mesh);
+        } else {
+            const glm::dmat3 linear(to_world);
+            const double scale = max_component(
+                {max_component(glm::abs(linear[0])), max_component(glm::abs(linear[1])), max_component(glm::abs(linear[2]))});
+            const glm::dmat3 to_world_normal = glm::transpose(glm::inverse(linear / scale));
+            for (Vec3& n : mesh.normals) n = unit(to_world_normal * n);
+            orient_by_normals(mesh);
+        }
+        if (is_flat(mesh)) mesh.normals = {};
     }
-    if (flip_normals)
+    if (flip_normals) {
         for (std::array<std::uint32_t, 3>& t : mesh.triangles) std::swap(t[1], t[2]);
+        for (Vec3& n : mesh.normals) n = -n;
+    }
     return mesh;
 }
 

@@ -7,9 +7,8 @@
 
 namespace neumann::reader {
 
-// Mitsuba shades with vertex normals: those of the file, or smooth ones of its own, unless face_normals is set. They are not
-// supported, so a file's normals are accepted only where they say what the triangles say; a mesh without them is taken flat, with a
-// warning where Mitsuba would smooth an edge.
+// Unless face_normals is set, the mesh has vertex normals, as Mitsuba's: those of the file, or where it has none, the mean of the
+// normals around each vertex, weighted by their angles there. Normals that say what the triangles say are left out.
 TriangleMesh read_mesh_shape(Properties& p, const Context& context);
 
 }  // namespace neumann::reader

@@ -19,9 +19,21 @@ namespace {
 
 using Triple = std::array<std::uint32_t, 3>;
 
-// The normals of a triangle that has none.
-constexpr std::uint32_t no_normal = std::numeric_limits<std::uint32_t>::max();
-constexpr Triple no_normals{no_normal, no_normal, no_normal};
+// The index of a normal or of texture coordinates where there are none.
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr Triple all_none{none, none, none};
+
+struct Corner {
+    std::uint32_t vertex, coordinates, normal;
+    bool operator==(const Corner&) const = default;
+};
+struct HashOfCorner {
+    std::size_t operator()(const Corner& c) const {
+        std::uint64_t hash = c.vertex;
+        for (const std::uint32_t i : {c.coordinates, c.normal}) hash = (hash ^ hash >> 29) * 0x9e3779b97f4a7c15u + i;
+        return static_cast<std::size_t>(hash ^ hash >> 32);
+    }
+};
 
 // Resolves the references of faces to one kind of element.
 class References {
@@ -70,13 +82,13 @@ public:
     MeshFile read() {
         while (!text_.at_end()) statement();
         vertex_references_.check(vertices_.size());
+        coordinate_references_.check(coordinates_.size());
         normal_references_.check(normals_.size());
         if (triangles_.empty()) throw InputError(text_.file() + ": has no faces");
         if (triangles_.size() > max_mesh_count) {
             throw InputError(fmt::format("{}: has more than {}", text_.file(), counted(max_mesh_count, "triangle")));
         }
-        if (triangle_normals_.empty()) return {{std::move(vertices_), std::move(triangles_)}, {}};
-        triangle_normals_.resize(triangles_.size(), no_normals);
+        if (triangle_normals_.empty() && triangle_coordinates_.empty()) return {{std::move(vertices_), std::move(triangles_)}, {}};
         return split_vertices();
     }
 
@@ -91,8 +103,7 @@ private:
         } else if (keyword == "vn") {
             normal();
         } else if (keyword == "vt") {
-            text_.number();
-            for (int i = 0; i < 2 && !text_.at_line_end(); ++i) text_.number();
+            coordinates();
         } else if (is_ignored(keyword)) {
             text_.skip_line();
         } else {
@@ -128,29 +139,37 @@ private:
 
     void normal() { normals_.push_back(finite_triple("normal")); }
 
-    struct Corner {
-        std::uint32_t vertex, normal;
-        bool operator==(const Corner&) const = default;
-    };
+    // One, two or three; the second is 0 where it is missing.
+    void coordinates() {
+        Vec2 uv(0.0);
+        for (int i = 0; i < 3 && (i == 0 || !text_.at_line_end()); ++i) {
+            const double value = text_.number();
+            if (!std::isfinite(value)) text_.fail("texture coordinate is not finite");
+            if (i < 2) uv[i] = value;
+        }
+        coordinates_.push_back(uv);
+    }
 
     // v, v/vt, v//vn or v/vt/vn.
     Corner corner() {
         constexpr auto expected = "a vertex as v, v/vt, v//vn or v/vt/vn";
         text_.begin_token();
         const auto place = text_.place();
-        std::int64_t vertex = 0, texture = 0, normal = 0;
+        std::int64_t vertex = 0, coordinates = 0, normal = 0;
         if (!text_.integer_prefix(vertex)) text_.fail_expected(expected);
-        auto normal_place = place;
-        bool has_normal = false;
+        auto coordinates_place = place, normal_place = place;
+        bool has_coordinates = false, has_normal = false;
         if (text_.accept('/')) {
-            const bool has_texture = text_.integer_prefix(texture);
+            coordinates_place = text_.place_here();
+            has_coordinates = text_.integer_prefix(coordinates);
             has_normal = text_.accept('/');
             normal_place = text_.place_here();
-            if ((!has_texture && !has_normal) || (has_normal && !text_.integer_prefix(normal))) text_.fail_expected(expected);
+            if ((!has_coordinates && !has_normal) || (has_normal && !text_.integer_prefix(normal))) text_.fail_expected(expected);
         }
         if (!text_.at_delimiter()) text_.fail_expected(expected);
         return {vertex_references_.resolve(vertex, vertices_.size(), place),
-                has_normal ? normal_references_.resolve(normal, normals_.size(), normal_place) : no_normal};
+                has_coordinates ? coordinate_references_.resolve(coordinates, coordinates_.size(), coordinates_place) : none,
+                has_normal ? normal_references_.resolve(normal, normals_.size(), normal_place) : none};
     }
 
     void face() {
@@ -160,8 +179,11 @@ private:
         for (; !text_.at_line_end(); ++count) {
             const Corner next = corner();
             if (count == 0) first = next;
-            if ((next.normal == no_normal) != (first.normal == no_normal)) {
+            if ((next.normal == none) != (first.normal == none)) {
                 text_.fail("expected a normal at all vertices of a face or at none");
+            }
+            if ((next.coordinates == none) != (first.coordinates == none)) {
+                text_.fail("expected texture coordinates at all vertices of a face or at none");
             }
             if (count >= 2) triangle(first, previous, next);
             previous = next;
@@ -170,56 +192,67 @@ private:
     }
 
     void triangle(const Corner& a, const Corner& b, const Corner& c) {
-        if (a.normal != no_normal) {
-            triangle_normals_.resize(triangles_.size(), no_normals);
+        if (a.coordinates != none) {
+            triangle_coordinates_.resize(triangles_.size(), all_none);
+            triangle_coordinates_.push_back({a.coordinates, b.coordinates, c.coordinates});
+        }
+        if (a.normal != none) {
+            triangle_normals_.resize(triangles_.size(), all_none);
             triangle_normals_.push_back({a.normal, b.normal, c.normal});
         }
         triangles_.push_back({a.vertex, b.vertex, c.vertex});
     }
 
-    MeshFile split_vertices() const {
+    MeshFile split_vertices() {
         MeshFile result;
         auto& vertices = result.mesh.vertices;
-        auto& triangles = result.mesh.triangles;
+        const bool has_coordinates = !triangle_coordinates_.empty(), has_normals = !triangle_normals_.empty();
+        if (has_coordinates) triangle_coordinates_.resize(triangles_.size(), all_none);
+        if (has_normals) triangle_normals_.resize(triangles_.size(), all_none);
         vertices.reserve(vertices_.size());
-        result.normals.reserve(vertices_.size());
-        triangles.reserve(triangles_.size());
+        if (has_coordinates) result.mesh.uv.reserve(vertices_.size());
+        if (has_normals) result.normals.reserve(vertices_.size());
 
-        const auto add = [&](const Vec3& vertex, const Vec3& normal) {
+        const auto add = [&](const Corner& corner, const Vec3& normal) {
             if (vertices.size() == max_mesh_count) {
-                throw InputError(fmt::format("{}: has more than {} pairs of a vertex and a normal", text_.file(), max_mesh_count));
+                throw InputError(fmt::format("{}: has more than {} vertices with different normals or texture coordinates",
+                                             text_.file(), max_mesh_count));
             }
-            vertices.push_back(vertex);
-            result.normals.push_back(normal);
+            vertices.push_back(vertices_[corner.vertex]);
+            if (has_coordinates)
+                result.mesh.uv.push_back(corner.coordinates == none ? Vec2(0.0) : coordinates_[corner.coordinates]);
+            if (has_normals) result.normals.push_back(normal);
             return static_cast<std::uint32_t>(vertices.size() - 1);
         };
 
-        // Most vertices have one normal; only the others need the map.
+        // Most vertices have one normal and one pair of coordinates; only the others need the map.
         struct Use {
-            std::uint32_t normal = no_normal, vertex = 0;
+            std::uint32_t coordinates = none, normal = none, vertex = none;
         };
         std::vector<Use> first_use(vertices_.size());
-        std::unordered_map<std::uint64_t, std::uint32_t> later_uses;
-        const auto pair = [&](std::uint32_t vertex, std::uint32_t normal) {
-            Use& first = first_use[vertex];
-            if (first.normal == no_normal) first = {normal, add(vertices_[vertex], normals_[normal])};
-            if (first.normal == normal) return first.vertex;
-            const auto [use, is_new] = later_uses.try_emplace(std::uint64_t{vertex} << 32 | normal, 0);
-            if (is_new) use->second = add(vertices_[vertex], normals_[normal]);
+        std::unordered_map<Corner, std::uint32_t, HashOfCorner> later_uses;
+        const auto find = [&](const Corner& corner) {
+            const Vec3 normal = has_normals ? normals_[corner.normal] : Vec3(0.0);
+            Use& first = first_use[corner.vertex];
+            if (first.vertex == none) first = {corner.coordinates, corner.normal, add(corner, normal)};
+            if (first.coordinates == corner.coordinates && first.normal == corner.normal) return first.vertex;
+            const auto [use, is_new] = later_uses.try_emplace(corner, 0);
+            if (is_new) use->second = add(corner, normal);
             return use->second;
         };
 
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            const Triple& vertex = triangles_[i];
-            const Triple& normal = triangle_normals_[i];
-            Triple& triangle = triangles.emplace_back();
-            if (normal == no_normals) {
-                const Vec3 flat = geometric_normal(vertices_[vertex[0]], vertices_[vertex[1]], vertices_[vertex[2]]);
-                for (int k = 0; k < 3; ++k) triangle[k] = add(vertices_[vertex[k]], flat);
-            } else {
-                for (int k = 0; k < 3; ++k) triangle[k] = pair(vertex[k], normal[k]);
+            Triple& t = triangles_[i];
+            const Triple coordinates = has_coordinates ? triangle_coordinates_[i] : all_none;
+            const Triple normals = has_normals ? triangle_normals_[i] : all_none;
+            const bool flat = has_normals && normals == all_none;
+            const Vec3 normal = flat ? geometric_normal(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]) : Vec3(0.0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Corner corner{t[k], coordinates[k], normals[k]};
+                t[k] = flat ? add(corner, normal) : find(corner);
             }
         }
+        result.mesh.triangles = std::move(triangles_);
         return result;
     }
 
@@ -233,11 +266,13 @@ private:
     }
 
     MeshText text_;
-    References vertex_references_{text_, "vertex"}, normal_references_{text_, "normal"};
+    References vertex_references_{text_, "vertex"}, coordinate_references_{text_, "texture coordinate"},
+        normal_references_{text_, "normal"};
     std::vector<Vec3> vertices_, normals_;
+    std::vector<Vec2> coordinates_;
     std::vector<Triple> triangles_;
-    // The normals of the first triangles, empty until a face has normals.
-    std::vector<Triple> triangle_normals_;
+    // Of the first triangles, empty until a face has any.
+    std::vector<Triple> triangle_coordinates_, triangle_normals_;
 };
 
 }  // namespace

@@ -2,11 +2,14 @@
 #include "core/reader/mesh_file.h"
 #include "core/reader/mesh_ply_header.h"
 #include "core/reader/mesh_text.h"
+#include "core/spectrum/spectrum_to_rgb.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -151,9 +154,12 @@ public:
             if (element.name == "vertex") {
                 reserve(result_.mesh.vertices, element);
                 if (header_.has_normals) reserve(result_.normals, element);
+                if (header_.has_coordinates) reserve(result_.mesh.uv, element);
+                begin_attributes(element);
                 rows(element, [&] { vertex(element); });
             } else if (element.name == "face") {
                 reserve(result_.mesh.triangles, element);
+                begin_attributes(element);
                 rows(element, [&] { face(element); });
             } else {
                 rows(element, [&] { other(element); });
@@ -195,26 +201,86 @@ private:
         }
     }
 
+    void begin_attributes(const PlyElement& element) {
+        first_attribute_ = result_.mesh.attributes.size();
+        row_.assign(element.attributes.size(), {});
+        for (const auto& a : element.attributes) {
+            result_.mesh.attributes.push_back({a.name, element.name == "face"});
+            reserve(result_.mesh.attributes.back().values, element);
+        }
+    }
+    void read_channel(const PlyElement& element, const PlyProperty& property) {
+        const int i = property.slot - PlyProperty::first_attribute;
+        const auto attribute = static_cast<std::size_t>(i / 3);
+        double value = rows_.number(property.type);
+        const double most = largest(property.type);
+        if (most > 0.0) {
+            if (value < 0.0 || value > most)
+                rows_.fail(fmt::format("{} is {}, expected a whole number from 0 to {}", property.name, value, most));
+            value = srgb_decode(value / most);
+        }
+        if (!std::isfinite(static_cast<float>(value))) rows_.fail(property.name + " is not finite");
+        auto& channels = row_[attribute];
+        if (element.attributes[attribute].is_grey)
+            channels.fill(static_cast<float>(value));
+        else
+            channels[static_cast<std::size_t>(i % 3)] = static_cast<float>(value);
+    }
+    // The row's attributes for one vertex or triangle more.
+    void add_attributes() {
+        for (std::size_t i = 0; i < row_.size(); ++i) result_.mesh.attributes[first_attribute_ + i].values.push_back(row_[i]);
+    }
+    // 0 for fractions.
+    static double largest(PlyType type) {
+        switch (type) {
+            case PlyType::i8:
+                return std::numeric_limits<std::int8_t>::max();
+            case PlyType::u8:
+                return std::numeric_limits<std::uint8_t>::max();
+            case PlyType::i16:
+                return std::numeric_limits<std::int16_t>::max();
+            case PlyType::u16:
+                return std::numeric_limits<std::uint16_t>::max();
+            case PlyType::i32:
+                return std::numeric_limits<std::int32_t>::max();
+            case PlyType::u32:
+                return std::numeric_limits<std::uint32_t>::max();
+            case PlyType::f32:
+            case PlyType::f64:
+                break;
+        }
+        return 0.0;
+    }
+
     void vertex(const PlyElement& element) {
-        Vec3 values[2];
+        constexpr const char* nouns[] = {"vertex", "normal", "texture"};
+        double values[8] = {};
+        for (const auto& property : element.properties) {
+            if (property.slot < 0) {
+                skip(property);
+            } else if (property.slot >= PlyProperty::first_attribute) {
+                read_channel(element, property);
+            } else {
+                values[property.slot] = rows_.number(property.type);
+                if (!std::isfinite(values[property.slot]))
+                    rows_.fail(fmt::format("{} coordinate is not finite", nouns[property.slot / 3]));
+            }
+        }
+        result_.mesh.vertices.emplace_back(values[0], values[1], values[2]);
+        if (header_.has_normals) result_.normals.emplace_back(values[3], values[4], values[5]);
+        if (header_.has_coordinates) result_.mesh.uv.emplace_back(values[6], values[7]);
+        add_attributes();
+    }
+
+    void face(const PlyElement& element) {
+        const std::size_t before = result_.mesh.triangles.size();
         for (const auto& property : element.properties) {
             if (property.slot < 0) {
                 skip(property);
                 continue;
             }
-            const double value = rows_.number(property.type);
-            if (!std::isfinite(value))
-                rows_.fail(fmt::format("{} coordinate is not finite", property.slot < 3 ? "vertex" : "normal"));
-            values[property.slot / 3][property.slot % 3] = value;
-        }
-        result_.mesh.vertices.push_back(values[0]);
-        if (header_.has_normals) result_.normals.push_back(values[1]);
-    }
-
-    void face(const PlyElement& element) {
-        for (const auto& property : element.properties) {
-            if (property.slot < 0) {
-                skip(property);
+            if (property.slot >= PlyProperty::first_attribute) {
+                read_channel(element, property);
                 continue;
             }
             const std::int64_t count = rows_.integer(property.count_type);
@@ -227,6 +293,7 @@ private:
                 previous = next;
             }
         }
+        for (std::size_t i = before; i < result_.mesh.triangles.size(); ++i) add_attributes();
     }
 
     std::uint32_t index(PlyType type) {
@@ -254,14 +321,17 @@ private:
     const PlyHeader& header_;
     const std::string& file_;
     MeshFile result_;
+    // Of the element that is read: its first attribute in the mesh, and what the row says.
+    std::size_t first_attribute_ = 0;
+    std::vector<std::array<float, 3>> row_;
 };
 
 }  // namespace
 
-MeshFile read_ply(const std::string& path) {
+MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes) {
     const std::string bytes = read_mesh_bytes(path);
     MeshText text(path, bytes, MeshText::Syntax::plain);
-    const PlyHeader header = read_ply_header(text);
+    const PlyHeader header = read_ply_header(text, attributes);
     switch (header.format) {
         case PlyFormat::little_endian:
             return BodyReader(BinaryRows<std::endian::little>(text), header, path).read();

@@ -107,6 +107,24 @@ Mat4 Properties::transform(const std::string& name) {
     return m;
 }
 
+const Element* Properties::object(const std::string& name, const std::string& tag) {
+    if (!contains(asked_, name)) asked_.push_back(name);
+    const Element *first = parameter(name), *found = nullptr;
+    for (const Element& e : element_.children) {
+        const Attribute* given = is_parameter(e.tag) ? nullptr : e.find("name");
+        if (!given || given->value != name) continue;
+        const Element& object = e.tag == "ref" ? objects_.find(e.attribute("id")) : e;
+        if (object.tag != tag) continue;
+        if (first)
+            throw InputError(given->place, fmt::format("parameter '{}' of {} is given twice, first at {}", name, title_,
+                                                       to_string(first->attribute("name").place)));
+        read_.insert(&e);
+        first = &e;
+        found = &object;
+    }
+    return found;
+}
+
 std::vector<const Element*> Properties::nested(const std::string& tag, std::size_t limit) {
     if (!contains(asked_tags_, tag)) asked_tags_.push_back(tag);
     std::vector<const Element*> found;
@@ -138,6 +156,13 @@ void Properties::finish() const {
         }
         const bool is_reference = e.tag == "ref";
         const Element& object = is_reference ? objects_.find(e.attribute("id")) : e;
+        const Attribute* name = object.tag == "texture" && !contains(asked_tags_, "texture") ? e.find("name") : nullptr;
+        if (name && contains(asked_, name->value))
+            throw InputError(name->place,
+                             fmt::format("parameter '{}' of {} is a texture, which is not supported there", name->value, title_));
+        if (name)
+            throw InputError(name->place, fmt::format("unknown parameter '{}' of {}; {}", name->value, title_,
+                                                      asked_.empty() ? "it has none" : "allowed: " + join(asked_)));
         throw InputError(e.place,
                          fmt::format("unexpected {}<{}> in {}; {}", is_reference ? "reference to a " : "", object.tag, title_,
                                      asked_tags_.empty() ? "nothing is nested in it" : "allowed: " + join(asked_tags_)));

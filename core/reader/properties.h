@@ -34,6 +34,8 @@ public:
     std::optional<Vec3> point(const std::string& name);
     Mat4 transform(const std::string& name);  // the identity where it is missing; invertible
 
+    // The nested object of one kind that has the name of a parameter, a reference resolved, or null.
+    const Element* object(const std::string& name, const std::string& tag);
     // Nested objects of one kind, references resolved. At most `limit`.
     std::vector<const Element*> nested(const std::string& tag, std::size_t limit = 1);
 

@@ -8,6 +8,7 @@
 #include "core/reader/read_shapes.h"
 #include "core/reader/scene_lights.h"
 #include "core/reader/sensor.h"
+#include "core/reader/textures.h"
 
 #include <fmt/format.h>
 
@@ -34,13 +35,13 @@ const Element* only(const Element& root, const std::string& tag) {
 void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
     Warnings dropped;
     std::vector<std::string> dropped_files;
-    const Context aside{context.document, context.objects, dropped, dropped_files};
+    const Context aside{context.document, context.objects, dropped, dropped_files, context.textures};
     Bsdfs other_bsdfs(aside);
     AreaLights other_lights(aside);
     for (const Element& e : root.children) {
         if (e.tag == "bsdf" && !bsdfs.has(e)) other_bsdfs.sides(e);
         if (e.tag == "emitter" && e.attribute("type").value == "area" && !lights.has(e)) other_lights.index(e);
-        if (e.tag == "texture") read_bitmap(e, aside);
+        if (e.tag == "texture" && !context.textures.known.count(&e)) read_texture(e, Illuminant::d65, aside);
         if (e.tag == "film") read_film(e, aside);
         if (e.tag == "rfilter") read_filter(e, aside);
         if (e.tag == "sampler") read_sampler(e, aside);
@@ -60,7 +61,8 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     const Document document = read_document(path, definitions, parts.warnings, optional);
     const Objects objects(document.root);
     std::vector<std::string> mesh_files;
-    const Context context{document, objects, parts.warnings, mesh_files};
+    TextureStore textures;
+    const Context context{document, objects, parts.warnings, mesh_files, textures};
 
     if (const Element* e = only(document.root, "integrator")) {
         const Integrator integrator = read_integrator(*e, context);
@@ -79,11 +81,14 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     SceneLights scene_lights(context);
     for (const Element& e : document.root.children)
         if (e.tag == "emitter") scene_lights.add(e);
-    read_shapes(document.root, context, [&](ReadShape shape) {
+    // All shapes before their materials: textures may hold what meshes bring along.
+    std::vector<ReadShape> shapes;
+    read_shapes(document.root, context, [&](ReadShape shape) { shapes.push_back(std::move(shape)); });
+    for (ReadShape& shape : shapes) {
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
-    });
+    }
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();
     parts.lights.area = lights.take();

@@ -28,6 +28,7 @@ struct Reading {
     ReadShape shape = {};
     Warnings warnings = {};
     std::vector<std::string> mesh_files = {};
+    TextureStore textures = {};
     std::exception_ptr error = nullptr;
 };
 
@@ -154,7 +155,7 @@ private:
     }
 
     void read(Reading& reading) const {
-        const Context own{context_.document, context_.objects, reading.warnings, reading.mesh_files};
+        const Context own{context_.document, context_.objects, reading.warnings, reading.mesh_files, reading.textures};
         reading.shape = read_shape(*reading.element, own);
         if (reading.in_group && reading.shape.emitter)
             throw InputError(reading.shape.emitter->place, "emitter in a shapegroup: what emits cannot be instanced");
@@ -166,6 +167,7 @@ private:
         for (const auto& [text, count] : reading.warnings.counts()) context_.warnings.add(text, count);
         for (const std::string& file : reading.mesh_files)
             if (known_files_.insert(file).second) context_.mesh_files.push_back(file);
+        for (const auto& [name, range] : reading.textures.attributes) context_.textures.widen(name, range);
     }
 
     // Up to the first instance that no longer fits, before there is any.

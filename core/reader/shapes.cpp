@@ -3,6 +3,7 @@
 #include "core/geometry/transformed.h"
 #include "core/reader/mesh_shape.h"
 #include "core/reader/properties.h"
+#include "core/reader/textures.h"
 
 #include <algorithm>
 
@@ -53,6 +54,21 @@ Shape read_geometry(Properties& p, const Context& context) {
     return make_disk(to_world, flip_normals);
 }
 
+// What its textures ask for has to be there.
+void check_attributes(const Properties& p, const Shape& shape, const Context& context) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    for (const auto& [name, e] : mesh_attributes_of(p.element(), context.objects))
+        if (!mesh || !mesh->attribute(name))
+            throw InputError(e->attribute("value").place,
+                             fmt::format("{} at {} has no mesh attribute '{}'", p.title(), to_string(p.element().place), name));
+    if (!mesh) return;
+    for (const MeshAttribute& a : mesh->attributes)
+        for (const auto& v : a.values) {
+            const Rgb value(v[0], v[1], v[2]);
+            context.textures.widen(a.name, {value, value});
+        }
+}
+
 }  // namespace
 
 ReadShape read_shape(const Element& e, const Context& context) {
@@ -62,6 +78,7 @@ ReadShape read_shape(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     ReadShape result;
     result.shape = read_geometry(p, context);
+    check_attributes(p, result.shape, context);
     const std::vector<const Element*> bsdfs = p.nested("bsdf"), emitters = p.nested("emitter");
     p.finish();
     if (!bsdfs.empty()) result.bsdf = bsdfs.front();

@@ -1,15 +1,139 @@
 #include "core/reader/textures.h"
 
+#include "core/image/display.h"
+#include "core/image/image_io.h"
+#include "core/texture/bitmap.h"
+#include "core/texture/uv_transform.h"
+
+#include <fmt/format.h>
+
 namespace neumann::reader {
+
+namespace {
+
+Texture read_bitmap(Properties& p, const Context& context) {
+    const Attribute& filename = p.require("filename", {"string"}).attribute("value");
+    const bool nearest = p.choice("filter_type", {"bilinear", "nearest"}, "bilinear") == "nearest";
+    const std::string wrap = p.choice("wrap_mode", {"repeat", "mirror", "clamp"}, "repeat");
+    const bool raw = p.boolean("raw").value_or(false);
+    const UvTransform to_uv(p.transform("to_uv"));
+    // How Mitsuba stores texels and looks them up; changes rounding only.
+    p.choice("format", {"auto", "variant", "fp16"}, "auto");
+    p.boolean("accel");
+    p.finish();
+
+    const std::string path = context.document.find_file(filename);
+    auto& texels = context.textures.images[path];
+    if (!texels) {
+        texels = std::make_shared<const Texels>(read_texels(path));
+        context.mesh_files.push_back(path);
+    }
+    using Wrap = Bitmap::Wrap;
+    const auto bitmap = std::make_shared<const Bitmap>(texels, nearest ? Bitmap::Filter::nearest : Bitmap::Filter::bilinear,
+                                                       wrap == "repeat"   ? Wrap::repeat
+                                                       : wrap == "mirror" ? Wrap::mirror
+                                                                          : Wrap::clamp,
+                                                       raw);
+    return {{[bitmap, to_uv](const ShadingPoint& at) { return (*bitmap)(to_uv(at.uv)); }, bitmap->largest()},
+            bitmap->smallest(),
+            [bitmap, to_uv](const ShadingPoint& at) { return to_uv.slope(bitmap->slope(to_uv(at.uv))); }};
+}
+
+Texture read_checkerboard(Properties& p, Illuminant illuminant, const Context& context) {
+    const SurfaceFunction color0 = read_color_texture(p, "color0", 0.4, illuminant, context),
+                          color1 = read_color_texture(p, "color1", 0.2, illuminant, context);
+    const UvTransform to_uv(p.transform("to_uv"));
+    p.finish();
+    return {{[color0, color1, to_uv](const ShadingPoint& at) {
+                 const Vec2 uv = to_uv(at.uv), part = uv - glm::floor(uv);
+                 return ((part.x > 0.5) == (part.y > 0.5) ? color0 : color1)(at);
+             },
+             glm::max(color0.upper_bound(), color1.upper_bound())}};
+}
+
+const Attribute& attribute_name(Properties& p) { return p.require("name", {"string"}).attribute("value"); }
+
+Texture read_mesh_attribute(Properties& p, const Context& context) {
+    const std::string name = attribute_name(p).value;
+    if (!name.starts_with("vertex_") && !name.starts_with("face_"))
+        p.fail("name", fmt::format("'{}' is not the name of a mesh attribute, expected vertex_ or face_ and what follows", name));
+    const double scale = p.number("scale").value_or(1.0);
+    if (scale < 0.0) p.fail("scale", fmt::format("scale is negative: {}", scale));
+    p.finish();
+    const TextureStore::Range range = context.textures.attributes[name];
+    return {{[name, scale](const ShadingPoint& at) {
+                 const MeshAttribute& a = *at.mesh->attribute(name);
+                 const auto value = [&](std::uint32_t i) { return Rgb(a.values[i][0], a.values[i][1], a.values[i][2]); };
+                 if (a.of_triangles) return value(at.primitive) * scale;
+                 const auto& t = at.mesh->triangles[at.primitive];
+                 const Vec3 w = glm::max(vertex_weights(*at.mesh, at), 0.0);
+                 return (value(t[0]) * w.x + value(t[1]) * w.y + value(t[2]) * w.z) * (scale / (w.x + w.y + w.z));
+             },
+             range.largest * scale},
+            range.smallest * scale};
+}
+
+void find_mesh_attributes(const Element& e, const Objects& objects, std::set<const Element*>& seen,
+                          std::map<std::string, const Element*>& found) {
+    if (!seen.insert(&e).second) return;
+    if (e.tag == "texture" && e.attribute("type").value == "mesh_attribute") {
+        Properties p(e, objects);
+        found.try_emplace(attribute_name(p).value, p.find("name", {"string"}));
+    }
+    for (const Element& child : e.children)
+        find_mesh_attributes(child.tag == "ref" ? objects.find(child.attribute("id")) : child, objects, seen, found);
+}
+
+}  // namespace
+
+Texture read_texture(const Element& e, Illuminant illuminant, const Context& context) {
+    if (!context.textures.open.insert(&e).second) throw InputError(e.place, "the texture stands inside itself");
+    context.textures.known.insert(&e);
+    Properties p(e, context.objects);
+    const std::string& type = e.attribute("type").value;
+    Texture texture{Rgb(0.0)};
+    if (type == "bitmap")
+        texture = read_bitmap(p, context);
+    else if (type == "checkerboard")
+        texture = read_checkerboard(p, illuminant, context);
+    else if (type == "mesh_attribute")
+        texture = read_mesh_attribute(p, context);
+    else
+        fail_type(e, {"bitmap", "checkerboard", "mesh_attribute"});
+    context.textures.open.erase(&e);
+    return texture;
+}
+
+std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::string& name, Illuminant illuminant,
+                                                  const Context& context) {
+    const Element* e = p.object(name, "texture");
+    if (!e) return std::nullopt;
+    const Texture texture = read_texture(*e, illuminant, context);
+    if (const Rgb& s = texture.smallest; std::min({s.r, s.g, s.b}) < 0.0)
+        throw InputError(e->place, fmt::format("the texture is negative somewhere, down to {}, expected a {} of at least 0",
+                                               std::min({s.r, s.g, s.b}), name));
+    return texture.value;
+}
 
 SurfaceFunction read_color_texture(Properties& p, const std::string& name, double missing, Illuminant illuminant,
                                    const Context& context) {
+    if (const auto texture = find_color_texture(p, name, illuminant, context)) return *texture;
     const Element* e = p.find(name, color_types);
     return e ? parse_color(p, name, *e, illuminant, context.warnings) : Rgb(missing);
 }
 
-SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context&) {
-    return Rgb(p.number(name).value_or(missing));
+SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context& context) {
+    const auto texture = find_color_texture(p, name, Illuminant::equal_energy, context);
+    if (!texture) return Rgb(p.number(name).value_or(missing));
+    const auto number = [](const Rgb& c) { return Rgb(is_grey(c) ? c.r : luminance(c)); };
+    return {[f = *texture, number](const ShadingPoint& at) { return number(f(at)); }, number(texture->upper_bound())};
+}
+
+std::map<std::string, const Element*> mesh_attributes_of(const Element& shape, const Objects& objects) {
+    std::set<const Element*> seen;
+    std::map<std::string, const Element*> found;
+    find_mesh_attributes(shape, objects, seen, found);
+    return found;
 }
 
 }  // namespace neumann::reader

@@ -1,4 +1,5 @@
-// Parameters that may vary over a surface: a colour or a number, and what stands in its place.
+// Parameters that may vary over a surface: a colour or a number, or a <texture> in its place: `bitmap`, `checkerboard` or
+// `mesh_attribute`.
 #pragma once
 
 #include "core/material/surface_function.h"
@@ -7,10 +8,25 @@
 
 namespace neumann::reader {
 
+struct Texture {
+    SurfaceFunction value;
+    Rgb smallest{0.0};
+    // (∂/∂u, ∂/∂v) of the luminance; empty where there is none.
+    std::function<Vec2(const ShadingPoint&)> slope = {};
+};
+
+Texture read_texture(const Element& e, Illuminant illuminant, const Context& context);
+
 // A colour; `missing` in all channels where it is not given.
 SurfaceFunction read_color_texture(Properties& p, const std::string& name, double missing, Illuminant illuminant,
                                    const Context& context);
-// A number, in all channels.
+// A colour, if a <texture> says it.
+std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::string& name, Illuminant illuminant,
+                                                  const Context& context);
+// A number, in all channels; of a texture, its luminance.
 SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context& context);
+
+// The attributes that the textures on a shape ask its mesh for, and the elements that name them.
+std::map<std::string, const Element*> mesh_attributes_of(const Element& shape, const Objects& objects);
 
 }  // namespace neumann::reader

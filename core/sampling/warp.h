@@ -31,6 +31,12 @@ inline Vec2 direction_on_circle(double u) {
     return {sign[quadrant + odd] * sin_cos[1 - odd], sign[quadrant] * sin_cos[odd]};
 }
 
+// The u of a direction (x, y), as exact as atan2.
+inline double part_of_circle(double x, double y) {
+    const double u = std::atan2(y, x) * (0.5 * inv_pi);
+    return u < 0.0 ? u + 1.0 : u;
+}
+
 // Uniform on the unit disc, concentric squares to circles: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997.
 inline Vec2 uniform_disk(const Vec2& u) {
     const double a = 2.0 * u.x - 1.0, b = 2.0 * u.y - 1.0;

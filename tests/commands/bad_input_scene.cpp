@@ -40,7 +40,8 @@ TEST_F(BadInputScene, Plugins) {
     EXPECT_EQ(refusal_of("<shape type=\"teapot\"/>"),
               "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, serialized, shapegroup, sphere\n");
     EXPECT_EQ(refusal_of("<bsdf type=\"dielectric\"/>"),
-              "scene.xml:2:7: bsdf type 'dielectric' is not supported; allowed: conductor, diffuse, roughconductor, twosided\n");
+              "scene.xml:2:7: bsdf type 'dielectric' is not supported; allowed: bumpmap, conductor, diffuse, normalmap, "
+              "roughconductor, twosided\n");
 }
 
 TEST_F(BadInputScene, Parameters) {

@@ -23,9 +23,9 @@ TEST_F(MeshObj, KeepsDoublePrecision) {
 }
 
 TEST_F(MeshObj, ReadsFormsOfFaces) {
-    for (const std::string face : {"f 1 2 3", "f 1/1 2/2 3/3", "f 1/7/1 2/8/1 3/9/1", "f 1//1 2//1 3//1", "f -3 -2 -1",
-                                   "f -3/1/-1 2//1 -1//1", "\tf  1\t2  3  ", "f 1 2 3 # a face"}) {
-        EXPECT_EQ(obj(three + "vn 0 0 1\n" + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
+    for (const std::string face : {"f 1 2 3", "f 1/1 2/2 3/1", "f 1/1/1 2/2/1 3/-1/1", "f 1//1 2//1 3//1", "f -3 -2 -1",
+                                   "f -3//-1 2//1 -1//1", "\tf  1\t2  3  ", "f 1 2 3 # a face"}) {
+        EXPECT_EQ(obj(three + "vt 0 0\nvt 1 0\nvn 0 0 1\n" + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
     }
 }
 
@@ -66,6 +66,26 @@ TEST_F(MeshObj, SplitsVerticesByNormal) {
     EXPECT_EQ(normals, (std::vector<Vec3>{z, z, z, 2.0 * z, 2.0 * z}));
 }
 
+TEST_F(MeshObj, SplitsVerticesByTextureCoordinates) {
+    const auto [mesh, normals] = obj(three + "v 1 1 0\nvt 0.25\nvt 0.5 1 7\nvt 0 -1\nf 1/1 2/2 3/3\nf 2/2 4/1 3/1\nf 1 2 3\n");
+    EXPECT_TRUE(normals.empty());
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {1, 3, 4}, {5, 6, 7}}));
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y, Vec3(1, 1, 0), y, Vec3(0.0), x, y}));
+    const Vec2 a(0.25, 0), b(0.5, 1), c(0, -1), zero(0.0);
+    EXPECT_EQ(mesh.uv, (std::vector<Vec2>{a, b, c, a, a, zero, zero, zero}));
+}
+
+TEST_F(MeshObj, SplitsVerticesByNormalsAndTextureCoordinates) {
+    const auto [mesh, normals] =
+        obj(three + "vt 0 0\nvt 1 1\nvn 0 0 1\nvn 1 0 0\nf 1/1/1 2/1/1 3/1/1\nf 1/1/2 2/2/1 3/2/2\nf 1/1/2 2/2/1 3/1/1\n");
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {3, 4, 5}, {3, 4, 2}}));
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y, Vec3(0.0), x, y}));
+    EXPECT_EQ(mesh.uv, (std::vector<Vec2>{Vec2(0.0), Vec2(0.0), Vec2(0.0), Vec2(0.0), Vec2(1.0), Vec2(1.0)}));
+    EXPECT_EQ(normals, (std::vector<Vec3>{z, z, z, x, z, x}));
+}
+
+TEST_F(MeshObj, UnusedTextureCoordinatesAreLeftOut) { EXPECT_TRUE(obj(three + "vt 0 1\nf 1 2 3\n").mesh.uv.empty()); }
+
 TEST_F(MeshObj, UnusedNormalsAreLeftOut) { EXPECT_TRUE(obj(three + "vn 0 0 1\nf 1 2 3\n").normals.empty()); }
 
 TEST_F(MeshObj, FacesWithoutNormalsAmongOthersGetTheirOwn) {
@@ -94,6 +114,7 @@ TEST_F(MeshObj, RefusesNumbers) {
     EXPECT_EQ(error("v 1 2 3 4 5 6 7 8\n"), "FILE:1:17: expected the end of the line, found '8'");
     EXPECT_EQ(error("vn 1 2 3 4\n"), "FILE:1:10: expected the end of the line, found '4'");
     EXPECT_EQ(error("vt\n"), "FILE:1:3: expected a number, found the end of the line");
+    EXPECT_EQ(error("vt 0 inf\n"), "FILE:1:6: texture coordinate is not finite");
     EXPECT_EQ(error("vt 0 u\n"), "FILE:1:6: expected a number, found 'u'");
     EXPECT_EQ(error("v 1 2 " + std::string(50, 'a')), "FILE:1:7: expected a number, found '" + std::string(40, 'a') + "...'");
     EXPECT_EQ(error("v 1 \x01-\xFF 0\n"), "FILE:1:5: expected a number, found '?-?'");
@@ -107,6 +128,10 @@ TEST_F(MeshObj, RefusesIndices) {
     EXPECT_EQ(error(three + "f 1 2 -4\nv 1 1 1\n"), "FILE:4:7: vertex index -4 is out of range, the file has 3 vertices so far");
     EXPECT_EQ(error(three + "f 0 1 2\n"), "FILE:4:3: vertex index 0, expected 1 for the first or -1 for the last");
     EXPECT_EQ(error(three + "vn 0 0 1\nf 1//1 2//1 3//2\n"), "FILE:5:16: normal index 2 is out of range, the file has 1 normal");
+    EXPECT_EQ(error(three + "vt 0 0\nf 1/1 2/1 3/2\n"),
+              "FILE:5:13: texture coordinate index 2 is out of range, the file has 1 texture coordinate");
+    EXPECT_EQ(error(three + "f 1/0 2/1 3/1\n"),
+              "FILE:4:5: texture coordinate index 0, expected 1 for the first or -1 for the last");
     EXPECT_EQ(error(three + "vn 0 0 1\nf 1/5/-2 2//1 3//1\n"),
               "FILE:5:7: normal index -2 is out of range, the file has 1 normal so far");
     EXPECT_EQ(error(three + "f 1//0 2//1 3//1\n"), "FILE:4:6: normal index 0, expected 1 for the first or -1 for the last");
@@ -125,6 +150,8 @@ TEST_F(MeshObj, RefusesFaces) {
                   "FILE:5:5: expected a vertex as v, v/vt, v//vn or v/vt/vn, found '" + corner + "'");
     }
     EXPECT_EQ(error(three + "vn 0 0 1\nf 1//1 2 3//1\n"), "FILE:5:8: expected a normal at all vertices of a face or at none");
+    EXPECT_EQ(error(three + "vt 0 0\nf 1/1 2 3/1\n"),
+              "FILE:5:7: expected texture coordinates at all vertices of a face or at none");
     EXPECT_EQ(error(three + "vn 0 0 1\nf 1 2 3//1\n"), "FILE:5:7: expected a normal at all vertices of a face or at none");
 }
 

@@ -1,7 +1,9 @@
 #include "tests/reader/mesh_test_file.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
@@ -47,8 +49,12 @@ std::string head(const std::string& format, const std::string& vertices, const s
 
 class MeshPly : public MeshTestFile {
 protected:
-    MeshFile ply(const std::string& content) const { return read(read_ply, content); }
-    std::string error(const std::string& content) const { return MeshTestFile::error(read_ply, content); }
+    MeshFile ply(const std::string& content, const std::vector<std::string>& attributes = {}) const {
+        return read([&](const std::string& path) { return read_ply(path, attributes); }, content);
+    }
+    std::string error(const std::string& content, const std::vector<std::string>& attributes = {}) const {
+        return MeshTestFile::error([&](const std::string& path) { return read_ply(path, attributes); }, content);
+    }
     // Of a header, with a body that fits none.
     std::string header_error(const std::string& lines) const { return error("ply\nformat ascii 1.0\n" + lines + "end_header\n"); }
 };
@@ -81,6 +87,74 @@ TEST_F(MeshPly, ReadsNormals) {
                                      "end_header\n9 0 0 0 7 8\n1 1 0 0 0 0\n1 0 1 0 0 0\n3 0 1 2\n");
     EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y}));
     EXPECT_EQ(normals, (std::vector<Vec3>{Vec3(7, 8, 9), z, z}));
+}
+
+TEST_F(MeshPly, ReadsTextureCoordinates) {
+    for (const auto& [u, v] : {std::pair("u", "v"), std::pair("s", "t"), std::pair("texture_u", "texture_v")}) {
+        const auto mesh =
+            ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float " + std::string(v) + "\n" + xyz + "property double " + u +
+                "\nelement face 1\n" + indices + "end_header\n0.5 0 0 0 0.1\n1 1 0 0 -2\n0 0 1 0 3\n3 0 1 2\n")
+                .mesh;
+        EXPECT_EQ(mesh.uv, (std::vector<Vec2>{Vec2(0.1, 0.5), Vec2(-2, 1), Vec2(3, 0)})) << u;
+        EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0.0), x, y}));
+    }
+    // One alone means something else.
+    EXPECT_TRUE(ply("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "property float u\nproperty float t\nelement face 1\n" +
+                    indices + "end_header\n0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n3 0 1 2\n")
+                    .mesh.uv.empty());
+}
+
+TEST_F(MeshPly, ReadsAttributesThatAreAskedFor) {
+    using Values = std::vector<std::array<float, 3>>;
+    const std::string file = "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz +
+                             "property float red\nproperty float green\nproperty float blue\nproperty float alpha\n"
+                             "property float heat_0\nelement face 2\nproperty double shade_r\n" +
+                             indices +
+                             "property double shade_g\nproperty double shade_b\nend_header\n"
+                             "0 0 0 0.25 0.5 0.75 1 7\n1 0 0 1 2 3 1 8\n0 1 0 0 0 0 1 9\n"
+                             "0.5 3 0 1 2 0.25 0.125\n1 4 0 1 2 1 2 3\n";
+    EXPECT_TRUE(ply(file).mesh.attributes.empty());
+    const auto mesh = ply(file, {"face_shade_color", "vertex_heat", "vertex_color", "vertex_none", "face_color"}).mesh;
+    ASSERT_EQ(mesh.attributes.size(), 3u);
+    ASSERT_TRUE(mesh.attribute("vertex_color"));
+    EXPECT_FALSE(mesh.attribute("vertex_color")->of_triangles);
+    EXPECT_EQ(mesh.attribute("vertex_color")->values, (Values{{0.25f, 0.5f, 0.75f}, {1, 2, 3}, {0, 0, 0}}));
+    EXPECT_EQ(mesh.attribute("vertex_heat")->values, (Values{{7, 7, 7}, {8, 8, 8}, {9, 9, 9}}));
+    // Each triangle of a polygon has what the polygon has.
+    ASSERT_TRUE(mesh.attribute("face_shade_color"));
+    EXPECT_TRUE(mesh.attribute("face_shade_color")->of_triangles);
+    EXPECT_EQ(mesh.attribute("face_shade_color")->values, (Values{{0.5f, 0.25f, 0.125f}, {1, 2, 3}, {1, 2, 3}}));
+}
+
+// Values of the sRGB transfer function: 0, its linear part at 10/255, 188/255, 1 (IEC 61966-2-1).
+TEST_F(MeshPly, WholeNumbersOfAttributesAreSrgb) {
+    Bytes body(std::endian::big);
+    for (const std::array<std::uint8_t, 3>& c : {std::array<std::uint8_t, 3>{0, 10, 255}, {188, 188, 188}, {255, 255, 0}})
+        body.point(0, 0, 0).add(c[0]).add(c[1]).add(c[2]);
+    body.list({0, 1, 2});
+    const auto mesh =
+        ply("ply\nformat binary_big_endian 1.0\nelement vertex 3\n" + xyz +
+                "property uchar r\nproperty uchar g\nproperty uchar b\nelement face 1\n" + indices + "end_header\n" + body.text(),
+            {"vertex_color"})
+            .mesh;
+    ASSERT_EQ(mesh.attributes.size(), 1u);
+    const auto& values = mesh.attributes[0].values;
+    ASSERT_EQ(values.size(), 3u);
+    EXPECT_EQ(values[0][0], 0.0f);
+    EXPECT_NEAR(values[0][1], 10.0 / 255.0 / 12.92, 1e-9);
+    EXPECT_EQ(values[0][2], 1.0f);
+    EXPECT_NEAR(values[1][0], std::pow((188.0 / 255.0 + 0.055) / 1.055, 2.4), 1e-7);
+}
+
+TEST_F(MeshPly, RefusesAttributes) {
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz;
+    const std::string tail = "element face 1\n" + indices + "end_header\n";
+    const std::string bytes = "property uchar r\nproperty uchar g\nproperty uchar b\n";
+    EXPECT_EQ(error(head + bytes + tail + "0 0 0 1 2 300\n", {"vertex_color"}),
+              "FILE:13:11: b is 300, expected a whole number from 0 to 255");
+    EXPECT_EQ(error(head + "property float a_x\n" + tail + "0 0 0 1e60\n", {"vertex_a"}), "FILE:11:7: a_x is not finite");
+    EXPECT_EQ(error(head + "property float u\nproperty float v\n" + tail + "0 0 0 nan 0\n"),
+              "FILE:12:7: texture coordinate is not finite");
 }
 
 TEST_F(MeshPly, ReadsEveryTypeAndSkipsWhatAMeshDoesNotNeed) {

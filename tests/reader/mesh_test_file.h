@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace neumann {
 
 class MeshTestFile : public testing::Test {
 protected:
-    using Reader = MeshFile (*)(const std::string&);
+    using Reader = std::function<MeshFile(const std::string&)>;
     using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
     MeshTestFile() { std::filesystem::create_directories(folder_); }
@@ -27,12 +28,12 @@ protected:
 
     const std::string& folder() const { return folder_; }
 
-    MeshFile read(Reader reader, const std::string& content) const {
+    MeshFile read(const Reader& reader, const std::string& content) const {
         std::ofstream(path_, std::ios::binary) << content;
         return reader(path_);
     }
     // The whole message, FILE standing for the path.
-    std::string error(Reader reader, const std::string& content) const {
+    std::string error(const Reader& reader, const std::string& content) const {
         try {
             read(reader, content);
         } catch (const InputError& error) {

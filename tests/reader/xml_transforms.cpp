@@ -109,17 +109,4 @@ TEST_F(XmlTransforms, NormalsFollowTheInverseTranspose) {
     EXPECT_NEAR(glm::length(tiny - glm::normalize(Vec3(-1, 0, 1))), 0.0, 1e-14);
 }
 
-TEST_F(XmlTransforms, SmoothMeshes) {
-    write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 1 0 1\nf 1//1 2//2 3//1\n");
-    EXPECT_EQ(normal(mesh("<boolean name='face_normals' value='true'/>")), Vec3(0, 0, 1));
-    const std::map<std::string, std::uint64_t> warning = {
-        {"mesh without vertex normals rendered flat, where Mitsuba smooths it unless face_normals is true", 1}};
-    const std::string shape = "<shape type='obj'><string name='filename' value='mesh.obj'/>";
-    write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n");
-    EXPECT_EQ(read(shape + "</shape>").warnings.counts(), warning);
-    EXPECT_TRUE(read(shape + "<boolean name='face_normals' value='true'/></shape>").warnings.counts().empty());
-    write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
-    EXPECT_TRUE(read(shape + "</shape>").warnings.counts().empty());
-}
-
 }  // namespace neumann

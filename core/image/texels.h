@@ -1,0 +1,23 @@
+// A picture as its file holds it, for textures: row 0 at the top, colours of one or three channels, without alpha.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace neumann {
+
+struct Texels {
+    int width = 0, height = 0, channels = 0;
+    // Of these one is empty: bytes stay bytes, other whole numbers become values from 0 to 1.
+    std::vector<std::uint8_t> bytes = {};
+    std::vector<float> values = {};
+    bool is_encoded = false;  // whole numbers in the file, which are sRGB unless they are told to be raw
+
+    std::size_t index(int x, int y) const {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(channels);
+    }
+};
+
+}  // namespace neumann

@@ -1,0 +1,67 @@
+// A material whose normal is another one than the surface's: Mitsuba's `normalmap` and `bumpmap`. With a prime for what is seen
+// around the perturbed normal n', and f' the nested material,
+//
+//     fs(ωi → ωo) |cosθi| = f'(ωi' → ωo') |cosθi'| G(ωi)    where cosθ and cosθ' have the same sign, else 0.
+//
+// G darkens where n' leans away from the light: Conty Estevez, Lecocq and Stein, A Microfacet-Based Shadowing Function to Solve the
+// Bump Terminator Problem, Ray Tracing Gems, 2019. A normal that faces away from ωo is mirrored at the surface's: Schüssler et al.,
+// Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, 2017.
+//
+// fs is not reciprocal. What leaves along ωo is at most what f' reflects, which bounds R in L^∞. But of light from one direction ωi
+// a diffuse f' reflects up to 2√2 cosτ (1 + cosτ) ρ, n' being tilted by τ, as ωi is grazing; without G there is no bound.
+#pragma once
+
+#include "core/material/bsdf_sample.h"
+#include "core/material/lobe.h"
+#include "core/material/surface_function.h"
+
+#include <functional>
+#include <memory>
+
+namespace neumann {
+
+struct Bsdf;
+
+// n' of a height field h(u, v) over the surface, from (∂h/∂u, ∂h/∂v): along (∂p/∂u + n ∂h/∂u) × (∂p/∂v + n ∂h/∂v), the tangents in
+// the plane across n, and on the side of the geometric normal. In the frame of the front, of any length.
+Vec3 bump_normal(const ShadingPoint& p, const Vec2& slope);
+
+class PerturbedNormal {
+public:
+    // n', of any length, in the frame of the front.
+    using Normal = std::function<Vec3(const ShadingPoint&)>;
+    struct Options {
+        bool flip_invalid_normals = true;
+        bool use_shadowing_function = true;
+        // The nested material's back: it sees the perturbed surface from behind.
+        bool from_behind = false;
+    };
+
+    PerturbedNormal(Normal normal, std::shared_ptr<const Bsdf> nested, const Options& options)
+        : normal_(std::move(normal)), nested_(std::move(nested)), options_(options) {}
+
+    Rgb eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
+    double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
+    BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const;
+    Rgb reflectance(const ShadingPoint& p) const;
+    PerturbedNormal white() const;
+    Rgb largest_albedo() const;
+    bool is_constant() const { return false; }
+    bool is_grey() const;
+    Lobe lobe() const;
+
+private:
+    // The frame around n' in that around n, and the same point in it.
+    struct Perturbed {
+        Frame frame;
+        ShadingPoint p;
+    };
+    Perturbed perturbed(const ShadingPoint& p, const Vec3& wo) const;
+    double shadowing(const Vec3& normal, const Vec3& wi) const;
+
+    Normal normal_;
+    std::shared_ptr<const Bsdf> nested_;
+    Options options_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,233 @@
+// Textures in scene files.
+#include "core/image/image_io.h"
+#include "tests/reader/xml_scene_files.h"
+
+namespace neumann {
+
+class XmlTextures : public XmlTest {
+protected:
+    XmlTextures() {
+        write_four(188);
+        Image image(2, 1);
+        image.at(0, 0) = Rgb(0.25, 0.5, 2.0);
+        image.at(1, 0) = Rgb(1.0, 1.5, 0.0);
+        write("two.exr", encode_exr({image, {}}));
+        image.at(0, 0).g = -0.5;
+        write("negative.exr", encode_exr({image, {}}));
+        image.at(0, 0).g = NAN;
+        write("nan.exr", encode_exr({image, {}}));
+    }
+    // 2×2: black and white over red and grey.
+    void write_four(std::uint8_t grey) const {
+        DisplayImage image(2, 2, grey);
+        image.bytes = {0, 0, 0, 255, 255, 255, 255, 0, 0, grey, grey, grey};
+        write("four.png", encode_png(image));
+    }
+    static std::string bitmap(const std::string& file, const std::string& inside = "") {
+        return "<texture name='reflectance' type='bitmap'><string name='filename' value='" + file + "'/>" + inside + "</texture>";
+    }
+    SceneParts rectangle(const std::string& texture) const {
+        return read("<shape type='rectangle'><bsdf type='diffuse'>" + texture + "</bsdf></shape>");
+    }
+    static Rgb at(const SceneParts& parts, double u, double v) {
+        ShadingPoint p;
+        p.uv = {u, v};
+        return reflectance(parts.bsdfs.at(0), p);
+    }
+    // A square of two triangles, with colours of vertices and faces.
+    void write_colours() const {
+        write("colours.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+              "property float r\nproperty float g\nproperty float b\nelement face 2\nproperty list uchar int vertex_indices\n"
+              "property float r\nproperty float g\nproperty float b\nend_header\n"
+              "0 0 0 0 0 0.5\n1 0 0 1 0 0\n1 1 0 1 0.75 0\n0 1 0 0 1 0\n3 0 1 2 0.5 0 0\n3 0 2 3 0 0.25 0\n");
+    }
+    static std::string coloured(const std::string& attribute, const std::string& inside = "") {
+        return "<shape type='ply'><string name='filename' value='colours.ply'/><bsdf type='diffuse'>\n"
+               "<texture name='reflectance' type='mesh_attribute'><string name='name' value='" +
+               attribute + "'/>" + inside + "</texture></bsdf></shape>";
+    }
+    std::string texture_error(const std::string& type, const std::string& inside) const {
+        return error("<bsdf type='diffuse'>\n<texture name='reflectance' type='" + type + "'>\n" + inside + "</texture></bsdf>");
+    }
+};
+
+// Row 0 of the picture is at v = 0, and its first pixel at u = 0, as in Mitsuba.
+TEST_F(XmlTextures, Bitmaps) {
+    const SceneParts parts = rectangle(bitmap("four.png"));
+    EXPECT_EQ(at(parts, 0.25, 0.25), Rgb(0.0));
+    EXPECT_EQ(at(parts, 0.75, 0.25), Rgb(1.0));
+    EXPECT_EQ(at(parts, 0.25, 0.75), Rgb(1.0, 0.0, 0.0));
+    EXPECT_NEAR(at(parts, 0.75, 0.75).g, std::pow((188.0 / 255.0 + 0.055) / 1.055, 2.4), 1e-15);
+    EXPECT_EQ(at(parts, 0.5, 0.25), Rgb(0.5));
+    EXPECT_EQ(at(parts, 1.0, 0.25), Rgb(0.5));
+    EXPECT_EQ(largest_albedo(parts.bsdfs[0]), Rgb(1.0));
+    EXPECT_FALSE(is_constant(parts.bsdfs[0]));
+    EXPECT_TRUE(needs_coordinates(parts.bsdfs[0]));
+    EXPECT_DOUBLE_EQ(at(rectangle(bitmap("four.png", "<boolean name='raw' value='true'/>")), 0.75, 0.75).g, 188.0 / 255.0);
+    EXPECT_EQ(at(rectangle(bitmap("four.png", "<string name='filter_type' value='nearest'/>")), 0.49, 0.01), Rgb(0.0));
+    EXPECT_EQ(at(rectangle(bitmap("four.png", "<string name='wrap_mode' value='clamp'/>")), 9.0, 0.25), Rgb(1.0));
+    EXPECT_EQ(at(rectangle(bitmap("four.png", "<string name='wrap_mode' value='mirror'/>")), 1.25, 0.25), Rgb(1.0));
+    const SceneParts moved =
+        rectangle(bitmap("four.png", "<transform name='to_uv'><scale x='2' y='-1'/><translate x='0.5' y='1'/></transform>"));
+    EXPECT_EQ(at(moved, 0.125, 0.75), Rgb(1.0));
+    EXPECT_EQ(at(moved, 0.375, 0.25), Rgb(1.0, 0.0, 0.0));
+}
+
+TEST_F(XmlTextures, FloatsAreLinear) {
+    const SceneParts parts = rectangle(bitmap("two.exr"));
+    EXPECT_EQ(at(parts, 0.25, 0.5), Rgb(0.25, 0.5, 2.0));
+    EXPECT_EQ(at(parts, 0.5, 0.1), Rgb(0.625, 1.0, 1.0));
+    EXPECT_EQ(largest_albedo(parts.bsdfs[0]), Rgb(1.0, 1.5, 2.0));
+}
+
+TEST_F(XmlTextures, ByReference) {
+    const SceneParts parts = read(
+        "<texture type='bitmap' id='t'><string name='filename' value='two.exr'/></texture>"
+        "<shape type='rectangle'><bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf></shape>"
+        "<shape type='rectangle'><bsdf type='conductor'><ref name='specular_reflectance' id='t'/></bsdf></shape>");
+    EXPECT_EQ(at(parts, 0.25, 0.5), Rgb(0.25, 0.5, 2.0));
+    EXPECT_EQ(largest_albedo(parts.bsdfs[1]), Rgb(1.0, 1.5, 2.0));
+}
+
+TEST_F(XmlTextures, Checkerboards) {
+    const SceneParts plain = rectangle("<texture name='reflectance' type='checkerboard'/>");
+    EXPECT_EQ(at(plain, 0.2, 0.3), Rgb(0.4));
+    EXPECT_EQ(at(plain, 0.7, 0.3), Rgb(0.2));
+    EXPECT_EQ(at(plain, 0.7, 0.8), Rgb(0.4));
+    EXPECT_EQ(at(plain, -0.3, -0.2), Rgb(0.4));
+    EXPECT_EQ(largest_albedo(plain.bsdfs[0]), Rgb(0.4));
+    const SceneParts nested = rectangle(
+        "<texture name='reflectance' type='checkerboard'><texture name='color0' type='bitmap'>"
+        "<string name='filename' value='two.exr'/></texture><rgb name='color1' value='0.1, 0.9, 0.3'/>"
+        "<transform name='to_uv'><scale x='4' y='3'/></transform></texture>");
+    EXPECT_EQ(largest_albedo(nested.bsdfs[0]), Rgb(1.0, 1.5, 2.0));
+    // Half of the area has each colour: 8 squares along u, 6 along v, counted at the middle of each.
+    int second = 0;
+    for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 6; ++j) second += at(nested, (i + 0.5) / 8.0, (j + 0.5) / 6.0) == Rgb(0.1, 0.9, 0.3);
+    EXPECT_EQ(second, 24);
+    // The nested picture is not scaled: ⅝ of the way from its last pixel to its first.
+    EXPECT_EQ(at(nested, 0.0625, 1.0 / 12.0), Rgb(0.53125, 0.875, 1.25));
+}
+
+TEST_F(XmlTextures, MeshAttributes) {
+    write_colours();
+    const auto seen = [&](const SceneParts& parts, const Vec3& position, std::uint32_t primitive) {
+        return reflectance(parts.bsdfs.at(0), shading_point(parts.shapes.at(0), {position, {0, 0, 1}, 0.0, 0, primitive}));
+    };
+    const SceneParts vertices = read(coloured("vertex_color"));
+    const Rgb inside = seen(vertices, {0.5, 0.25, 0.0}, 0);  // ½ (0, 0) + ¼ (1, 0) + ¼ (1, 1)
+    EXPECT_NEAR(inside.r, 0.5, 1e-15);
+    EXPECT_NEAR(inside.g, 0.1875, 1e-15);
+    EXPECT_NEAR(inside.b, 0.25, 1e-15);
+    EXPECT_EQ(largest_albedo(vertices.bsdfs[0]), Rgb(1.0, 1.0, 0.5));
+    const SceneParts faces = read(coloured("face_color", "<float name='scale' value='2'/>"));
+    EXPECT_EQ(seen(faces, {0.5, 0.25, 0.0}, 0), Rgb(1.0, 0.0, 0.0));
+    EXPECT_EQ(seen(faces, {0.25, 0.5, 0.0}, 1), Rgb(0.0, 0.5, 0.0));
+    EXPECT_EQ(largest_albedo(faces.bsdfs[0]), Rgb(1.0, 0.5, 0.0));
+}
+
+TEST_F(XmlTextures, AreaLights) {
+    const SceneParts parts = read(
+        "<shape type='rectangle'><emitter type='area'>"
+        "<texture name='radiance' type='bitmap'><string name='filename' value='two.exr'/></texture>"
+        "</emitter></shape>");
+    EXPECT_EQ(parts.lights.area.at(0).largest, Rgb(1.0, 1.5, 2.0));
+    ShadingPoint p;
+    p.uv = {0.75, 0.5};
+    EXPECT_EQ(parts.lights.area.at(0).function(p, {0, 0, 1}), Rgb(1.0, 1.5, 0.0));
+}
+
+TEST_F(XmlTextures, PicturesAreInTheHash) {
+    const std::string before = rectangle(bitmap("four.png")).hash;
+    EXPECT_EQ(rectangle(bitmap("four.png")).hash, before);
+    write_four(189);
+    EXPECT_NE(rectangle(bitmap("four.png")).hash, before);
+}
+
+TEST_F(XmlTextures, NormalAndBumpMaps) {
+    const std::string raw = "<boolean name='raw' value='true'/>";
+    const SceneParts parts = read(
+        "<shape type='rectangle'><bsdf type='twosided'><bsdf type='normalmap'><texture name='normalmap' type='bitmap'>"
+        "<string name='filename' value='four.png'/>" +
+        raw +
+        "</texture><bsdf type='diffuse'/></bsdf></bsdf></shape>"
+        "<shape type='rectangle'><bsdf type='bumpmap'><texture type='bitmap'><string name='filename' value='two.exr'/>"
+        "<string name='wrap_mode' value='clamp'/></texture><float name='scale' value='0.25'/>"
+        "<boolean name='use_shadowing_function' value='false'/><bsdf type='conductor'/></bsdf></shape>");
+    ASSERT_EQ(parts.sides_of_shape[0].front, parts.sides_of_shape[0].back);
+    const Bsdf& bumpy = parts.bsdfs.at(static_cast<std::size_t>(parts.sides_of_shape[1].front));
+    EXPECT_EQ(lobe(bumpy).kind, Lobe::Kind::specular);
+    EXPECT_EQ(largest_albedo(bumpy), Rgb(1.0));
+    // On the ramp between the two pixels, u in [¼, ¾]: the luminance grows by its difference over half of u, which is over 1 along
+    // x.
+    const ShadingPoint p = shading_point(parts.shapes[1], {{0.0, 0.1, 0.0}, {0, 0, 1}, 0.0, 1, 1});
+    const double slope = 0.25 * luminance(Rgb(0.75, 1.0, -2.0));
+    const Vec3 n = glm::normalize(Vec3(-slope, 0.0, 1.0)), wo = glm::normalize(Vec3(-0.4, 0.2, 1.0));
+    const BsdfSample s = sample(bumpy, p, wo, Vec2(0.5));
+    EXPECT_NEAR(glm::length(s.wi - (2.0 * glm::dot(n, wo) * n - wo)), 0.0, 1e-14);
+}
+
+TEST_F(XmlTextures, Errors) {
+    const std::string file = "<string name='filename' value='four.png'/>";
+    EXPECT_EQ(texture_error("wood", ""),
+              "scene.xml:3:29: texture type 'wood' is not supported; allowed: bitmap, checkerboard, mesh_attribute");
+    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='none.png'/>"),
+              "scene.xml:4:25: there is no file 'none.png'; looked in: .");
+    EXPECT_EQ(texture_error("bitmap", ""), "scene.xml:3:1: texture 'bitmap' lacks the parameter 'filename', expected string");
+    EXPECT_EQ(texture_error("bitmap", file + "<string name='filter_type' value='cubic'/>"),
+              "scene.xml:4:70: filter_type is 'cubic'; allowed: bilinear, nearest");
+    EXPECT_EQ(texture_error("bitmap", file + "<string name='wrap_mode' value='black'/>"),
+              "scene.xml:4:68: wrap_mode is 'black'; allowed: repeat, mirror, clamp");
+    EXPECT_EQ(texture_error("bitmap", file + "<float name='gamma' value='1'/>"),
+              "scene.xml:4:50: unknown parameter 'gamma' of texture 'bitmap'; allowed: filename, filter_type, wrap_mode, raw, "
+              "to_uv, format, accel");
+    write("text.png", "this is no picture\n");
+    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='text.png'/>"), "text.png: not a picture that can be read");
+    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='nan.exr'/>"),
+              "nan.exr: the pixel in column 0 and row 0 is not finite");
+    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='negative.exr'/>"),
+              "scene.xml:3:1: the texture is negative somewhere, down to -0.5, expected a reflectance of at least 0");
+    EXPECT_EQ(texture_error("checkerboard", "<float name='color2' value='1'/>"),
+              "scene.xml:4:8: unknown parameter 'color2' of texture 'checkerboard'; allowed: color0, color1, to_uv");
+    EXPECT_EQ(error("<texture type='checkerboard' id='a'>\n<ref name='color0' id='a'/></texture>"),
+              "scene.xml:2:1: the texture stands inside itself");
+    EXPECT_EQ(error("<bsdf type='diffuse'>\n<texture name='reflectanse' type='checkerboard'/></bsdf>"),
+              "scene.xml:3:10: unknown parameter 'reflectanse' of bsdf 'diffuse'; allowed: reflectance");
+    EXPECT_EQ(error("<bsdf type='diffuse'>\n<float name='reflectance' value='1'/>\n"
+                    "<texture name='reflectance' type='checkerboard'/></bsdf>"),
+              "scene.xml:4:10: parameter 'reflectance' of bsdf 'diffuse' is given twice, first at scene.xml:3:8");
+    EXPECT_EQ(error("<bsdf type='conductor'>\n<texture name='eta' type='checkerboard'/></bsdf>"),
+              "scene.xml:3:10: parameter 'eta' of bsdf 'conductor' is a texture, which is not supported there");
+}
+
+TEST_F(XmlTextures, MeshAttributeErrors) {
+    write_colours();
+    EXPECT_EQ(texture_error("mesh_attribute", "<string name='name' value='color'/>"),
+              "scene.xml:4:21: 'color' is not the name of a mesh attribute, expected vertex_ or face_ and what follows");
+    EXPECT_EQ(error(coloured("vertex_heat")), "scene.xml:3:71: shape 'ply' at scene.xml:2:1 has no mesh attribute 'vertex_heat'");
+    EXPECT_EQ(error("<texture id='a' type='mesh_attribute'><string name='name' value='face_color'/></texture>\n"
+                    "<shape type='sphere'><bsdf type='twosided'><bsdf type='diffuse'><ref name='reflectance' "
+                    "id='a'/></bsdf></bsdf></shape>"),
+              "scene.xml:2:59: shape 'sphere' at scene.xml:3:1 has no mesh attribute 'face_color'");
+}
+
+TEST_F(XmlTextures, NormalAndBumpMapErrors) {
+    const std::string map = "<texture type='bitmap' name='normalmap'><string name='filename' value='four.png'/></texture>";
+    EXPECT_EQ(error("<bsdf type='normalmap'><bsdf type='diffuse'/></bsdf>"),
+              "scene.xml:2:1: bsdf 'normalmap' lacks the parameter 'normalmap', expected a texture");
+    EXPECT_EQ(error("<bsdf type='normalmap'>" + map + "</bsdf>"),
+              "scene.xml:2:1: bsdf 'normalmap' has no <bsdf> inside, expected one");
+    EXPECT_EQ(error("<bsdf type='bumpmap'><bsdf type='diffuse'/></bsdf>"),
+              "scene.xml:2:1: bsdf 'bumpmap' has no <texture> inside, expected one");
+    EXPECT_EQ(error("<bsdf type='bumpmap'><texture type='checkerboard'/><bsdf type='diffuse'/></bsdf>"),
+              "scene.xml:2:31: texture 'checkerboard' has no slopes for bsdf 'bumpmap'; allowed: bitmap");
+    EXPECT_EQ(error("<bsdf type='normalmap' id='a'>" + map + "<ref id='a'/></bsdf>"),
+              "scene.xml:2:1: bsdf 'normalmap' stands inside itself");
+    EXPECT_EQ(error("<bsdf type='normalmap'>" + map + "<float name='scale' value='2'/><bsdf type='diffuse'/></bsdf>"),
+              "scene.xml:2:123: unknown parameter 'scale' of bsdf 'normalmap'; allowed: normalmap, flip_invalid_normals, "
+              "use_shadowing_function");
+}
+
+}  // namespace neumann
