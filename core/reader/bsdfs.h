@@ -1,4 +1,4 @@
-// <bsdf>: `diffuse`, `conductor`, `roughconductor`, and `twosided` around one or two of them.
+// <bsdf>: each material by its type, and `twosided` around one or two of them.
 #pragma once
 
 #include "core/material/materials.h"
