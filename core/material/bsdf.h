@@ -1,13 +1,17 @@
 // What a surface does with the light that arrives: fs(p, ωi → ωo), in 1/sr. Directions are in the local frame, unit length and
 // pointing away from the surface; pdfs are per solid angle.
 //
-// Where fs is a delta (`Lobe::Kind::specular`), eval() and pdf() are 0, and sample() has the pdf ∞ (delta_pdf).
+// Where fs is a delta (`Lobe::Kind::specular`), eval() and pdf() know nothing of it, and sample() has the pdf ∞ (delta_pdf).
 #pragma once
 
 #include "core/material/conductor.h"
 #include "core/material/diffuse.h"
 #include "core/material/perturbed_normal.h"
+#include "core/material/plastic.h"
+#include "core/material/principled.h"
+#include "core/material/principled_thin.h"
 #include "core/material/rough_conductor.h"
+#include "core/material/rough_plastic.h"
 
 #include <variant>
 
@@ -15,7 +19,8 @@ namespace neumann {
 
 // A closed set: adding a material is a file beside diffuse.h and a name here. Of one side of a surface: ωo is always above it,
 // ωo.z > 0, and ωi is where light is transmitted from where ωi.z < 0. The other side of glass is another Bsdf.
-struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, PerturbedNormal> {
+struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Plastic, RoughPlastic<Ggx>,
+                           RoughPlastic<Beckmann>, Principled, PrincipledThin, PerturbedNormal> {
     using variant::variant;
 };
 
@@ -50,7 +55,12 @@ inline bool is_constant(const Bsdf& bsdf) {
 }
 // Where it is asked for depends on texture coordinates and tangents.
 inline bool needs_coordinates(const Bsdf& bsdf) {
-    return std::visit([](const auto& b) { return !b.is_constant(); }, bsdf);
+    return std::visit(
+        [](const auto& b) {
+            if constexpr (requires { b.needs_coordinates(); }) return b.needs_coordinates();
+            return !b.is_constant();
+        },
+        bsdf);
 }
 // All channels are known to be alike.
 inline bool is_grey(const Bsdf& bsdf) {

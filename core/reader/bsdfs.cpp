@@ -1,6 +1,11 @@
 #include "core/reader/bsdfs.h"
 
+#include "core/reader/grammar.h"
+#include "core/reader/plastics.h"
+#include "core/reader/principled.h"
+#include "core/reader/roughness.h"
 #include "core/reader/textures.h"
+#include "core/spectrum/metals.h"
 
 #include <fmt/format.h>
 
@@ -15,20 +20,25 @@ Diffuse read_diffuse(const Element& e, const Context& context) {
     return Diffuse(reflectance);
 }
 
-// `material`, `eta` and `k`. A list of wavelengths has no meaning here: what its RGB would be depends on what is made of it.
+// `material`, or `eta` and `k`.
 ConductorFresnel read_fresnel(Properties& p, const Context& context) {
     const std::string material = p.text("material").value_or("none");
-    if (material != "none")
-        p.fail("material",
-               fmt::format("material '{}' of {} is not supported; allowed: none, which is a perfect mirror, or eta and k "
-                           "in its place, as rgb or float",
-                           material, p.title()));
-    const auto read = [&](const std::string& name, double missing) {
-        const Element* e = p.find(name, {"rgb", "float", "integer"});
-        return e ? parse_color(p, name, *e, Illuminant::equal_energy, context.warnings) : Rgb(missing);
+    const Element* eta = p.find("eta", color_types);
+    const Element* k = p.find("k", color_types);
+    const auto read = [&](const std::string& name, const Element* e, double missing) {
+        return e ? parse_metal_index(p, name, *e, context.warnings) : Rgb(missing);
     };
-    const Rgb eta = read("eta", 0.0);
-    return {eta, read("k", 1.0)};
+    if (material == "none") return {read("eta", eta, 0.0), read("k", k, 1.0)};
+    if (eta || k) {
+        const std::string given = eta ? "eta" : "k";
+        p.fail(given, fmt::format("both material and {} are given, expected one of them", given));
+    }
+    std::vector<std::string> names = {"none"};
+    for (const Metal& metal : metals()) {
+        if (metal.name == material) return {metal.eta, metal.k};
+        names.emplace_back(metal.name);
+    }
+    p.fail("material", fmt::format("material '{}' of {} is unknown; allowed: {}", material, p.title(), join(names)));
 }
 
 Conductor read_conductor(const Element& e, const Context& context) {
@@ -39,31 +49,17 @@ Conductor read_conductor(const Element& e, const Context& context) {
     return Conductor(fresnel, reflectance);
 }
 
-// Mitsuba takes what is below 0.0001 for 0.0001.
-double read_alpha(Properties& p) {
-    const auto alpha = p.number("alpha"), u = p.number("alpha_u"), v = p.number("alpha_v");
-    const std::string given = u ? "alpha_u" : v ? "alpha_v" : "alpha";
-    if (alpha && (u || v)) p.fail(given, fmt::format("both alpha and {} are given, expected one of them", given));
-    if (u.has_value() != v.has_value())
-        p.fail(given, fmt::format("{} is given without {}, expected both, or alpha", given, u ? "alpha_v" : "alpha_u"));
-    if (u && *u != *v)
-        p.fail("alpha_v",
-               fmt::format("alpha_u is {} and alpha_v is {}, expected the same: anisotropic roughness is not supported", *u, *v));
-    const double value = u ? *u : alpha.value_or(0.1);
-    if (value < 1e-4) p.fail(given, fmt::format("{} is {}, expected at least 0.0001; bsdf 'conductor' is smooth", given, value));
-    return value;
-}
-
 Bsdf read_rough_conductor(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     const ConductorFresnel fresnel = read_fresnel(p, context);
     const SurfaceFunction reflectance = read_color_texture(p, "specular_reflectance", 1.0, Illuminant::d65, context);
-    const std::string distribution = p.choice("distribution", {"beckmann", "ggx"}, "beckmann");
-    const double alpha = read_alpha(p);
-    p.boolean("sample_visible");  // how Mitsuba draws directions; changes noise only
+    const RoughnessParameters roughness = read_roughness(p, context);
     p.finish();
-    if (distribution == "ggx") return RoughConductor(Ggx(alpha), fresnel, reflectance);
-    return RoughConductor(Beckmann(alpha), fresnel, reflectance);
+    const auto made_of = [&]<class Microfacets>(Roughness<Microfacets> r) {
+        return RoughConductor<Microfacets>(std::move(r), fresnel, reflectance);
+    };
+    if (roughness.ggx) return made_of(Roughness<Ggx>(roughness.alpha_u, roughness.alpha_v));
+    return made_of(Roughness<Beckmann>(roughness.alpha_u, roughness.alpha_v));
 }
 
 }  // namespace
@@ -79,7 +75,20 @@ Materials::Sides Bsdfs::read(const Element& e) {
     if (type == "conductor") return {store(read_conductor(e, context_)), Materials::absorbing};
     if (type == "roughconductor") return {store(read_rough_conductor(e, context_)), Materials::absorbing};
     if (type == "normalmap" || type == "bumpmap") return read_perturbed_normal(e);
-    if (type != "twosided") fail_type(e, {"bumpmap", "conductor", "diffuse", "normalmap", "roughconductor", "twosided"});
+    if (type == "plastic") return {store(read_plastic(e, context_)), Materials::absorbing};
+    if (type == "roughplastic") return {store(read_rough_plastic(e, context_)), Materials::absorbing};
+    if (type == "principled") {
+        PrincipledSides found = read_principled(e, context_);
+        const int outside = store(std::move(found.outside));
+        return {outside, found.inside ? store(std::move(*found.inside)) : Materials::absorbing};
+    }
+    if (type == "principledthin") {
+        const int both = store(read_principled_thin(e, context_));
+        return {both, both};
+    }
+    if (type != "twosided")
+        fail_type(e, {"bumpmap", "conductor", "diffuse", "normalmap", "plastic", "principled", "principledthin", "roughconductor",
+                      "roughplastic", "twosided"});
 
     Properties p(e, context_.objects);
     const std::vector<const Element*> nested = p.nested("bsdf", 2);
@@ -87,6 +96,9 @@ Materials::Sides Bsdfs::read(const Element& e) {
     if (nested.empty()) throw InputError(e.place, "bsdf 'twosided' has no <bsdf> inside, expected one or two");
     for (const Element* inner : nested)
         if (inner->attribute("type").value == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");
+    for (const Element* inner : nested)
+        if (sides(*inner).back != Materials::absorbing)
+            throw InputError(inner->place, "a material with a back side stands inside bsdf 'twosided', expected one without");
     return {sides(*nested.front()).front, sides(*nested.back()).front};
 }
 

@@ -1,4 +1,4 @@
-// <bsdf>: `diffuse`, `conductor`, `roughconductor`, `normalmap` and `bumpmap` around one of them, and `twosided` around one or two.
+// <bsdf>: each material by its type, `normalmap` and `bumpmap` around one, and `twosided` around one or two of them.
 #pragma once
 
 #include "core/material/materials.h"

@@ -54,18 +54,15 @@ SpectrumTable parse_table(const Attribute& a) {
 // A neutral spectrum comes out as 1 ± 1e-4 in each channel, by the rounding of the matrix; that is not worth a warning.
 constexpr double slack = 1e-3;
 
-Rgb table_to_rgb(const SpectrumTable& s, Illuminant illuminant, Warnings& warnings) {
+Rgb table_to_rgb(const SpectrumTable& s, Illuminant illuminant, double largest, Warnings& warnings) {
     const Rgb c = spectrum_to_rgb(s, illuminant);
-    const Rgb upper(illuminant == Illuminant::d65 ? 1.0 : INFINITY);
-    const Rgb inside = glm::clamp(c, Rgb(0.0), upper);
+    const Rgb inside = glm::clamp(c, Rgb(0.0), Rgb(largest));
     if (max_component(glm::abs(c - inside)) > slack * std::max(1.0, max_component(c)))
         warnings.add("spectrum outside the colours of sRGB, cut to them");
     return inside;
 }
 
-}  // namespace
-
-Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings) {
+Rgb parse(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, double largest, Warnings& warnings) {
     const Attribute& value = e.attribute("value");
     if (e.tag == "spectrum" && value.value.find(':') != std::string::npos) {
         if (illuminant == Illuminant::d65 && e.find("type"))
@@ -73,12 +70,22 @@ Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illumi
         const SpectrumTable s = parse_table(value);
         for (std::size_t i = 0; i < s.values.size(); ++i)
             if (s.values[i] < 0.0) p.fail(name, fmt::format("{} is negative at {} nm: {}", name, s.wavelengths[i], s.values[i]));
-        return table_to_rgb(s, illuminant, warnings);
+        return table_to_rgb(s, illuminant, largest, warnings);
     }
     const Rgb c = e.tag == "rgb" ? parse_rgb(value) : Rgb(parse_number(value));
     if (std::min({c.r, c.g, c.b}) < 0.0) p.fail(name, fmt::format("{} is negative: '{}'", name, value.value));
     // The same power at all wavelengths is not white.
     return e.tag == "spectrum" && illuminant == Illuminant::equal_energy ? c * (rgb_from_xyz() * Vec3(1.0)) : c;
+}
+
+}  // namespace
+
+Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings) {
+    return parse(p, name, e, illuminant, illuminant == Illuminant::d65 ? 1.0 : INFINITY, warnings);
+}
+
+Rgb parse_metal_index(Properties& p, const std::string& name, const Element& e, Warnings& warnings) {
+    return parse(p, name, e, Illuminant::d65, INFINITY, warnings);
 }
 
 }  // namespace neumann::reader

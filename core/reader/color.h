@@ -12,6 +12,8 @@ namespace neumann::reader {
 // 1; a spectrum of one value is a grey reflectance, and a radiance of equal energy, which is not white. <rgb> and <float> are taken
 // as they are.
 Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings);
+// η or k of a metal, channel by channel: a list of wavelengths is integrated under D65 and cut at 0 only.
+Rgb parse_metal_index(Properties& p, const std::string& name, const Element& e, Warnings& warnings);
 
 inline const std::vector<std::string> color_types = {"rgb", "spectrum", "float", "integer"};
 

@@ -1,4 +1,5 @@
 // What is wrong with objects and their parameters.
+#include "core/spectrum/metals.h"
 #include "tests/reader/xml_scene_files.h"
 
 namespace neumann {
@@ -20,9 +21,9 @@ protected:
 };
 
 TEST_F(XmlValueErrors, UnknownTypes) {
-    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"),
-              "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: bumpmap, conductor, diffuse, normalmap, "
-              "roughconductor, twosided");
+    EXPECT_EQ(error("<bsdf type=\"clay\"/>"),
+              "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: bumpmap, conductor, diffuse, normalmap, plastic, "
+              "principled, principledthin, roughconductor, roughplastic, twosided");
     EXPECT_EQ(error("<emitter type=\"sunsky\"/>"),
               "scene.xml:2:10: emitter type 'sunsky' is not supported; allowed: area, constant, directional, envmap, point, "
               "projector, spot");
@@ -271,12 +272,14 @@ TEST_F(XmlValueErrors, Bsdfs) {
 }
 
 TEST_F(XmlValueErrors, Conductors) {
-    EXPECT_EQ(
-        error("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/></bsdf>"),
-        "scene.xml:3:25: material 'Au' of bsdf 'conductor' is not supported; allowed: none, which is a perfect mirror, or eta "
-        "and k in its place, as rgb or float");
-    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<spectrum name=\"eta\" value=\"400:1.6 700:0.2\"/></bsdf>"),
-              "scene.xml:3:1: parameter 'eta' of bsdf 'conductor' is a spectrum, expected rgb, float or integer");
+    const std::string unknown = error("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Unobtainium\"/></bsdf>");
+    std::string names = "none";
+    for (const Metal& metal : metals()) names += ", " + std::string(metal.name);
+    EXPECT_EQ(unknown, "scene.xml:3:25: material 'Unobtainium' of bsdf 'conductor' is unknown; allowed: " + names);
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/><float name=\"k\" value=\"2\"/></bsdf>"),
+              "scene.xml:3:62: both material and k are given, expected one of them");
+    EXPECT_EQ(error("<bsdf type=\"conductor\">\n<spectrum name=\"eta\" value=\"400:1.6 700:-0.2\"/></bsdf>"),
+              "scene.xml:3:28: eta is negative: '400:1.6 700:-0.2'");
     EXPECT_EQ(error("<bsdf type=\"conductor\">\n<rgb name=\"k\" value=\"3.9, -2.4, 2.2\"/></bsdf>"),
               "scene.xml:3:15: k is negative: '3.9, -2.4, 2.2'");
     EXPECT_EQ(error("<bsdf type=\"conductor\">\n<float name=\"int_ior\" value=\"1\"/></bsdf>"),
@@ -287,16 +290,12 @@ TEST_F(XmlValueErrors, RoughConductors) {
     const auto rough_error = [&](const std::string& inside) {
         return error("<bsdf type=\"roughconductor\">\n" + inside + "</bsdf>");
     };
-    EXPECT_EQ(
-        rough_error("<string name=\"material\" value=\"Cu\"/>"),
-        "scene.xml:3:25: material 'Cu' of bsdf 'roughconductor' is not supported; allowed: none, which is a perfect mirror, or "
-        "eta and k in its place, as rgb or float");
     EXPECT_EQ(rough_error("<string name=\"distribution\" value=\"phong\"/>"),
               "scene.xml:3:29: distribution is 'phong'; allowed: beckmann, ggx");
     EXPECT_EQ(rough_error("<float name=\"alpha\" value=\"0\"/>"),
               "scene.xml:3:21: alpha is 0, expected at least 0.0001; bsdf 'conductor' is smooth");
-    EXPECT_EQ(rough_error("<float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0.3\"/>"),
-              "scene.xml:3:58: alpha_u is 0.1 and alpha_v is 0.3, expected the same: anisotropic roughness is not supported");
+    EXPECT_EQ(rough_error("<float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0\"/>"),
+              "scene.xml:3:58: alpha_v is 0, expected at least 0.0001; bsdf 'conductor' is smooth");
     EXPECT_EQ(rough_error("<float name=\"alpha_v\" value=\"0.1\"/>"),
               "scene.xml:3:23: alpha_v is given without alpha_u, expected both, or alpha");
     EXPECT_EQ(rough_error("<float name=\"alpha\" value=\"0.1\"/><float name=\"alpha_u\" value=\"0.3\"/>"),
@@ -306,6 +305,42 @@ TEST_F(XmlValueErrors, RoughConductors) {
     EXPECT_EQ(rough_error("<float name=\"roughness\" value=\"0.1\"/>"),
               "scene.xml:3:8: unknown parameter 'roughness' of bsdf 'roughconductor'; allowed: material, eta, k, "
               "specular_reflectance, distribution, alpha, alpha_u, alpha_v, sample_visible");
+}
+
+TEST_F(XmlValueErrors, Plastics) {
+    const auto plastic = [&](const std::string& inside) { return error("<bsdf type=\"plastic\">\n" + inside + "</bsdf>"); };
+    const auto rough = [&](const std::string& inside) { return error("<bsdf type=\"roughplastic\">\n" + inside + "</bsdf>"); };
+    EXPECT_EQ(plastic("<float name=\"int_ior\" value=\"0\"/>"), "scene.xml:3:23: int_ior is 0, expected more than 0");
+    EXPECT_EQ(
+        plastic("<string name=\"ext_ior\" value=\"honey\"/>"),
+        "scene.xml:3:24: ext_ior is 'honey'; allowed: vacuum, helium, hydrogen, air, carbon dioxide, water, acetone, ethanol, "
+        "carbon tetrachloride, glycerol, benzene, silicone oil, bromine, water ice, fused quartz, pyrex, acrylic glass, "
+        "polypropylene, bk7, sodium chloride, amber, pet, diamond, or a number");
+    EXPECT_EQ(plastic("<float name=\"alpha\" value=\"0.1\"/>"),
+              "scene.xml:3:8: unknown parameter 'alpha' of bsdf 'plastic'; allowed: int_ior, ext_ior, diffuse_reflectance, "
+              "specular_reflectance, nonlinear");
+    EXPECT_EQ(rough("<float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" value=\"1.5\"/>"),
+              "scene.xml:3:23: int_ior and ext_ior of bsdf 'roughplastic' are the same, expected different ones");
+    EXPECT_EQ(
+        rough("<float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0.3\"/>"),
+        "scene.xml:3:58: alpha_u is 0.1 and alpha_v is 0.3, expected the same: bsdf 'roughplastic' is alike in all directions");
+}
+
+TEST_F(XmlValueErrors, Principled) {
+    const auto principled = [&](const std::string& inside) { return error("<bsdf type=\"principled\">\n" + inside + "</bsdf>"); };
+    EXPECT_EQ(principled("<float name=\"metallic\" value=\"1.5\"/>"), "scene.xml:3:24: metallic is 1.5, expected 0 to 1");
+    EXPECT_EQ(principled("<float name=\"eta\" value=\"1.5\"/><float name=\"specular\" value=\"0.5\"/>"),
+              "scene.xml:3:57: both eta and specular are given, expected one of them");
+    EXPECT_EQ(principled("<float name=\"eta\" value=\"0\"/>"), "scene.xml:3:19: eta is 0, expected more than 0");
+    EXPECT_EQ(principled("<float name=\"specular\" value=\"2\"/>"), "scene.xml:3:24: specular is 2, expected 0 to 1");
+    EXPECT_EQ(principled("<float name=\"diff_trans\" value=\"1\"/>"),
+              "scene.xml:3:8: unknown parameter 'diff_trans' of bsdf 'principled'; allowed: base_color, roughness, anisotropic, "
+              "spec_trans, spec_tint, sheen, sheen_tint, flatness, metallic, clearcoat, clearcoat_gloss, eta, specular, "
+              "main_specular_sampling_rate, clearcoat_sampling_rate, diffuse_reflectance_sampling_rate");
+    EXPECT_EQ(error("<bsdf type=\"principledthin\">\n<float name=\"diff_trans\" value=\"3\"/></bsdf>"),
+              "scene.xml:3:26: diff_trans is 3, expected 0 to 2");
+    EXPECT_EQ(error("<bsdf type=\"twosided\">\n<bsdf type=\"principledthin\"/></bsdf>"),
+              "scene.xml:3:1: a material with a back side stands inside bsdf 'twosided', expected one without");
 }
 
 TEST_F(XmlValueErrors, UnusedDefinitionsAreCheckedToo) {

@@ -1,0 +1,15 @@
+// What a smooth dielectric boundary reflects of light that arrives from all sides alike,
+//
+//     2 ∫₀¹ F(μ) μ dμ,   F that of the refractive index n: that of the far side over that of the near one.
+#pragma once
+
+namespace neumann {
+
+// To 1e-10 for 1.01 < n < 10; for n < 1 by 1 − F̄(n) = n² (1 − F̄(1/n)), which is reciprocity.
+double diffuse_fresnel(double n);
+// The fits that Mitsuba defines its plastics with: Egan and Hilgeman, Optical Properties of Inhomogeneous Materials, 1979, for
+// n < 1, within 0.6% up to 1/n = 2; d'Eon and Irving, A Quantized-Diffusion Model for Rendering Translucent Materials, 2011, for
+// n ≥ 1.
+double fitted_diffuse_fresnel(double n);
+
+}  // namespace neumann
