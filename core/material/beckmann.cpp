@@ -39,7 +39,7 @@ double visible_slope(double sine, double cosine, double u) {
 }  // namespace
 
 Vec3 Beckmann::sample_visible(const Vec3& v, const Vec2& u) const {
-    const Vec3 w = glm::normalize(Vec3(alpha_ * v.x, alpha_ * v.y, v.z));
+    const Vec3 w = glm::normalize(Vec3(alpha_.x * v.x, alpha_.y * v.y, v.z));
     const double sine = std::sqrt(w.x * w.x + w.y * w.y);
     const Vec2 towards = sine > 0.0 ? Vec2(w.x, w.y) / sine : Vec2(1.0, 0.0);
     const double along = visible_slope(sine, w.z, u.x), across = gaussian_slope(u.y);

@@ -1,5 +1,5 @@
 // The GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al., Microfacet Models for Refraction through
-// Rough Surfaces, 2007), isotropic with roughness α > 0, in the local frame.
+// Rough Surfaces, 2007) with roughness α > 0 in the local frame, one for both tangents or one for each.
 #pragma once
 
 #include "core/sampling/warp.h"
@@ -8,34 +8,38 @@ namespace neumann {
 
 class Ggx {
 public:
-    explicit Ggx(double alpha) : alpha_(alpha) {}
+    explicit Ggx(double alpha) : Ggx(Vec2(alpha)) {}
+    // Along x and along y.
+    explicit Ggx(const Vec2& alpha) : alpha_(alpha), product_(alpha.x * alpha.y), ratio_(alpha.y / alpha.x) {}
 
     // D(m), sr⁻¹: the area of microfacets that face along m, per solid angle and per area of the surface. The sum keeps its digits
     // for small α, where 1 + (α² − 1) cos²θ would not.
     double density(const Vec3& m) const {
         if (m.z <= 0.0) return 0.0;
-        const double a2 = alpha_ * alpha_, x = m.x * m.x + m.y * m.y + a2 * m.z * m.z;
-        return a2 * inv_pi / (x * x);
+        const double x = m.x * m.x * ratio_ + m.y * m.y / ratio_ + product_ * m.z * m.z;
+        return product_ * inv_pi / (x * x);
     }
     // ∫ D(m) (v·m)⁺ dm, v above the surface: the area of facets that a view along v would see if none hid another. Smith's share of
     // visible ones is G1(v) = v.z / projected_area(v).
     double projected_area(const Vec3& v) const {
-        return 0.5 * (v.z + std::sqrt(v.z * v.z + alpha_ * alpha_ * (v.x * v.x + v.y * v.y)));
+        const double x = alpha_.x * v.x, y = alpha_.y * v.y;
+        return 0.5 * (v.z + std::sqrt(v.z * v.z + x * x + y * y));
     }
     // A normal with the density D(m) (v·m)⁺ / projected_area(v). The sphere's visible cap, stretched: Dupuy and Benyoub, Sampling
     // Visible GGX Normals with Spherical Caps, 2023.
     Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
-        const Vec3 w = glm::normalize(Vec3(alpha_ * v.x, alpha_ * v.y, v.z));
+        const Vec3 w = glm::normalize(Vec3(alpha_.x * v.x, alpha_.y * v.y, v.z));
         const double height = (1.0 - u.y) * (1.0 + w.z);                      // z of the cap's point, plus w.z
         const double above = height + (w.x * w.x + w.y * w.y) / (1.0 + w.z);  // z of the cap's point, plus 1
         const double radius = std::sqrt(std::max(above * (2.0 - above), 0.0));
         const Vec2 cap = direction_on_circle(u.x) * radius;
-        return glm::normalize(Vec3(alpha_ * (cap.x + w.x), alpha_ * (cap.y + w.y), height));
+        return glm::normalize(Vec3(alpha_.x * (cap.x + w.x), alpha_.y * (cap.y + w.y), height));
     }
-    double alpha() const { return alpha_; }
+    const Vec2& alpha() const { return alpha_; }
 
 private:
-    double alpha_;
+    Vec2 alpha_;
+    double product_, ratio_;
 };
 
 }  // namespace neumann

@@ -1,6 +1,8 @@
 #include "core/reader/bsdfs.h"
 
+#include "core/reader/retroreflectors.h"
 #include "core/reader/textures.h"
+#include "core/reader/transparent_bsdfs.h"
 
 #include <fmt/format.h>
 
@@ -70,22 +72,48 @@ Bsdf read_rough_conductor(const Element& e, const Context& context) {
 
 Materials::Sides Bsdfs::sides(const Element& e) {
     const auto known = sides_.find(&e);
-    return known != sides_.end() ? known->second : sides_[&e] = read(e);
+    if (known != sides_.end()) return known->second;
+    if (!open_.insert(&e).second)
+        throw InputError(e.place, fmt::format("bsdf '{}' stands inside itself", e.attribute("type").value));
+    const Materials::Sides sides = read(e);
+    open_.erase(&e);
+    return sides_[&e] = sides;
 }
 
 Materials::Sides Bsdfs::read(const Element& e) {
     const std::string& type = e.attribute("type").value;
-    if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
+    const auto both = [&](const BothSides& b) {
+        const int front = store(b.front);
+        return Materials::Sides{front, store(b.back)};
+    };
+    if (type == "blendbsdf") return read_blend(e);
     if (type == "conductor") return {store(read_conductor(e, context_)), Materials::absorbing};
+    if (type == "dielectric") return both(read_dielectric(e, context_));
+    if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
+    if (type == "mask") return read_mask(e);
+    if (type == "null") return both(read_null(e, context_));
+    if (type == "retroreflector") return {store(read_retroreflector(e, context_)), Materials::absorbing};
     if (type == "roughconductor") return {store(read_rough_conductor(e, context_)), Materials::absorbing};
-    if (type != "twosided") fail_type(e, {"conductor", "diffuse", "roughconductor", "twosided"});
+    if (type == "roughdielectric") return both(read_rough_dielectric(e, context_));
+    if (type == "thindielectric") return both(read_thin_dielectric(e, context_));
+    if (type == "twosided") return read_two_sided(e);
+    fail_type(e, {"blendbsdf", "conductor", "dielectric", "diffuse", "mask", "null", "retroreflector", "roughconductor",
+                  "roughdielectric", "thindielectric", "twosided"});
+}
 
+Materials::Sides Bsdfs::read_two_sided(const Element& e) {
     Properties p(e, context_.objects);
     const std::vector<const Element*> nested = p.nested("bsdf", 2);
     p.finish();
     if (nested.empty()) throw InputError(e.place, "bsdf 'twosided' has no <bsdf> inside, expected one or two");
-    for (const Element* inner : nested)
-        if (inner->attribute("type").value == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");
+    for (const Element* inner : nested) {
+        const std::string& type = inner->attribute("type").value;
+        if (type == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");
+        const int front = sides(*inner).front;
+        if (front != Materials::absorbing && transmits(bsdfs_[static_cast<std::size_t>(front)]))
+            throw InputError(inner->place,
+                             fmt::format("bsdf '{}' in bsdf 'twosided' lets light through, expected one that only reflects", type));
+    }
     return {sides(*nested.front()).front, sides(*nested.back()).front};
 }
 

@@ -1,8 +1,12 @@
-// <bsdf>: `diffuse`, `conductor`, `roughconductor`, and `twosided` around one or two of them.
+// <bsdf>: what reflects, what lets light through, and `twosided`, `mask` and `blendbsdf` around them.
 #pragma once
 
 #include "core/material/materials.h"
 #include "core/reader/context.h"
+
+#include <map>
+#include <memory>
+#include <set>
 
 namespace neumann::reader {
 
@@ -21,10 +25,15 @@ public:
 private:
     int store(Bsdf bsdf);
     Materials::Sides read(const Element& e);
+    Materials::Sides read_two_sided(const Element& e);
+    Materials::Sides read_mask(const Element& e);
+    Materials::Sides read_blend(const Element& e);
+    std::shared_ptr<const Bsdf> shared(int index) const;
 
     const Context& context_;
     std::vector<Bsdf> bsdfs_;
     std::map<const Element*, Materials::Sides> sides_;
+    std::set<const Element*> open_;  // being read
     int default_ = Materials::absorbing;
 };
 

@@ -1,6 +1,7 @@
 // A scene: where things are, what they are made of, what shines, and who looks.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/warnings.h"
 #include "core/emitter/emitters.h"
 #include "core/geometry/geometry.h"
@@ -14,6 +15,12 @@ namespace neumann {
 
 enum class SamplerKind { independent, sobol };
 
+// Where a shape comes from, for messages: "shape 'cube'" and "bsdf 'diffuse'".
+struct Origin {
+    Location place;
+    std::string shape, bsdf;
+};
+
 struct Scene {
     Geometry geometry;
     Materials materials;
@@ -25,7 +32,8 @@ struct Scene {
     std::optional<int> bounces;
     std::optional<SamplerKind> sampler;
 
-    std::string hash;  // of all files the scene was read from; empty for a scene made otherwise
+    std::string hash;             // of all files the scene was read from; empty for a scene made otherwise
+    std::vector<Origin> origins;  // by shape; likewise
     Warnings warnings;
 };
 
@@ -40,6 +48,7 @@ struct SceneParts {
     std::optional<int> bounces;
     std::optional<SamplerKind> sampler;
     std::string hash;
+    std::vector<Origin> origins = {};
     Warnings warnings;
 };
 

@@ -39,8 +39,9 @@ TEST_F(BadInputScene, Files) {
 TEST_F(BadInputScene, Plugins) {
     EXPECT_EQ(refusal_of("<shape type=\"teapot\"/>"),
               "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, obj, ply, rectangle, sphere\n");
-    EXPECT_EQ(refusal_of("<bsdf type=\"dielectric\"/>"),
-              "scene.xml:2:7: bsdf type 'dielectric' is not supported; allowed: conductor, diffuse, roughconductor, twosided\n");
+    EXPECT_EQ(refusal_of("<bsdf type=\"velvet\"/>"),
+              "scene.xml:2:7: bsdf type 'velvet' is not supported; allowed: blendbsdf, conductor, dielectric, diffuse, mask, null, "
+              "retroreflector, roughconductor, roughdielectric, thindielectric, twosided\n");
 }
 
 TEST_F(BadInputScene, Parameters) {

@@ -186,7 +186,7 @@ TEST_F(XmlAccepted, ShapesWithoutBsdf) {
     EXPECT_EQ(parts.sides_of_shape.at(1).front, 0);
     EXPECT_EQ(parts.sides_of_shape.at(2).front, Materials::absorbing);  // a lamp without a material is black in Mitsuba
     EXPECT_EQ(parts.lights.of_shape, (std::vector<int>{Emitters::none, Emitters::none, 0}));
-    EXPECT_EQ(parts.lights.at(0).largest, Rgb(3.0));
+    EXPECT_EQ(parts.lights.area.at(0).largest, Rgb(3.0));
 }
 
 TEST_F(XmlAccepted, EmittersByReference) {
@@ -196,7 +196,7 @@ TEST_F(XmlAccepted, EmittersByReference) {
         "<emitter type='area'><rgb name='radiance' value='9'/></emitter>");
     EXPECT_EQ(parts.lights.of_shape, std::vector<int>{0});
     ASSERT_EQ(parts.lights.area.size(), 1u);
-    EXPECT_EQ(parts.lights[0].largest, Rgb(1.0, 2.0, 3.0));
+    EXPECT_EQ(parts.lights.area[0].largest, Rgb(1.0, 2.0, 3.0));
 }
 
 TEST_F(XmlAccepted, Colours) {
@@ -216,7 +216,7 @@ TEST_F(XmlAccepted, Wavelengths) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(white[i], 0.5, 1e-4);
     const SceneParts parts =
         read("<shape type='cube'><emitter type='area'><spectrum name='radiance' value='360:2, 830:2'/></emitter></shape>");
-    const Rgb lamp = parts.lights.at(0).largest;
+    const Rgb lamp = parts.lights.area.at(0).largest;
     EXPECT_NEAR(lamp.r, 2.0 * 1.2048, 1e-3);
     EXPECT_NEAR(lamp.g, 2.0 * 0.9483, 1e-3);
     EXPECT_NEAR(lamp.b, 2.0 * 0.9089, 1e-3);

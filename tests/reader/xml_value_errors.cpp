@@ -20,8 +20,10 @@ protected:
 };
 
 TEST_F(XmlValueErrors, UnknownTypes) {
-    EXPECT_EQ(error("<bsdf type=\"plastic\"/>"),
-              "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: conductor, diffuse, roughconductor, twosided");
+    EXPECT_EQ(
+        error("<bsdf type=\"plastic\"/>"),
+        "scene.xml:2:7: bsdf type 'plastic' is not supported; allowed: blendbsdf, conductor, dielectric, diffuse, mask, null, "
+        "retroreflector, roughconductor, roughdielectric, thindielectric, twosided");
     EXPECT_EQ(error("<emitter type=\"point\"/>"), "scene.xml:2:10: emitter type 'point' is not supported; allowed: area");
     EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: path");
     EXPECT_EQ(

@@ -1,0 +1,13 @@
+// Indices of refraction, as numbers or by name.
+#pragma once
+
+#include "core/reader/context.h"
+#include "core/reader/properties.h"
+
+namespace neumann::reader {
+
+// A positive number or one of Mitsuba's names, in any case; that of the name `missing` where it is not given. Throws InputError
+// otherwise.
+double read_ior(Properties& p, const std::string& name, const std::string& missing, const Context& context);
+
+}  // namespace neumann::reader

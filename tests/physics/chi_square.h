@@ -1,0 +1,95 @@
+// Whether a material draws directions with the density that it says.
+#pragma once
+
+#include "core/sampling/independent_sampler.h"
+#include "tests/physics/quadrature.h"
+
+#include <gtest/gtest.h>
+#include <boost/math/distributions/chi_squared.hpp>
+
+namespace neumann::physics {
+
+inline constexpr std::uint64_t directions_seed = 20240229;
+
+// The probability of a χ² that is larger than that of 65536 directions in 12 × 24 cells of the sphere, equal in solid angle, and of
+// those that are deltas. ∫ pdf is checked on the way: with the share of deltas it is 1.
+inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, std::uint32_t stream,
+                                 std::uint64_t seed = directions_seed, int count = 65536) {
+    constexpr int rings = 12, sectors = 24;
+    std::vector<double> found(rings * sectors);
+    double deltas = 0.0;
+    IndependentSampler sampler(seed, stream);
+    for (int i = 0; i < count; ++i) {
+        sampler.start(static_cast<std::uint64_t>(i));
+        const BsdfSample s = sample(bsdf, p, wo, sampler.next2());
+        if (s.pdf == delta_pdf) {
+            deltas += 1.0;
+            continue;
+        }
+        const double turn = std::atan2(s.wi.y, s.wi.x) / (2.0 * pi) + 0.5;
+        const int ring = std::clamp(static_cast<int>((s.wi.z + 1.0) * 0.5 * rings), 0, rings - 1);
+        found[static_cast<std::size_t>(ring * sectors + std::clamp(static_cast<int>(turn * sectors), 0, sectors - 1))] += 1.0;
+    }
+    double chi2 = 0.0, few_found = 0.0, few_expected = 0.0, all = 0.0;
+    int cells = 0;
+    const auto compare = [&](double n, double expected) {
+        chi2 += (n - expected) * (n - expected) / expected;
+        ++cells;
+    };
+    for (int ring = 0; ring < rings; ++ring)
+        for (int sector = 0; sector < sectors; ++sector) {
+            const auto across = [&](double z) {
+                const double r = std::sqrt(1.0 - z * z), turn = 2.0 * pi / sectors;
+                return integrate<15>(turn * sector - pi, turn * (sector + 1) - pi, 1e-6,
+                                     [&](double phi) { return pdf(bsdf, p, wo, Vec3(r * std::cos(phi), r * std::sin(phi), z)); });
+            };
+            const double expected = count * integrate<15>(2.0 * ring / rings - 1.0, 2.0 * (ring + 1) / rings - 1.0, 1e-5, across);
+            const double n = found[static_cast<std::size_t>(ring * sectors + sector)];
+            all += expected;
+            if (expected >= 10.0) {
+                compare(n, expected);
+            } else {
+                few_found += n;
+                few_expected += expected;
+            }
+        }
+    if (few_expected >= 10.0)
+        compare(few_found, few_expected);
+    else
+        EXPECT_LE(few_found, 40.0);
+    if (deltas > 0.0)
+        compare(deltas, count - all);
+    else
+        EXPECT_NEAR(all / count, 1.0, 1e-4);
+    return cells > 1 ? cdf(complement(boost::math::chi_squared(cells - 1), chi2)) : 1.0;
+}
+
+// weight · pdf = fs |cosθ|, and pdf() is the density that sample() says.
+inline void expect_consistent_samples(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, double tolerance = 1e-9) {
+    IndependentSampler sampler(directions_seed, 1);
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        sampler.start(i);
+        const BsdfSample found = sample(bsdf, p, wo, sampler.next2());
+        if (found.pdf == delta_pdf || found.pdf == 0.0) continue;
+        EXPECT_NEAR(glm::length(found.wi), 1.0, 1e-14);
+        EXPECT_NEAR(pdf(bsdf, p, wo, found.wi) / found.pdf, 1.0, tolerance);
+        const Rgb exact = eval(bsdf, p, wo, found.wi) * std::abs(found.wi.z);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found.weight[c] * found.pdf, exact[c], tolerance * exact[c]);
+    }
+}
+
+// The largest |fs(a → b)/fs(b → a) − 1|, relative to the larger one, over `count` pairs on the same side.
+inline double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, int count = 1000) {
+    double worst = 0.0;
+    IndependentSampler sampler(directions_seed, 2);
+    for (int i = 0; i < count; ++i) {
+        sampler.start(static_cast<std::uint64_t>(i));
+        const Vec3 a = uniform_hemisphere(sampler.next2()), b = uniform_hemisphere(sampler.next2());
+        const Rgb one = eval(bsdf, p, a, b), other = eval(bsdf, p, b, a);
+        for (int c = 0; c < 3; ++c)
+            if (one[c] != other[c]) worst = std::max(worst, std::abs(one[c] - other[c]) / std::max(one[c], other[c]));
+    }
+    return worst;
+}
+
+}  // namespace neumann::physics
