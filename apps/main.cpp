@@ -1,5 +1,6 @@
 // The command line.
 #include "apps/compare.h"
+#include "apps/conform.h"
 #include "apps/export.h"
 #include "apps/options.h"
 #include "apps/render.h"
@@ -122,6 +123,8 @@ int main(int argc, char** argv) try {
     auto* solve = neumann::add_solve(app, solve_request);
     neumann::ExportRequest export_request;
     auto* export_matrices = neumann::add_export(app, export_request);
+    neumann::ConformRequest conform_request;
+    auto* conform = neumann::add_conform(app, conform_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -145,6 +148,7 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     if (*compare) return finish(neumann::compare_command(a, b, json));
+    if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);
     if (*spectrum) {

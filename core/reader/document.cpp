@@ -26,13 +26,13 @@ public:
     Loader(Document& document, const std::map<std::string, std::string>& definitions)
         : document_(document), definitions_(definitions) {}
 
-    void read_main(const std::string& path) {
+    void read_main(const std::string& path, bool optional) {
         document_.folders.push_back(fs::path(path).parent_path().string());
         document_.root = read_file(path);
         if (document_.root.tag != "scene")
             throw InputError(document_.root.place,
                              fmt::format("the outermost element is <{}>, expected <scene>", document_.root.tag));
-        definitions_.check_used(path);
+        if (!optional) definitions_.check_used(path);
     }
 
 private:
@@ -184,9 +184,9 @@ std::string Document::find_file(const Attribute& name) const {
     throw InputError(name.place, fmt::format("there is no file '{}'; looked in: {}", name.value, join(shown)));
 }
 
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions) {
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional) {
     Document document;
-    Loader(document, definitions).read_main(path);
+    Loader(document, definitions).read_main(path, optional);
     return document;
 }
 

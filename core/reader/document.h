@@ -17,6 +17,7 @@ struct Document {
     std::string find_file(const Attribute& name) const;
 };
 
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions);
+// Definitions that nothing uses are an error, unless they are `optional`.
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional = false);
 
 }  // namespace neumann::reader

@@ -2,8 +2,8 @@
 
 namespace neumann {
 
-Scene read_scene(const std::string& path, const std::map<std::string, std::string>& definitions) {
-    return make_scene(read_scene_parts(path, definitions));
+Scene read_scene(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional) {
+    return make_scene(read_scene_parts(path, definitions, optional));
 }
 
 }  // namespace neumann

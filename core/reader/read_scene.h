@@ -11,9 +11,10 @@ namespace neumann {
 
 // Reads an XML scene file; `definitions` are the -D name=value of the command line, which override the file's <default>s. Errors
 // are InputError "file:line:column: what is wrong, what was expected". What is not supported, unknown, misspelt or never read is
-// refused by name; nothing is skipped in silence.
-Scene read_scene(const std::string& path, const std::map<std::string, std::string>& definitions = {});
+// refused by name; nothing is skipped in silence. A definition that the file does not use is an error, unless `optional`.
+Scene read_scene(const std::string& path, const std::map<std::string, std::string>& definitions = {}, bool optional = false);
 // The same before the search structures are built.
-SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions = {});
+SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions = {},
+                            bool optional = false);
 
 }  // namespace neumann

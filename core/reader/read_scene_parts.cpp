@@ -51,9 +51,9 @@ void check_unused(const Element& root, const Context& context, const Bsdfs& bsdf
 
 }  // namespace reader
 
-SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions) {
+SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional) {
     using namespace reader;
-    const Document document = read_document(path, definitions);
+    const Document document = read_document(path, definitions, optional);
     const Objects objects(document.root);
     SceneParts parts;
     std::vector<std::string> mesh_files;

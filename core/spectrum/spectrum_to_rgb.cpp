@@ -40,6 +40,10 @@ Vec3 simpson(double from, double to, const F& f) {
 
 }  // namespace
 
+glm::dmat3 rgb_from_xyz() {
+    return glm::transpose(glm::dmat3(3.240479, -1.537150, -0.498535, -0.969256, 1.875991, 0.041556, 0.055648, -0.204043, 1.057311));
+}
+
 Rgb spectrum_to_rgb(const SpectrumTable& s, Illuminant illuminant) {
     std::vector<double> knots = s.wavelengths;
     for (int i = 0; i < cie::count; ++i) knots.push_back(cie::first_wavelength + i * cie::step);
@@ -61,9 +65,7 @@ Rgb spectrum_to_rgb(const SpectrumTable& s, Illuminant illuminant) {
         });
     }
     xyz /= norm;
-    // ITU-R BT.709, as Mitsuba has it.
-    return {3.240479 * xyz.x - 1.537150 * xyz.y - 0.498535 * xyz.z, -0.969256 * xyz.x + 1.875991 * xyz.y + 0.041556 * xyz.z,
-            0.055648 * xyz.x - 0.204043 * xyz.y + 1.057311 * xyz.z};
+    return rgb_from_xyz() * xyz;
 }
 
 double srgb_decode(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }

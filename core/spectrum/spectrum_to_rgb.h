@@ -18,7 +18,10 @@ enum class Illuminant {
     d65,           // w = D65, the white of sRGB: s is a reflectance, and s = 1 is white
 };
 
-// XYZ to linear sRGB (Rec. 709 primaries, D65 white) without adaptation. Colours outside sRGB have negative components.
+// Linear sRGB of XYZ: Rec. 709 primaries, D65 white, without adaptation; the digits are those of ITU-R BT.709 as Mitsuba has them.
+glm::dmat3 rgb_from_xyz();
+
+// Colours outside sRGB have negative components.
 Rgb spectrum_to_rgb(const SpectrumTable& s, Illuminant illuminant);
 
 // The inverse of the sRGB transfer function (IEC 61966-2-1), for encoded values in [0, 1].

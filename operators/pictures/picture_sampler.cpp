@@ -80,7 +80,8 @@ void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> sam
 }
 
 // The means of one pixel's samples of a replicate, into work.sum.
-void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, Workspace& work) {
+void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate,
+             const std::optional<glm::dmat3>& colors, Workspace& work) {
     const std::size_t quantities = work.sum.size();
     std::copy_n(samples.begin(), quantities, work.sum.begin());
     for (std::size_t i = 1; i < size; ++i)
@@ -95,6 +96,7 @@ void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::
         if (max_component(sum) > largest.threshold())
             for (std::size_t i = 0; i < size; ++i) largest.add(max_component(samples[i * quantities + q]));
         sum *= 1.0 / static_cast<double>(size);
+        if (colors) sum = *colors * sum;
     }
 }
 
@@ -166,7 +168,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             trace(scene_, estimate, std::span(samplers), some, first + r, work);
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.samples).subspan(i * size * quantities(), size * quantities()), size, some[i], first + r,
-                        work);
+                        settings_.colors, work);
                 append(r, work.waiting[i], work);
             }
         }

@@ -46,6 +46,8 @@ public:
         SamplerKind sampler = SamplerKind::sobol;
         std::uint64_t seed = 0;
         std::uint32_t replicate_size = 8;  // samples a pixel; a power of two
+        // What the pictures and their errors are of: this matrix times the samples' RGB. RGB itself without it.
+        std::optional<glm::dmat3> colors = {};
     };
 
     PictureSampler(const Scene& scene, const Settings& settings);
