@@ -4,23 +4,32 @@
 // Where fs is a delta (`Lobe::Kind::specular`), eval() and pdf() know nothing of it, and sample() has the pdf ∞ (delta_pdf).
 #pragma once
 
+#include "core/material/blend.h"
 #include "core/material/conductor.h"
+#include "core/material/dielectric.h"
 #include "core/material/diffuse.h"
+#include "core/material/mask.h"
+#include "core/material/null.h"
 #include "core/material/perturbed_normal.h"
 #include "core/material/plastic.h"
 #include "core/material/principled.h"
 #include "core/material/principled_thin.h"
+#include "core/material/retroreflector.h"
 #include "core/material/rough_conductor.h"
+#include "core/material/rough_dielectric.h"
 #include "core/material/rough_plastic.h"
+#include "core/material/thin_dielectric.h"
 
 #include <variant>
 
 namespace neumann {
 
 // A closed set: adding a material is a file beside diffuse.h and a name here. Of one side of a surface: ωo is always above it,
-// ωo.z > 0, and ωi is where light is transmitted from where ωi.z < 0. The other side of glass is another Bsdf.
-struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Plastic, RoughPlastic<Ggx>,
-                           RoughPlastic<Beckmann>, Principled, PrincipledThin, PerturbedNormal> {
+// ωo.z > 0, and ωi is where light is transmitted from where ωi.z < 0. The other side of glass is another Bsdf. Radiance is L and
+// not L/n²: it is n² times as large within glass.
+struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Dielectric, ThinDielectric,
+                           RoughDielectric<Ggx>, RoughDielectric<Beckmann>, Plastic, RoughPlastic<Ggx>, RoughPlastic<Beckmann>,
+                           Principled, PrincipledThin, Null, Retroreflector, RoughRetroreflector, Mask, Blend, PerturbedNormal> {
     using variant::variant;
 };
 
@@ -37,11 +46,33 @@ inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo
 inline Rgb largest_albedo(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);
 }
+// The same for basic radiance, L/n²: above 1 where more light is given back than arrives.
+inline Rgb largest_basic_albedo(const Bsdf& bsdf) {
+    return std::visit(
+        [](const auto& b) {
+            if constexpr (requires { b.largest_basic_albedo(); })
+                return b.largest_basic_albedo();
+            else
+                return b.largest_albedo();
+        },
+        bsdf);
+}
+// Light comes through from the other side.
+inline bool transmits(const Bsdf& bsdf) {
+    return std::visit(
+        [](const auto& b) {
+            if constexpr (requires { b.transmits(); })
+                return b.transmits();
+            else
+                return false;
+        },
+        bsdf);
+}
 inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
 }
 
-// fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1.
+// fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1. Where fs is no such product they are 1 and the material itself.
 inline Rgb reflectance(const Bsdf& bsdf, const ShadingPoint& p) {
     return std::visit([&](const auto& b) { return b.reflectance(p); }, bsdf);
 }
@@ -62,6 +93,8 @@ inline bool needs_coordinates(const Bsdf& bsdf) {
         },
         bsdf);
 }
+// fs(p, ωi → ωo) is ρ(p) g(ωi, ωo), as reflectance() and white() tell it.
+inline bool factors(const Bsdf& bsdf) { return is_constant(white(bsdf)); }
 // All channels are known to be alike.
 inline bool is_grey(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.is_grey(); }, bsdf);

@@ -2,6 +2,19 @@
 
 namespace neumann {
 
+namespace {
+
+template <class Bound>
+Rgb largest(const std::vector<Bsdf>& bsdfs, const std::vector<Materials::Sides>& sides_of_shape, const Bound& of) {
+    Rgb largest(0.0);
+    for (const Materials::Sides& sides : sides_of_shape)
+        for (const int index : {sides.front, sides.back})
+            if (index != Materials::absorbing) largest = glm::max(largest, of(bsdfs[static_cast<std::size_t>(index)]));
+    return largest;
+}
+
+}  // namespace
+
 Materials::Materials(std::vector<Bsdf> bsdfs, std::vector<Sides> sides_of_shape, std::shared_ptr<const std::vector<Shape>> shapes)
     : bsdfs_(std::move(bsdfs)), sides_of_shape_(std::move(sides_of_shape)), shapes_(std::move(shapes)) {
     for (std::uint32_t shape = 0; shape < sides_of_shape_.size(); ++shape) {
@@ -13,11 +26,10 @@ Materials::Materials(std::vector<Bsdf> bsdfs, std::vector<Sides> sides_of_shape,
 }
 
 Rgb Materials::largest_albedo() const {
-    Rgb largest(0.0);
-    for (const Sides& sides : sides_of_shape_)
-        for (const int index : {sides.front, sides.back})
-            if (index != absorbing) largest = glm::max(largest, neumann::largest_albedo(bsdfs_[static_cast<std::size_t>(index)]));
-    return largest;
+    return largest(bsdfs_, sides_of_shape_, [](const Bsdf& b) { return neumann::largest_albedo(b); });
+}
+Rgb Materials::largest_basic_albedo() const {
+    return largest(bsdfs_, sides_of_shape_, [](const Bsdf& b) { return neumann::largest_basic_albedo(b); });
 }
 
 }  // namespace neumann

@@ -47,6 +47,8 @@ public:
     // The largest albedo of any material that stands on a shape, for each channel: an upper bound on ‖R‖ in every L^p
     // (Riesz–Thorin, with reciprocity), and in L^∞ alone where shading normals differ from geometric ones.
     Rgb largest_albedo() const;
+    // The same of basic radiance L/n², for which glass has no more than 1.
+    Rgb largest_basic_albedo() const;
 
     const std::vector<Bsdf>& bsdfs() const { return bsdfs_; }
 

@@ -3,8 +3,10 @@
 #include "core/reader/grammar.h"
 #include "core/reader/plastics.h"
 #include "core/reader/principled.h"
+#include "core/reader/retroreflectors.h"
 #include "core/reader/roughness.h"
 #include "core/reader/textures.h"
+#include "core/reader/transparent_bsdfs.h"
 #include "core/spectrum/metals.h"
 
 #include <fmt/format.h>
@@ -66,13 +68,27 @@ Bsdf read_rough_conductor(const Element& e, const Context& context) {
 
 Materials::Sides Bsdfs::sides(const Element& e) {
     const auto known = sides_.find(&e);
-    return known != sides_.end() ? known->second : sides_[&e] = read(e);
+    if (known != sides_.end()) return known->second;
+    if (!open_.insert(&e).second)
+        throw InputError(e.place, fmt::format("bsdf '{}' stands inside itself", e.attribute("type").value));
+    const Materials::Sides sides = read(e);
+    open_.erase(&e);
+    return sides_[&e] = sides;
 }
 
 Materials::Sides Bsdfs::read(const Element& e) {
     const std::string& type = e.attribute("type").value;
-    if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
+    const auto both = [&](const BothSides& b) {
+        const int front = store(b.front);
+        return Materials::Sides{front, store(b.back)};
+    };
+    if (type == "blendbsdf") return read_blend(e);
     if (type == "conductor") return {store(read_conductor(e, context_)), Materials::absorbing};
+    if (type == "dielectric") return both(read_dielectric(e, context_));
+    if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
+    if (type == "mask") return read_mask(e);
+    if (type == "null") return both(read_null(e, context_));
+    if (type == "retroreflector") return {store(read_retroreflector(e, context_)), Materials::absorbing};
     if (type == "roughconductor") return {store(read_rough_conductor(e, context_)), Materials::absorbing};
     if (type == "normalmap" || type == "bumpmap") return read_perturbed_normal(e);
     if (type == "plastic") return {store(read_plastic(e, context_)), Materials::absorbing};
@@ -83,22 +99,30 @@ Materials::Sides Bsdfs::read(const Element& e) {
         return {outside, found.inside ? store(std::move(*found.inside)) : Materials::absorbing};
     }
     if (type == "principledthin") {
-        const int both = store(read_principled_thin(e, context_));
-        return {both, both};
+        const int sides = store(read_principled_thin(e, context_));
+        return {sides, sides};
     }
-    if (type != "twosided")
-        fail_type(e, {"bumpmap", "conductor", "diffuse", "normalmap", "plastic", "principled", "principledthin", "roughconductor",
-                      "roughplastic", "twosided"});
+    if (type == "roughdielectric") return both(read_rough_dielectric(e, context_));
+    if (type == "thindielectric") return both(read_thin_dielectric(e, context_));
+    if (type == "twosided") return read_two_sided(e);
+    fail_type(e, {"blendbsdf", "bumpmap", "conductor", "dielectric", "diffuse", "mask", "normalmap", "null", "plastic", "principled",
+                  "principledthin", "retroreflector", "roughconductor", "roughdielectric", "roughplastic", "thindielectric",
+                  "twosided"});
+}
 
+Materials::Sides Bsdfs::read_two_sided(const Element& e) {
     Properties p(e, context_.objects);
     const std::vector<const Element*> nested = p.nested("bsdf", 2);
     p.finish();
     if (nested.empty()) throw InputError(e.place, "bsdf 'twosided' has no <bsdf> inside, expected one or two");
-    for (const Element* inner : nested)
-        if (inner->attribute("type").value == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");
-    for (const Element* inner : nested)
-        if (sides(*inner).back != Materials::absorbing)
-            throw InputError(inner->place, "a material with a back side stands inside bsdf 'twosided', expected one without");
+    for (const Element* inner : nested) {
+        const std::string& type = inner->attribute("type").value;
+        if (type == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");
+        const int front = sides(*inner).front;
+        if (front != Materials::absorbing && transmits(bsdfs_[static_cast<std::size_t>(front)]))
+            throw InputError(inner->place,
+                             fmt::format("bsdf '{}' in bsdf 'twosided' lets light through, expected one that only reflects", type));
+    }
     return {sides(*nested.front()).front, sides(*nested.back()).front};
 }
 

@@ -1,8 +1,12 @@
-// <bsdf>: each material by its type, `normalmap` and `bumpmap` around one, and `twosided` around one or two of them.
+// <bsdf>: what reflects, what lets light through, and what stands around them: `twosided`, `mask`, `blendbsdf`, `normalmap`, `bumpmap`.
 #pragma once
 
 #include "core/material/materials.h"
 #include "core/reader/context.h"
+
+#include <map>
+#include <memory>
+#include <set>
 
 namespace neumann::reader {
 
@@ -22,6 +26,10 @@ private:
     int store(Bsdf bsdf);
     Materials::Sides read(const Element& e);
     Materials::Sides read_perturbed_normal(const Element& e);
+    Materials::Sides read_two_sided(const Element& e);
+    Materials::Sides read_mask(const Element& e);
+    Materials::Sides read_blend(const Element& e);
+    std::shared_ptr<const Bsdf> shared(int index) const;
 
     const Context& context_;
     std::vector<Bsdf> bsdfs_;

@@ -31,6 +31,11 @@ const Element* only(const Element& root, const std::string& tag) {
     return first;
 }
 
+Origin origin(const Element& shape, const Element* bsdf) {
+    const auto title = [](const Element& e) { return fmt::format("{} '{}'", e.tag, e.attribute("type").value); };
+    return {shape.place, title(shape), bsdf ? title(*bsdf) : "default bsdf"};
+}
+
 // What stands at the top level and nothing refers to is checked and dropped.
 void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
     Warnings dropped;
@@ -88,6 +93,7 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
+        parts.origins.push_back(origin(e, shape.bsdf));
     }
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();

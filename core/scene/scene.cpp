@@ -35,11 +35,11 @@ Scene make_scene(SceneParts parts) {
     warnings.add("light without area gives off nothing", emitters.without_area());
     if (geometry.shapes().empty()) warnings.add("the scene has no surfaces");
     if (emitters.empty()) warnings.add("the scene has no light");
-    if (max_component(materials.largest_albedo()) > 1.0)
+    if (max_component(materials.largest_basic_albedo()) > 1.0)
         warnings.add("reflectance above 1: a surface gives back more light than it receives");
     const Sensor camera(parts.camera, parts.film);
-    return {std::move(geometry), std::move(materials),  std::move(emitters), camera, parts.film, parts.bounces, parts.sampler,
-            parts.hide_emitters, std::move(parts.hash), std::move(warnings)};
+    return {std::move(geometry), std::move(materials),  std::move(emitters),     camera, parts.film, parts.bounces, parts.sampler,
+            parts.hide_emitters, std::move(parts.hash), std::move(parts.origins), std::move(warnings)};
 }
 
 }  // namespace neumann

@@ -1,6 +1,7 @@
 // A scene: where things are, what they are made of, what shines, and who looks.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/warnings.h"
 #include "core/emitter/emitters.h"
 #include "core/geometry/geometry.h"
@@ -13,6 +14,12 @@
 namespace neumann {
 
 enum class SamplerKind { independent, sobol };
+
+// Where a shape comes from, for messages: "shape 'cube'" and "bsdf 'diffuse'".
+struct Origin {
+    Location place;
+    std::string shape, bsdf;
+};
 
 struct Scene {
     Geometry geometry;
@@ -27,7 +34,8 @@ struct Scene {
     // Camera rays go through lights, and what surrounds the scene is black to them: there is no bounce 0.
     bool hide_emitters = false;
 
-    std::string hash;  // of all files the scene was read from; empty for a scene made otherwise
+    std::string hash;             // of all files the scene was read from; empty for a scene made otherwise
+    std::vector<Origin> origins;  // by shape; likewise
     Warnings warnings;
 };
 
@@ -43,6 +51,7 @@ struct SceneParts {
     std::optional<SamplerKind> sampler;
     bool hide_emitters = false;
     std::string hash;
+    std::vector<Origin> origins = {};
     Warnings warnings;
 };
 

@@ -1,5 +1,8 @@
 #include "operators/matrix/sides.h"
 
+#include "core/base/error.h"
+
+#include <fmt/format.h>
 #include <algorithm>
 
 namespace neumann {
@@ -17,9 +20,28 @@ std::uint32_t directions_of(const Bsdf& bsdf) {
     return k;
 }
 
+[[noreturn]] void refuse(const Scene& scene, std::uint32_t shape, const std::string& why) {
+    if (shape >= scene.origins.size()) throw InputError(fmt::format("the material of shape {} {}", shape, why));
+    const Origin& origin = scene.origins[shape];
+    throw InputError(origin.place, fmt::format("{} of {} {}", origin.bsdf, origin.shape, why));
+}
+
+void check(const Scene& scene) {
+    for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
+        for (const bool front : {true, false}) {
+            const Bsdf* bsdf = scene.materials.at(shape, front);
+            if (!bsdf) continue;
+            if (transmits(*bsdf)) refuse(scene, shape, "lets light through, which patches do not hold; 'render --method walk' can");
+            if (!factors(*bsdf))
+                refuse(scene, shape,
+                       "varies by more than a factor of its reflectance, which patches do not hold; 'render --method walk' can");
+        }
+}
+
 }  // namespace
 
 std::vector<SideDirections> side_directions(const Scene& scene) {
+    check(scene);
     std::vector<SideDirections> sides;
     const bool lit_from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights();
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {

@@ -15,6 +15,10 @@ std::uint32_t SceneMaker::add(Shape shape, const Surface& surface) {
         if (surface.two_sided) sides.back = sides.front;
         parts.bsdfs.push_back(surface.bsdf ? *surface.bsdf : Diffuse(*surface.reflectance));
     }
+    if (surface.back) {
+        sides.back = static_cast<int>(parts.bsdfs.size());
+        parts.bsdfs.push_back(*surface.back);
+    }
     parts.sides_of_shape.push_back(sides);
     parts.lights.of_shape.push_back(surface.emission ? static_cast<int>(parts.lights.area.size()) : Emitters::none);
     if (surface.emission) parts.lights.area.push_back(*surface.emission);

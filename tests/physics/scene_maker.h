@@ -16,6 +16,7 @@ struct Surface {
     std::optional<AreaLight> emission;
     bool two_sided = false;
     std::optional<Bsdf> bsdf = std::nullopt;  // in place of the reflectance
+    std::optional<Bsdf> back = std::nullopt;  // of the back
 };
 inline Surface black() { return {}; }
 inline Surface matte(double rho) { return {grey(rho), std::nullopt}; }
@@ -23,6 +24,7 @@ inline Surface lamp(double radiance) { return {std::nullopt, grey(radiance)}; }
 inline Surface made_of(Bsdf bsdf, std::optional<AreaLight> emission = std::nullopt) {
     return {std::nullopt, std::move(emission), false, std::move(bsdf)};
 }
+inline Surface boundary(Bsdf front, Bsdf back) { return {std::nullopt, std::nullopt, false, std::move(front), std::move(back)}; }
 inline Surface glowing(double rho, double radiance) { return {grey(rho), grey(radiance)}; }
 
 class SceneMaker {

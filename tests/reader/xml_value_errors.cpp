@@ -22,8 +22,9 @@ protected:
 
 TEST_F(XmlValueErrors, UnknownTypes) {
     EXPECT_EQ(error("<bsdf type=\"clay\"/>"),
-              "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: bumpmap, conductor, diffuse, normalmap, plastic, "
-              "principled, principledthin, roughconductor, roughplastic, twosided");
+              "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
+              "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
+              "thindielectric, twosided");
     EXPECT_EQ(error("<emitter type=\"sunsky\"/>"),
               "scene.xml:2:10: emitter type 'sunsky' is not supported; allowed: area, constant, directional, envmap, point, "
               "projector, spot");

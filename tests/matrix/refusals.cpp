@@ -1,0 +1,58 @@
+// Materials that patches do not hold are refused by name and place.
+#include "operators/matrix/sides.h"
+#include "tests/physics/scene_maker.h"
+
+#include "core/base/error.h"
+
+#include <gtest/gtest.h>
+
+namespace neumann {
+namespace {
+
+using namespace physics;
+
+std::string refusal(const Surface& surface, std::vector<Origin> origins = {}) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1.0, true}, matte(0.5));
+    maker.add(Sphere{{0, 0, 0}, 0.3, false}, surface);
+    maker.parts.origins = std::move(origins);
+    try {
+        side_directions(maker.make());
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "none";
+}
+
+const SurfaceFunction varying([](const ShadingPoint& p) { return Rgb(p.uv.x); }, Rgb(1.0));
+
+TEST(PatchRefusals, OfWhatLightGoesThrough) {
+    const std::vector<Origin> origins = {{{"room.xml", 3, 1}, "shape 'sphere'", "bsdf 'diffuse'"},
+                                         {{"room.xml", 7, 5}, "shape 'sphere'", "bsdf 'dielectric'"}};
+    EXPECT_EQ(refusal(boundary(Dielectric(1.5), Dielectric(1.0 / 1.5)), origins),
+              "room.xml:7:5: bsdf 'dielectric' of shape 'sphere' lets light through, which patches do not hold; "
+              "'render --method walk' can");
+    EXPECT_EQ(refusal({std::nullopt, std::nullopt, false, std::nullopt, Null()}),
+              "the material of shape 1 lets light through, which patches do not hold; 'render --method walk' can");
+    const auto matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.5)));
+    EXPECT_EQ(refusal(made_of(Mask(matt, Rgb(0.5)))),
+              "the material of shape 1 lets light through, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(made_of(Blend(matt, std::make_shared<const Bsdf>(ThinDielectric(1.5)), Rgb(0.5)))),
+              "the material of shape 1 lets light through, which patches do not hold; 'render --method walk' can");
+}
+
+TEST(PatchRefusals, OfTexturesThatAreNoFactor) {
+    const auto matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.5))),
+               metal = std::make_shared<const Bsdf>(RoughConductor(Ggx(0.3)));
+    EXPECT_EQ(refusal(made_of(Blend(matt, metal, varying))),
+              "the material of shape 1 varies by more than a factor of its reflectance, which patches do not hold; "
+              "'render --method walk' can");
+    EXPECT_EQ(refusal(made_of(Diffuse(varying))), "none");
+    EXPECT_EQ(refusal(made_of(RoughConductor(Ggx(0.3), {}, varying))), "none");
+    EXPECT_EQ(refusal(made_of(Blend(matt, matt, varying))), "none");
+    EXPECT_EQ(refusal(made_of(Blend(matt, metal, Rgb(0.5)))), "none");
+    EXPECT_EQ(refusal(made_of(Retroreflector(varying))), "none");
+}
+
+}  // namespace
+}  // namespace neumann
