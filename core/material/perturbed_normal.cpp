@@ -73,6 +73,7 @@ PerturbedNormal PerturbedNormal::white() const {
 
 Rgb PerturbedNormal::largest_albedo() const { return neumann::largest_albedo(*nested_); }
 
+bool PerturbedNormal::transmits() const { return neumann::transmits(*nested_); }
 bool PerturbedNormal::is_grey() const { return neumann::is_grey(*nested_); }
 
 Lobe PerturbedNormal::lobe() const { return neumann::lobe(*nested_); }

@@ -30,6 +30,9 @@ public:
     Rgb largest_albedo() const { return largest_albedo_; }
     bool is_constant() const { return parameters_->is_constant(); }
     bool needs_coordinates() const { return !is_constant() || !parameters_->is_isotropic(); }
+    bool transmits() const {
+        return !is_black(parameters_->spec_trans.upper_bound()) || !is_black(parameters_->diff_trans.upper_bound());
+    }
     bool is_grey() const { return parameters_->is_grey(); }
     Lobe lobe() const;
 

@@ -93,7 +93,7 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
-        parts.origins.push_back(origin(e, shape.bsdf));
+        parts.origins.push_back(origin(*shape.element, shape.bsdf));
     }
     check_unused(document.root, context, bsdfs, lights);
     parts.bsdfs = bsdfs.take();

@@ -197,7 +197,7 @@ private:
                                              type_of(*reading->element), to_string(reading->element->place)));
             if (!has_finite_vertices(*placed))
                 throw InputError(item.place_of_to_world, "to_world of shape 'instance' moves a shape out of the range of numbers");
-            take({std::move(*placed), shape.bsdf, nullptr});
+            take({std::move(*placed), shape.bsdf, nullptr, shape.element});
         }
     }
 

@@ -77,6 +77,7 @@ ReadShape read_shape(const Element& e, const Context& context) {
     if (std::find(types.begin(), types.end(), e.attribute("type").value) == types.end()) fail_type(e, types);
     Properties p(e, context.objects);
     ReadShape result;
+    result.element = &e;
     result.shape = read_geometry(p, context);
     check_attributes(p, result.shape, context);
     const std::vector<const Element*> bsdfs = p.nested("bsdf"), emitters = p.nested("emitter");
