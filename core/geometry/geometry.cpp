@@ -121,7 +121,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
             for (const auto& t : mesh->triangles) {
                 const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
                 const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
-                triangles_[i].emplace_back(a, b, c, hit_error(longest * scale) / scale);
+                triangles_[i].emplace_back(a, Triangle::Edges{b - a, c - a}, hit_error(longest * scale) / scale);
             }
         } else if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[i])) {
             error_[i] = hit_error(sphere->radius * scale) / scale;

@@ -92,14 +92,14 @@ public:
         if (triangles_[shape].empty()) return point_on_round_surface(shape, uv);
         const Triangle& t = triangles_[shape][primitive];
         const Vec2 weights = uniform_triangle(uv);
-        return {t.at(weights.x, weights.y), t.normal(), t.error(), shape, primitive};
+        return {t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
     }
 
     // A point in the plane of a triangle as one on the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         const Triangle& t = triangles_[shape][primitive];
         const Vec2 weights = t.weights(position);
-        return {t.at(weights.x, weights.y), t.normal(), t.error(), shape, primitive};
+        return {t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
     }
     // The inverse of point() on a sphere or a disc: the (u, v) of a point there.
     Vec2 round_coordinates(std::uint32_t shape, const Vec3& position) const;
@@ -111,12 +111,19 @@ public:
     const RayCaster& caster() const { return *caster_; }
 
 private:
+    Triangle::Edges edges(std::uint32_t shape, std::uint32_t primitive) const {
+        const auto& mesh = *std::get_if<TriangleMesh>(&(*shapes_)[shape]);
+        const auto& t = mesh.triangles[primitive];
+        const Vec3& a = mesh.vertices[t[0]];
+        return {mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a};
+    }
     // A hit of Embree's on the double geometry: where the ray from `origin` hits the primitive that Embree named. `origin` may be
     // p.position.
     void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
         if (!triangles_[hit.shape].empty()) {
             const Triangle& t = triangles_[hit.shape][hit.primitive];
-            p = {t.hit(origin, direction, hit.u, hit.v), t.normal(), t.error(), hit.shape, hit.primitive};
+            const Vec3 position = t.hit(origin, direction, hit.u, hit.v, [&] { return edges(hit.shape, hit.primitive); });
+            p = {position, t.normal(), t.error(), hit.shape, hit.primitive};
         } else
             put_on_round_surface(origin, direction, hit, p);
     }
