@@ -142,17 +142,17 @@ std::optional<ConformResult> judge(const ConformScene& scene, const ConformReque
 const char* verdict(const Conformity& c) { return c.conforms() ? "accepted" : "REJECTED"; }
 
 void print_header() {
-    fmt::print("{:<38}{:>6}{:>8}  {:>9} {:<9} {:>9} {:<9} {:>10}\n", "scene", "spp", "seconds", "Mitsuba's", "test", "our own", "test",
+    fmt::print("{:<43}{:>6}{:>8}  {:>9} {:<9} {:>9} {:<9} {:>10}\n", "scene", "spp", "seconds", "Mitsuba's", "test", "our own", "test",
                "Y of ref.");
 }
 
 void print_row(const ConformResult& r) {
     if (r.judged())
-        fmt::print("{:<38}{:>6}{:>8.1f}  {:>8.3f}% {:<9} {:>8.3f}% {:<9} {:>10.5f}\n", r.name, r.samples, r.seconds,
+        fmt::print("{:<43}{:>6}{:>8.1f}  {:>8.3f}% {:<9} {:>8.3f}% {:<9} {:>10.5f}\n", r.name, r.samples, r.seconds,
                    100.0 * r.by_reference.accepted, verdict(r.by_reference), 100.0 * r.by_error.accepted, verdict(r.by_error),
                    r.brightness);
     else
-        fmt::print("{:<38}  not rendered: {}\n", r.name, r.why_not);
+        fmt::print("{:<43}  not rendered: {}\n", r.name, r.why_not);
     std::fflush(stdout);
 }
 

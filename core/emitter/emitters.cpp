@@ -1,54 +1,66 @@
 #include "core/emitter/emitters.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace neumann {
 
-void Emitters::add(double brightness) { cumulative_.push_back((cumulative_.empty() ? 0.0 : cumulative_.back()) + brightness); }
+namespace {
+
+// The probabilities of lights of these powers: half as their power, half alike. A dim light may be the one that a place sees, and a
+// bright one may be found by the material's directions.
+std::vector<double> shares(const std::vector<double>& powers) {
+    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
+    const auto lights = static_cast<double>(std::count_if(powers.begin(), powers.end(), [](double p) { return p > 0.0; }));
+    std::vector<double> result;
+    for (const double power : powers) result.push_back(power > 0.0 ? 0.5 * (power / total + 1.0 / lights) : 0.0);
+    return result;
+}
+
+}  // namespace
+
+void Emitters::add(double share) { cumulative_.push_back((cumulative_.empty() ? 0.0 : cumulative_.back()) + share); }
 
 Emitters::Emitters(const Geometry& geometry, Lights lights)
     : lights_(std::move(lights)),
       shapes_(geometry.shared_shapes()),
       surroundings_{geometry.center(), geometry.radius()},
       density_of_shape_(lights_.of_shape.size(), 0.0) {
+    std::vector<double> powers(lights_.of_shape.size(), 0.0);  // over π
     for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
         if (lights_.of_shape[shape] == none) continue;
-        if (geometry.area(shape) == 0.0) {
-            ++without_area_;
-            continue;
-        }
+        const double area = geometry.area(shape);
+        without_area_ += area == 0.0;
         const Rgb& radiance = lights_.area[static_cast<std::size_t>(lights_.of_shape[shape])].largest;
-        const double brightness = mean_component(radiance);
-        if (brightness == 0.0) continue;
-        largest_radiance_ = glm::max(largest_radiance_, radiance);
-        density_of_shape_[shape] = brightness;
-        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive) {
-            const double weight = brightness * geometry.area(shape, primitive);
-            if (weight == 0.0) continue;
-            primitives_.push_back({shape, primitive});
-            add(weight);
-        }
+        powers[shape] = mean_component(radiance) * area;
+        if (powers[shape] > 0.0) largest_radiance_ = glm::max(largest_radiance_, radiance);
     }
-    const double sphere = surroundings_.radius > 0.0 ? pi * surroundings_.radius * surroundings_.radius : 1.0;
     if (lights_.environment) {
+        const double radius = surroundings_.radius > 0.0 ? surroundings_.radius : 1.0;
         largest_radiance_ = glm::max(largest_radiance_, largest(*lights_.environment));
-        environment_share_ = brightness(*lights_.environment) * sphere;
-        add(environment_share_);
+        powers.push_back(brightness(*lights_.environment) * pi * radius * radius);
     }
     for (const DeltaLight& light : lights_.delta) {
-        const double power = brightness(light, surroundings_);
-        if (power > 0.0) largest_radiance_ = Rgb(std::numeric_limits<double>::infinity());
-        add(power);
+        powers.push_back(brightness(light, surroundings_));
+        if (powers.back() > 0.0) largest_radiance_ = Rgb(std::numeric_limits<double>::infinity());
     }
-    const double total = cumulative_.empty() ? 0.0 : cumulative_.back();
-    if (total == 0.0) {
-        cumulative_.clear();
-        return;
+
+    const std::vector<double> share = shares(powers);
+    if (std::all_of(share.begin(), share.end(), [](double s) { return s == 0.0; })) return;
+    for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
+        if (share[shape] == 0.0) continue;
+        density_of_shape_[shape] = share[shape] / geometry.area(shape);
+        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive)
+            if (const double area = geometry.area(shape, primitive); area > 0.0) {
+                primitives_.push_back({shape, primitive});
+                add(density_of_shape_[shape] * area);
+            }
     }
-    for (double& c : cumulative_) c /= total;
-    for (double& d : density_of_shape_)
-        if (d != 0.0) d /= total;
-    environment_share_ /= total;
+    for (std::size_t i = lights_.of_shape.size(); i < share.size(); ++i) add(share[i]);
+    if (lights_.environment) environment_share_ = share[lights_.of_shape.size()];
+    // Sums of rounded numbers; the last is 1.
+    const double all = cumulative_.back();
+    for (double& c : cumulative_) c /= all;
 }
 
 // `index`: 0 is the environment where there is one. `share`: the probability of having been chosen.

@@ -31,7 +31,7 @@ class Emitters {
 public:
     static constexpr int none = -1;
 
-    // Lights are chosen by their brightness: area times largest radiance, and what is comparable. Points on surfaces are uniform.
+    // Lights are chosen half by their power, of the largest radiance, and half alike. Points on surfaces are uniform.
     Emitters(const Geometry& geometry, Lights lights);
 
     // Le(p, ω), leaving p along ω (world space); p may be infinitely far away.
@@ -90,7 +90,7 @@ private:
     struct Primitive {
         std::uint32_t shape, primitive;
     };
-    void add(double brightness);
+    void add(double share);
     LightSample sample_distant(std::size_t index, double share, const Vec3& x, const Vec2& uv, double low) const;
 
     Lights lights_;

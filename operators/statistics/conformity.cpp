@@ -52,13 +52,17 @@ Conformity conformity_by_reference(const Image& picture, std::uint64_t samples, 
 Conformity conformity_by_error(const Estimate& picture, const SampledReference& reference) {
     check_size(picture.mean, reference.mean);
     check_size(picture.mean, reference.variance);
-    const auto n = static_cast<double>(reference.samples);
-    const double rounding = std::sqrt(n) * std::numeric_limits<float>::epsilon();
+    const auto n = static_cast<double>(reference.samples), samples = picture.degrees_of_freedom + 1.0;
+    // Numbers that are rounded, to half floats in the end and to floats in each addition, err by the bound over √3, were all errors up
+    // to the bound as likely.
+    const double rounding = std::hypot(0x1p-11, n * 0x1p-25) / std::sqrt(3.0);
     return judge(picture.mean, picture.degrees_of_freedom, [&](std::size_t pixel, int c) {
         const double mean = reference.mean.pixels[pixel][c], difference = picture.mean.pixels[pixel][c] - mean;
         if (difference == 0.0) return 0.0;
-        const double variance = std::max(reference.variance.pixels[pixel][c], 0.0) / n;
-        return difference / std::sqrt(std::pow(picture.standard_error.pixels[pixel][c], 2) + variance + std::pow(rounding * mean, 2));
+        const double of_sample = std::max(reference.variance.pixels[pixel][c], 0.0);
+        // Where our samples missed what is seldom, their spread tells nothing of it.
+        const double own = std::max(std::pow(picture.standard_error.pixels[pixel][c], 2), of_sample / samples);
+        return difference / std::sqrt(own + of_sample / n + std::pow(rounding * mean, 2));
     });
 }
 

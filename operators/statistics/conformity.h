@@ -25,8 +25,10 @@ struct Conformity {
 // error of the reference. Throws InputError where the sizes differ.
 Conformity conformity_by_reference(const Image& picture, std::uint64_t samples, const SampledReference& reference);
 
-// The difference over √(SE² + reference variance / reference samples + rounding²), by Student's t: the reference was added up in
-// floats, whose rounding is taken as random. Throws InputError where the sizes differ.
+// The difference over √(SE² + reference variance / reference samples + rounding²), by Student's t. SE is at least what the reference's
+// variance gives for as many samples. The rounding is that of floats that were added up, systematic where all are alike, and of half
+// floats, in which Mitsuba's films are stored unless told otherwise: directional, spot and texture_interp's are such to the last bit.
+// Throws InputError where the sizes differ.
 Conformity conformity_by_error(const Estimate& picture, const SampledReference& reference);
 
 }  // namespace neumann
