@@ -134,6 +134,10 @@ RenderResult render_by_walk(const RenderJob& job) {
     RenderResult result;
     result.series = bounce_series(series, std::move(report));
     Warnings& warnings = result.warnings;
+    const auto& bsdfs = scene.materials.bsdfs();
+    if (scene.emitters.has_delta_lights() &&
+        std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; }))
+        warnings.add("what a mirror throws on from a light without extent is not found by the walk and is missing");
     if (series.moments.replicates() < 2) warnings.add("a single replicate was sampled: the standard errors are unknown");
     warnings.add("sample was not a finite number and was left out", series.tally.non_finite_count);
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);

@@ -181,7 +181,7 @@ TEST(EnvironmentMap, DirectionsAreDrawnWithTheirDensity) {
 
 // K^1 Le = ρ/π ∫ L cosθ dω, by quadrature of the map; and over a sphere, on which all normals are alike, ρ/4π ∫ L dω on average. 4
 // places × 3 ways: 12 comparisons.
-TEST(EnvironmentMap, LightsASurfaceByItsIntegral) {
+TEST(EnvironmentMapSlow, LightsASurfaceByItsIntegral) {
     const double rho = 0.7;
     const int width = 8, height = 5;
     const EnvironmentMap map(picture(width, height), 1.5, upright);

@@ -157,13 +157,13 @@ TEST_F(XmlValueErrors, Sensors) {
               "scene.xml:2:30: to_world of sensor 'perspective' scales or shears, expected rotations and translations");
     EXPECT_EQ(
         file_error("<scene version='3.0.0'><sensor type='thinlens'><float name='aperture_radius' value='-1'/></sensor></scene>"),
-        "scene.xml:1:85: aperture_radius is -1, expected at least 0");
+        "scene.xml:1:78: aperture_radius is -1, expected at least 0");
     EXPECT_EQ(file_error("<scene version='3.0.0'><sensor type='thinlens'><float name='aperture_radius' value='1'/>"
                          "<float name='focus_distance' value='0'/></sensor></scene>"),
-              "scene.xml:1:125: focus_distance is 0, expected more than 0");
+              "scene.xml:1:118: focus_distance is 0, expected more than 0");
     EXPECT_EQ(
         file_error("<scene version='3.0.0'><sensor type='orthographic'><float name='fov' value='9'/></sensor></scene>"),
-        "scene.xml:1:65: unknown parameter 'fov' of sensor 'orthographic'; allowed: to_world, near_clip, far_clip, focus_distance");
+        "scene.xml:1:59: unknown parameter 'fov' of sensor 'orthographic'; allowed: to_world, near_clip, far_clip, focus_distance");
     EXPECT_EQ(sensor_error("<float name='fov' value='9'/><transform name='to_world'><scale z='0'/></transform>"),
               "scene.xml:2:30: to_world of sensor 'perspective' has no inverse");
 }
