@@ -1,5 +1,5 @@
 // Plastics, smooth and rough: the laws of a material, by quadrature and χ², and Mitsuba's sums.
-#include "tests/physics/chi_square.h"
+#include "tests/physics/material_laws.h"
 
 #include <complex>
 
@@ -28,9 +28,12 @@ std::vector<Named> rough() {
     }
     return all;
 }
-std::vector<Named> plastics() {
-    std::vector<Named> all = smooth();
-    for (Named& n : rough()) all.push_back(std::move(n));
+const std::vector<Named>& plastics() {
+    static const std::vector<Named> all = [] {
+        std::vector<Named> both = smooth();
+        for (Named& n : rough()) both.push_back(std::move(n));
+        return both;
+    }();
     return all;
 }
 
@@ -85,7 +88,7 @@ TEST(Plastic, TheWeightTimesTheDensityIsTheScatteringFunction) {
 }
 
 TEST(Plastic, IsReciprocal) {
-    for (const auto& [name, bsdf] : plastics()) EXPECT_LE(reciprocity_defect(bsdf, {}), 1e-12) << name;
+    for (const auto& [name, bsdf] : plastics()) EXPECT_LE(reciprocity_defect(bsdf, {}), 1e-10) << name;
 }
 
 TEST(Plastic, NothingIsReflectedBelowTheHorizonOrFromBehind) {
@@ -126,10 +129,12 @@ TEST(Plastic, ReflectsWhatItsFormulaSays) {
 TEST(Plastic, ReflectsNoMoreThanItsBound) {
     for (const auto& [name, bsdf] : plastics()) {
         for (int c = 0; c < 3; ++c) EXPECT_LE(largest_albedo(bsdf)[c], 1.0) << name;
-        for (const double mu : {1.0, 0.6, 0.2, 0.02})
+        for (const double mu : {1.0, 0.6, 0.2, 0.02}) {
+            const Rgb of_deltas = delta_albedo(bsdf, mu);
             for (int c = 0; c < 3; ++c)
-                EXPECT_LE(albedo(bsdf, mu, c, 1e-6) + delta_albedo(bsdf, mu)[c], largest_albedo(bsdf)[c] * (1.0 + 1e-6))
+                EXPECT_LE(albedo_of_both_sides(bsdf, at_cosine(mu), c) + of_deltas[c], largest_albedo(bsdf)[c] * (1.0 + 1e-3))
                     << name << ", cosine " << mu;
+        }
     }
 }
 
@@ -160,13 +165,14 @@ double walter_transmittance(const Microfacets& facets, double eta, double mu) {
     });
 }
 TEST(RoughPlastic, ItsTransmittanceIsThatOfRoughGlass) {
-    for (const double alpha : {0.2, 0.5})
+    for (const double alpha : {0.2, 0.5}) {
+        const RoughTransmittance ggx(Ggx(alpha), 1.49), beckmann(Beckmann(alpha), 1.49);
         for (const int node : {63, 40, 12}) {
             const double mu = node / 63.0;
-            EXPECT_NEAR(RoughTransmittance(Ggx(alpha), 1.49)(mu), walter_transmittance(Ggx(alpha), 1.49, mu), 5e-4) << alpha;
-            EXPECT_NEAR(RoughTransmittance(Beckmann(alpha), 1.49)(mu), walter_transmittance(Beckmann(alpha), 1.49, mu), 5e-4)
-                << alpha;
+            EXPECT_NEAR(ggx(mu), walter_transmittance(Ggx(alpha), 1.49, mu), 5e-4) << alpha << " " << mu;
+            EXPECT_NEAR(beckmann(mu), walter_transmittance(Beckmann(alpha), 1.49, mu), 5e-4) << alpha << " " << mu;
         }
+    }
 }
 
 // For α → 0 it is smooth: T = 1 − F, linear between the nodes, and F̄ the sum over the nodes.
