@@ -59,7 +59,9 @@ Conformity conformity_by_error(const Estimate& picture, const SampledReference& 
     return judge(picture.mean, picture.degrees_of_freedom, [&](std::size_t pixel, int c) {
         const double mean = reference.mean.pixels[pixel][c], difference = picture.mean.pixels[pixel][c] - mean;
         if (difference == 0.0) return 0.0;
-        const double of_sample = std::max(reference.variance.pixels[pixel][c], 0.0);
+        // A difference of two half floats, of which the smallest is 2⁻²⁴.
+        const double stored = std::max(reference.variance.pixels[pixel][c], 0.0);
+        const double of_sample = stored + 0x1p-11 * (mean * mean + stored) + 0x1p-24;
         // Where our samples missed what is seldom, their spread tells nothing of it.
         const double own = std::max(std::pow(picture.standard_error.pixels[pixel][c], 2), of_sample / samples);
         return difference / std::sqrt(own + of_sample / n + std::pow(rounding * mean, 2));

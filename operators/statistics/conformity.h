@@ -27,8 +27,8 @@ Conformity conformity_by_reference(const Image& picture, std::uint64_t samples, 
 
 // The difference over √(SE² + reference variance / reference samples + rounding²), by Student's t. SE is at least what the reference's
 // variance gives for as many samples. The rounding is that of floats that were added up, systematic where all are alike, and of half
-// floats, in which Mitsuba's films are stored unless told otherwise: directional, spot and texture_interp's are such to the last bit.
-// Throws InputError where the sizes differ.
+// floats, in which Mitsuba stores films, and so their variance, unless told otherwise: the references of its scenes directional, spot
+// and texture_interp are half floats to the last bit, once they are XYZ again. Throws InputError where the sizes differ.
 Conformity conformity_by_error(const Estimate& picture, const SampledReference& reference);
 
 }  // namespace neumann
