@@ -39,9 +39,7 @@ Materials::Sides Bsdfs::read_perturbed_normal(const Element& e) {
     const std::vector<const Element*> nested = p.nested("bsdf");
     p.finish();
     if (nested.empty()) throw InputError(e.place, fmt::format("{} has no <bsdf> inside, expected one", p.title()));
-    if (!open_.insert(&e).second) throw InputError(e.place, fmt::format("{} stands inside itself", p.title()));
     const Materials::Sides inner = sides(*nested.front());
-    open_.erase(&e);
 
     const auto perturb = [&](int side, bool from_behind) {
         if (side == Materials::absorbing) return Materials::absorbing;

@@ -120,7 +120,7 @@ TEST_F(XmlInstances, Errors) {
               "scene.xml:2:33: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, "
               "serialized, shapegroup, sphere");
     EXPECT_EQ(error("<shape type='shapegroup'><shape type='cube'><bsdf type='plush'/></shape></shape>").substr(0, 62),
-              "scene.xml:2:51: bsdf type 'plush' is not supported; allowed: c");
+              "scene.xml:2:51: bsdf type 'plush' is not supported; allowed: b");
     EXPECT_EQ(error(instance("\n<shape type='sphere'/>", "<scale x='2'/>")),
               "scene.xml:5:1: to_world of shape 'instance' makes the sphere at scene.xml:3:1 another shape, which only meshes can "
               "become; expected a uniform scale, rotations and translations");

@@ -42,9 +42,9 @@ TEST_F(XmlManyShapes, TheFirstErrorIsTold) {
     write("11.obj", "v 0 0\n");
     write("90.obj", "v");
     for (int i = 0; i < 5; ++i) ASSERT_EQ(error(text), "10.obj:100001:7: expected a number, found 'zero'");
-    // The material of an earlier shape comes before a later file, and after its own.
+    // All files come before any material.
     const std::string wrong = "<shape type='cube'><bsdf type='diffuse'><float name='reflectance' value='x'/></bsdf></shape>\n";
-    EXPECT_EQ(error(wrong + text), "scene.xml:2:67: 'x' is not a number");
+    EXPECT_EQ(error(wrong + text), "10.obj:100001:7: expected a number, found 'zero'");
     EXPECT_EQ(error(text + wrong), "10.obj:100001:7: expected a number, found 'zero'");
     EXPECT_EQ(error("<shape type='instance'/>\n" + text), "scene.xml:2:1: shape 'instance' has no shapegroup inside, expected one");
     EXPECT_EQ(error(text + "<shape type='instance'/>\n"), "10.obj:100001:7: expected a number, found 'zero'");

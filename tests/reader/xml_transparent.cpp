@@ -138,9 +138,9 @@ TEST_F(XmlTransparent, Refusals) {
               "scene.xml:3:8: unknown parameter 'alpha' of bsdf 'thindielectric'; allowed: int_ior, ext_ior, specular_reflectance, "
               "specular_transmittance");
     EXPECT_EQ(wrong("roughdielectric", "<float name='int_ior' value='1.5'/><float name='ext_ior' value='1.5'/>"),
-              "scene.xml:3:29: int_ior and ext_ior of bsdf 'roughdielectric' are both 1.5, expected different ones");
+              "scene.xml:3:23: int_ior and ext_ior of bsdf 'roughdielectric' are both 1.5, expected different ones");
     EXPECT_EQ(wrong("roughdielectric", "<string name='distribution' value='phong'/>"),
-              "scene.xml:3:35: distribution is 'phong'; allowed: beckmann, ggx");
+              "scene.xml:3:29: distribution is 'phong'; allowed: beckmann, ggx");
     EXPECT_EQ(wrong("null", "<float name='opacity' value='1'/>"),
               "scene.xml:3:8: unknown parameter 'opacity' of bsdf 'null'; it has none");
     EXPECT_EQ(wrong("retroreflector", "<float name='alpha' value='0'/>"),
@@ -157,13 +157,13 @@ TEST_F(XmlTransparent, RefusalsOfMixtures) {
     EXPECT_EQ(wrong("mask", "<bsdf type='diffuse'/><bsdf type='diffuse'/>"),
               "scene.xml:3:23: bsdf 'mask' has more than one <bsdf>");
     EXPECT_EQ(wrong("mask", "<float name='opacity' value='1.5'/><bsdf type='diffuse'/>"),
-              "scene.xml:3:29: opacity of bsdf 'mask' is 1.5, expected from 0 to 1");
+              "scene.xml:3:23: opacity of bsdf 'mask' is 1.5, expected from 0 to 1");
     EXPECT_EQ(wrong("mask", "<float name='weight' value='1'/><bsdf type='diffuse'/>"),
               "scene.xml:3:8: unknown parameter 'weight' of bsdf 'mask'; allowed: opacity");
     EXPECT_EQ(wrong("blendbsdf", ""), "scene.xml:2:1: bsdf 'blendbsdf' has no <bsdf> inside, expected two");
     EXPECT_EQ(wrong("blendbsdf", "<bsdf type='diffuse'/>"), "scene.xml:2:1: bsdf 'blendbsdf' has one <bsdf> inside, expected two");
     EXPECT_EQ(wrong("blendbsdf", "<float name='weight' value='-0.5'/><bsdf type='diffuse'/><bsdf type='diffuse'/>"),
-              "scene.xml:3:28: weight of bsdf 'blendbsdf' is -0.5, expected from 0 to 1");
+              "scene.xml:3:22: weight of bsdf 'blendbsdf' is -0.5, expected from 0 to 1");
     EXPECT_EQ(wrong("twosided", "<bsdf type='dielectric'/>"),
               "scene.xml:3:1: bsdf 'dielectric' in bsdf 'twosided' lets light through, expected one that only reflects");
     EXPECT_EQ(wrong("twosided", "<bsdf type='diffuse'/>\n<bsdf type='mask'><bsdf type='diffuse'/></bsdf>"),
