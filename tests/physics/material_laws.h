@@ -11,10 +11,10 @@ namespace neumann::physics {
 
 inline constexpr std::uint64_t directions_seed = 20240229;
 
-// ∫ f(ω) dω over z and φ between bounds: Gauss's rule of 10 × 10 points.
+// ∫ f(ω) dω over z and φ between bounds: Gauss's rule of 20 × 20 points.
 template <class Function>
 double over_cell(double from_z, double to_z, double from_phi, double to_phi, const Function& f) {
-    using Rule = boost::math::quadrature::gauss<double, 10>;
+    using Rule = boost::math::quadrature::gauss<double, 20>;
     return Rule::integrate(
         [&](double z) {
             const double r = std::sqrt(1.0 - z * z);
@@ -22,9 +22,9 @@ double over_cell(double from_z, double to_z, double from_phi, double to_phi, con
         },
         from_z, to_z);
 }
-// The albedo seen from ωo, reflected and let through, in 16 × 16 cells.
+// The albedo seen from ωo, reflected and let through, in 8 × 8 cells.
 inline double albedo_of_both_sides(const Bsdf& bsdf, const Vec3& wo, int channel) {
-    constexpr int n = 16;
+    constexpr int n = 8;
     double sum = 0.0;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)

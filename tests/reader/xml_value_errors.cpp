@@ -247,9 +247,9 @@ TEST_F(XmlValueErrors, Conductors) {
     for (const Metal& metal : metals()) names += ", " + std::string(metal.name);
     EXPECT_EQ(unknown, "scene.xml:3:25: material 'Unobtainium' of bsdf 'conductor' is unknown; allowed: " + names);
     EXPECT_EQ(error("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/><float name=\"k\" value=\"2\"/></bsdf>"),
-              "scene.xml:3:62: both material and k are given, expected one of them");
+              "scene.xml:3:53: both material and k are given, expected one of them");
     EXPECT_EQ(error("<bsdf type=\"conductor\">\n<spectrum name=\"eta\" value=\"400:1.6 700:-0.2\"/></bsdf>"),
-              "scene.xml:3:28: eta is negative: '400:1.6 700:-0.2'");
+              "scene.xml:3:22: eta is negative: '400:1.6 700:-0.2'");
     EXPECT_EQ(error("<bsdf type=\"conductor\">\n<rgb name=\"k\" value=\"3.9, -2.4, 2.2\"/></bsdf>"),
               "scene.xml:3:15: k is negative: '3.9, -2.4, 2.2'");
     EXPECT_EQ(error("<bsdf type=\"conductor\">\n<float name=\"int_ior\" value=\"1\"/></bsdf>"),
@@ -300,7 +300,7 @@ TEST_F(XmlValueErrors, Principled) {
     const auto principled = [&](const std::string& inside) { return error("<bsdf type=\"principled\">\n" + inside + "</bsdf>"); };
     EXPECT_EQ(principled("<float name=\"metallic\" value=\"1.5\"/>"), "scene.xml:3:24: metallic is 1.5, expected 0 to 1");
     EXPECT_EQ(principled("<float name=\"eta\" value=\"1.5\"/><float name=\"specular\" value=\"0.5\"/>"),
-              "scene.xml:3:57: both eta and specular are given, expected one of them");
+              "scene.xml:3:55: both eta and specular are given, expected one of them");
     EXPECT_EQ(principled("<float name=\"eta\" value=\"0\"/>"), "scene.xml:3:19: eta is 0, expected more than 0");
     EXPECT_EQ(principled("<float name=\"specular\" value=\"2\"/>"), "scene.xml:3:24: specular is 2, expected 0 to 1");
     EXPECT_EQ(principled("<float name=\"diff_trans\" value=\"1\"/>"),
