@@ -33,10 +33,10 @@ inline double albedo_of_both_sides(const Bsdf& bsdf, const Vec3& wo, int channel
     return sum;
 }
 
-// The probability of a χ² that is larger than that of 65536 directions in 12 × 24 cells of the sphere, equal in solid angle, and of
+// The probability of a χ² that is larger than that of 16384 directions in 12 × 24 cells of the sphere, equal in solid angle, and of
 // those that are deltas or none at all, whose share is 1 − ∫ pdf.
 inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, std::uint32_t stream,
-                                 std::uint64_t seed = directions_seed, int count = 65536) {
+                                 std::uint64_t seed = directions_seed, int count = 16384) {
     constexpr int rings = 12, sectors = 24;
     std::vector<double> found(rings * sectors);
     double others = 0.0;
@@ -74,7 +74,7 @@ inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const 
             }
         }
     if (others == 0.0) {
-        EXPECT_NEAR(all / count, 1.0, 1e-3);
+        EXPECT_NEAR(all / count, 1.0, 4e-3);  // the quadrature's error where a grazing lobe is narrow
     } else if (count - all >= 10.0) {
         compare(others, count - all);
     } else {
