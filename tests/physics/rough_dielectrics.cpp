@@ -1,6 +1,6 @@
 // Rough boundaries that let light through: the laws of a material over the whole sphere.
 #include "core/sampling/sobol_sampler.h"
-#include "tests/physics/chi_square.h"
+#include "tests/physics/material_laws.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

@@ -55,7 +55,7 @@ TEST(Conformity, APictureOfTheSameExpectationIsAccepted) {
 }
 
 // p-values are uniform: of 72,000 the part below 1/10 is within 4.4 standard deviations of 0.1 but for one run in 100,000.
-TEST(Conformity, PValuesAreUniform) {
+TEST(Conformity, PValuesAreUniformOrALittleLarger) {
     double below_reference = 0.0, below_error = 0.0, all = 0.0;
     for (unsigned seed = 100; seed < 120; ++seed) {
         const Made m = make(seed, 0.0, 1);
@@ -70,7 +70,10 @@ TEST(Conformity, PValuesAreUniform) {
     const double tolerance = 4.4 * std::sqrt(0.1 * 0.9 / all);
     // Mitsuba's test takes the reference as exact, so its statistic is wider by √(1 + 200/32000).
     EXPECT_NEAR(below_reference / all, 0.1, tolerance + 0.001);
-    EXPECT_NEAR(below_error / all, 0.1, tolerance);
+    // The other one takes the larger of two estimates of the same error, each known to 5%, and rounding: its z is up to 3% smaller,
+    // and P(|t| > 1.65 · 1.03) = 0.09.
+    EXPECT_LE(below_error / all, 0.1 + tolerance);
+    EXPECT_GE(below_error / all, 0.09 - tolerance);
 }
 
 // A shift of 10 standard errors is seen in every pixel that has it.
