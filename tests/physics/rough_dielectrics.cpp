@@ -46,7 +46,8 @@ TEST(RoughDielectric, TheWeightTimesTheDensityIsTheScatteringFunction) {
         }
 }
 
-// fs(ωi → ωo)/no² = fs(ωo → ωi)/ni², through the boundary; on one side as ever.
+// fs(ωi → ωo)/no² = fs(ωo → ωi)/ni², through the boundary; on one side as ever. Beside total reflection, where 1 − F vanishes, only
+// the rounding of F, which is of order 1, can be asked for.
 TEST(RoughDielectric, IsReciprocalButForTheSquaredIndex) {
     for (const Named& g : glasses()) {
         EXPECT_LE(reciprocity_defect(g.bsdf, {}), 1e-10) << g.name;
@@ -56,7 +57,7 @@ TEST(RoughDielectric, IsReciprocalButForTheSquaredIndex) {
             sampler.start(i);
             const Vec3 above = uniform_hemisphere(sampler.next2()), below = -uniform_hemisphere(sampler.next2());
             const Rgb one = eval(g.bsdf, {}, above, below), other = eval(g.other_side, {}, -below, -above);
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(one[c] * g.eta * g.eta, other[c], 1e-9 * other[c]) << g.name;
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(one[c] * g.eta * g.eta, other[c], 1e-9 * other[c] + 1e-12) << g.name;
             let_through += one.r > 0.0;
         }
         EXPECT_GT(let_through, 500) << g.name;
