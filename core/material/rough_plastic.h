@@ -4,8 +4,8 @@
 //     fs(ωi → ωo) = s F(ωo·m) D(m) G1(ωi) G1(ωo) / (4 cosθi cosθo) + b T(cosθi) T(cosθo) / π,
 //
 // T the share of light from one direction that facets which it meets once let into the layer, and F̄ in b the mean share that facets
-// reflect inside. Both are Mitsuba's sums: T is linear between 64 equidistant cosines, and F̄ is 2/64 Σ R(μ) μ over these, 1.5% below
-// the integral.
+// reflect inside. Both are Mitsuba's sums: T is linear between 64 equidistant cosines, and F̄ is 2/64 Σ R(μ) μ over these, 1.5%
+// below the integral.
 #pragma once
 
 #include "core/material/beckmann.h"
@@ -19,7 +19,7 @@ namespace neumann {
 
 class RoughTransmittance {
 public:
-    // By Gauss's rule over the facets that are seen; about 50 ms for Beckmann's facets.
+    // By Gauss's rule over the facets that are seen.
     template <class Microfacets>
     RoughTransmittance(const Microfacets& facets, double eta);
 
