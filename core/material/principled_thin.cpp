@@ -70,6 +70,7 @@ BsdfSample PrincipledThin::sample(const PrincipledValues& v, const Vec3& wo, Vec
         wi = 2.0 * glm::dot(wo, m) * m - wo;
         if (wi.z <= 0.0) return {};
         if (!reflecting) wi.z = -wi.z;
+        if (!reflecting && glm::dot(wi, m) >= 0.0) return {};
     } else {
         const bool through = choose_first(0.5 * v.diff_trans, u.x);
         wi = cosine_hemisphere(u);

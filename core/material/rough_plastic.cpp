@@ -9,7 +9,7 @@ namespace {
 // ∫ over the facets that a direction of cosine μ sees, each with its share.
 template <class Microfacets, class Function>
 double mean_over_facets(const Microfacets& facets, double mu, const Function& f) {
-    using Rule = boost::math::quadrature::gauss<double, 20>;
+    using Rule = boost::math::quadrature::gauss<double, 30>;
     const Vec3 wo(std::sqrt(1.0 - mu * mu), 0.0, mu);
     return Rule::integrate(
         [&](double x) {
