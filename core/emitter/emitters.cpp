@@ -17,6 +17,14 @@ std::vector<double> shares(const std::vector<double>& powers) {
     return result;
 }
 
+// Of the light with this index, where there are others: directions of the material find an environment anyway.
+void limit_to_half(std::vector<double>& share, std::size_t index) {
+    const double others = 1.0 - share[index];
+    if (share[index] <= 0.5 || others <= 0.0) return;
+    for (double& s : share) s *= 0.5 / others;
+    share[index] = 0.5;
+}
+
 }  // namespace
 
 void Emitters::add(double share) { cumulative_.push_back((cumulative_.empty() ? 0.0 : cumulative_.back()) + share); }
@@ -45,7 +53,8 @@ Emitters::Emitters(const Geometry& geometry, Lights lights)
         if (powers.back() > 0.0) largest_radiance_ = Rgb(std::numeric_limits<double>::infinity());
     }
 
-    const std::vector<double> share = shares(powers);
+    std::vector<double> share = shares(powers);
+    if (lights_.environment) limit_to_half(share, lights_.of_shape.size());
     if (std::all_of(share.begin(), share.end(), [](double s) { return s == 0.0; })) return;
     for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
         if (share[shape] == 0.0) continue;

@@ -31,7 +31,8 @@ class Emitters {
 public:
     static constexpr int none = -1;
 
-    // Lights are chosen half by their power, of the largest radiance, and half alike. Points on surfaces are uniform.
+    // Lights are chosen half by their power, of the largest radiance, and half alike, an environment at most every other time. Points on
+    // surfaces are uniform.
     Emitters(const Geometry& geometry, Lights lights);
 
     // Le(p, ω), leaving p along ω (world space); p may be infinitely far away.
