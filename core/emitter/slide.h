@@ -1,33 +1,27 @@
-// A picture that a light throws: Mitsuba's `bitmap` in the unit square, its first row at v = 0.
+// What a light throws: a function on the unit square, (0, 0) the corner of its first pixel (Mitsuba's textures in lights).
 #pragma once
 
-#include "core/image/image.h"
+#include "core/base/vec.h"
 
-#include <memory>
+#include <functional>
 
 namespace neumann {
 
 class Slide {
 public:
-    enum class Wrap { repeat, mirror, clamp };
+    // `f`: not negative. `width` and `height`: of its pixels, which tell how it is stretched and where its mean is taken from.
+    Slide(std::function<Rgb(const Vec2& uv)> f, int width, int height, bool is_grey);
+    explicit Slide(const Rgb& constant);
 
-    // `image`: finite, not negative, not empty. `interpolated`: bilinear between the pixels' middles, or else the nearest pixel.
-    explicit Slide(Image image, bool interpolated = true, Wrap wrap = Wrap::repeat);
-
-    Rgb at(const Vec2& uv) const;
-    double mean() const { return mean_; }  // of all pixels and channels
-    double aspect() const { return static_cast<double>(image_->width) / image_->height; }
+    Rgb at(const Vec2& uv) const { return function_(uv); }
+    double mean() const { return mean_; }  // of all pixels' middles and channels
+    double aspect() const { return aspect_; }
     bool is_grey() const { return is_grey_; }
 
 private:
-    int wrapped(double index, int size) const;
-    const Rgb& pixel(double x, double y) const { return image_->at(wrapped(x, image_->width), wrapped(y, image_->height)); }
-
-    std::shared_ptr<const Image> image_;
-    bool interpolated_;
-    Wrap wrap_;
-    double mean_ = 0.0;
-    bool is_grey_ = true;
+    std::function<Rgb(const Vec2& uv)> function_;
+    double mean_ = 0.0, aspect_;
+    bool is_grey_;
 };
 
 }  // namespace neumann

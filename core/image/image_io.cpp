@@ -1,8 +1,8 @@
 #include "core/image/image_io.h"
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/image/gif_frames.h"
-#include "core/spectrum/spectrum_to_rgb.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -134,6 +135,17 @@ void expect_readable(const std::string& path) {
     }
 }
 
+// Damaged headers speak of sizes that no memory holds. Of the formats, those that pack plain surfaces best (OpenEXR's DWAB: 256
+// rows in some hundred bytes) stay below 1 : 65,536.
+void expect_possible_size(const OIIO::ImageSpec& spec, const std::string& path) {
+    const double bytes = static_cast<double>(spec.image_pixels()) * spec.nchannels * sizeof(float);
+    std::error_code ignored;
+    const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
+    if (spec.depth != 1 || bytes > 65536.0 * file_bytes || bytes > 0.5 * physical_memory())
+        throw InputError(fmt::format("{}: the picture is damaged or too large: its header says {}×{} pixels of {} channels", path,
+                                     spec.width, spec.height, spec.nchannels));
+}
+
 // Alpha is not multiplied into the colours.
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     expect_readable(path);
@@ -144,6 +156,7 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
         OIIO::geterror();
         throw InputError(path + ": not a picture that can be read");
     }
+    expect_possible_size(input->spec(), path);
     return input;
 }
 
@@ -220,28 +233,8 @@ Estimate read_exr(const std::string& path, Attributes* attributes) {
     return picture;
 }
 
-Image read_light_image(const std::string& path, bool raw) {
-    const auto input = open_picture(path);
-    const OIIO::ImageSpec spec = input->spec();
-    auto places = find_channels(spec, mean_channels);
-    if (!places && spec.nchannels <= 2) places = {0, 0, 0};
-    if (!places) throw InputError(fmt::format("{}: no channels R, G, B; it has {}", path, fmt::join(spec.channelnames, ", ")));
-    Image picture = pick_channels(spec, read_values(*input, path), *places);
-    if (!raw && !spec.format.is_floating_point())
-        for (Rgb& c : picture.pixels)
-            for (int i = 0; i < 3; ++i) c[i] = srgb_decode(c[i]);
-    return picture;
-}
-
 Texels read_texels(const std::string& path) {
-    expect_readable(path);
-    OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;  // colours as they are in the file, not times alpha
-    const auto input = OIIO::ImageInput::open(path, &config);
-    if (!input) {
-        OIIO::geterror();
-        throw InputError(path + ": not a picture that can be read");
-    }
+    const auto input = open_picture(path);
     const OIIO::ImageSpec& spec = input->spec();
     std::vector<std::size_t> places{0};
     if (const auto named = find_channels(spec, mean_channels))

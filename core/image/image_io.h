@@ -20,8 +20,8 @@ namespace neumann {
 using Attribute = std::variant<std::int64_t, double, std::string>;
 using Attributes = std::map<std::string, Attribute>;
 
-// An OpenEXR file: float32 channels R, G, B (`mean`), stderr.R, stderr.G, stderr.B (`standard_error`) and discretisation.R, …; those
-// of an empty picture are left out. The pictures have one size, at least 1×1; otherwise throws std::invalid_argument.
+// An OpenEXR file: float32 channels R, G, B (`mean`), stderr.R, stderr.G, stderr.B (`standard_error`) and discretisation.R, …;
+// those of an empty picture are left out. The pictures have one size, at least 1×1; otherwise throws std::invalid_argument.
 std::string encode_exr(const Estimate& picture, const Attributes& attributes = {});
 
 // A PNG file with 8 bits a channel.
@@ -32,16 +32,13 @@ std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_s
 
 // Any picture that OpenImageIO reads, values as they are in the file (8-bit ones scaled to 0..1, not linearised; NaN and infinity
 // kept), and `attributes`, if asked for, with the numbers and texts of its header. Without stderr channels `standard_error` is
-// empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such file, not a picture, damaged, no channels R, G, B.
+// empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such file, not a picture, damaged, no
+// channels R, G, B.
 Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
 
-// Any picture that OpenImageIO reads as linear RGB, as Mitsuba takes pictures for light: integers are decoded as sRGB unless `raw`,
-// floats are linear already, a single channel is grey, alpha is left out. Throws InputError, beginning with the path.
-Image read_light_image(const std::string& path, bool raw = false);
-
-// Any picture that OpenImageIO reads, as a texture: channels R, G, B where there are any of these names, otherwise the first three, or
-// the first where there are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value that is
-// not finite.
+// Any picture that OpenImageIO reads, as a texture: channels R, G, B where there are any of these names, otherwise the first three,
+// or the first where there are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value
+// that is not finite.
 Texels read_texels(const std::string& path);
 
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.

@@ -15,6 +15,7 @@ int AreaLights::index(const Element& e) {
         const Element& radiance = p.require("radiance", color_types);
         lights_.emplace_back(parse_color(p, "radiance", radiance, Illuminant::equal_energy, context_.warnings));
     }
+    p.number("sampling_weight");  // how often Mitsuba chooses it; changes noise only
     p.finish();
     return index_[&e] = static_cast<int>(lights_.size()) - 1;
 }

@@ -1,40 +1,23 @@
 #include "core/reader/light_images.h"
 
-#include "core/image/image_io.h"
+#include "core/reader/textures.h"
+#include "core/texture/bitmap.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 
 namespace neumann::reader {
 
-Slide read_bitmap(const Element& e, const Context& context) {
-    static const std::map<std::string, Slide::Wrap> wraps = {
-        {"repeat", Slide::Wrap::repeat}, {"mirror", Slide::Wrap::mirror}, {"clamp", Slide::Wrap::clamp}};
-    if (e.attribute("type").value != "bitmap") fail_type(e, {"bitmap"});
-    Properties p(e, context.objects);
-    const Attribute& filename = p.require("filename", {"string"}).attribute("value");
-    const std::string filter = p.choice("filter_type", {"bilinear", "nearest"}, "bilinear");
-    const std::string wrap = p.choice("wrap_mode", {"repeat", "mirror", "clamp"}, "repeat");
-    const bool raw = p.boolean("raw").value_or(false);
-    // How Mitsuba stores it.
-    p.choice("format", {"auto", "variant", "fp16"}, "auto");
-    p.boolean("accel");
-    p.finish();
-    return Slide(read_light_image(filename, raw, context), filter == "bilinear", wraps.at(wrap));
-}
-
-Image read_light_image(const Attribute& filename, bool raw, const Context& context) {
-    const std::string path = context.document.find_file(filename);
-    context.mesh_files.push_back(path);
-    Image image = neumann::read_light_image(path, raw);
+Image read_light_image(const Attribute& filename, const Context& context) {
+    Image image = Bitmap(read_texels(filename, context), Bitmap::Filter::nearest, Bitmap::Wrap::clamp, false).image();
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const Rgb& c = image.at(x, y);
-            if (!is_finite(c) || std::min({c.r, c.g, c.b}) < 0.0)
-                throw InputError(
-                    filename.place,
-                    fmt::format("pixel ({}, {}) of '{}' is ({}, {}, {}), expected finite numbers that are not negative", x, y,
-                                filename.value, c.r, c.g, c.b));
+            if (std::min({c.r, c.g, c.b}) < 0.0)
+                throw InputError(filename.place,
+                                 fmt::format("pixel ({}, {}) of '{}' is ({}, {}, {}), expected numbers that are not negative", x, y,
+                                             filename.value, c.r, c.g, c.b));
         }
     return image;
 }
@@ -49,9 +32,17 @@ std::optional<Slide> read_slide(Properties& p, const std::string& name, const Co
                              fmt::format("a <texture> of {} {}, expected the name '{}'", p.title(),
                                          given ? "is named '" + given->value + "'" : "has no name", name));
     }
-    const std::vector<const Element*> found = p.nested("texture");
-    if (found.empty()) return std::nullopt;
-    return read_bitmap(*found.front(), context);
+    const Element* e = p.object(name, "texture");
+    if (!e) return std::nullopt;
+    for (const auto& [attribute, place] : mesh_attributes_of(*e, context.objects))
+        throw InputError(place->place, fmt::format("the mesh attribute '{}' is thrown by a light, which has no mesh", attribute));
+    const Texture texture = read_not_negative(*e, name, Illuminant::equal_energy, context);
+    const auto at = [f = texture.value](const Vec2& uv) {
+        ShadingPoint p;
+        p.uv = uv;
+        return f(p);
+    };
+    return Slide(at, texture.width, texture.height, texture.value.is_grey());
 }
 
 }  // namespace neumann::reader

@@ -1,7 +1,8 @@
-// Pictures that shine: an environment's, and the `bitmap` textures that a light throws.
+// Pictures that shine: an environment's, and the textures that a light throws.
 #pragma once
 
 #include "core/emitter/slide.h"
+#include "core/image/image.h"
 #include "core/reader/context.h"
 #include "core/reader/properties.h"
 
@@ -9,10 +10,9 @@
 
 namespace neumann::reader {
 
-// The file becomes part of the scene's hash. Throws InputError where a pixel is negative or not finite.
-Image read_light_image(const Attribute& filename, bool raw, const Context& context);
+// Linear. Throws InputError where a pixel is negative.
+Image read_light_image(const Attribute& filename, const Context& context);
 
-Slide read_bitmap(const Element& e, const Context& context);
 // The <texture> of this name inside an emitter, if there is one.
 std::optional<Slide> read_slide(Properties& p, const std::string& name, const Context& context);
 

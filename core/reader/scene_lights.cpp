@@ -40,7 +40,7 @@ EnvironmentMap read_envmap(Properties& p, const Context& context) {
     const double scale = read_scale(p);
     const Mat4 to_world = read_rigid_transform(p);
     p.boolean("mis_compensation");  // how Mitsuba draws directions; changes noise only
-    Image image = read_light_image(filename, false, context);
+    Image image = read_light_image(filename, context);
     if (image.width < 2 || image.height < 3)
         throw InputError(filename.place,
                          fmt::format("'{}' is {}×{} pixels, expected at least 2×3", filename.value, image.width, image.height));
@@ -81,9 +81,7 @@ ProjectorLight read_projector(Properties& p, const Context& context) {
     std::optional<Slide> slide = read_slide(p, "irradiance", context);
     if (!slide) {
         const Element& color = p.require("irradiance", color_types);
-        Image image(1, 1);
-        image.at(0, 0) = parse_color(p, "irradiance", color, Illuminant::equal_energy, context.warnings);
-        slide.emplace(std::move(image));
+        slide.emplace(parse_color(p, "irradiance", color, Illuminant::equal_energy, context.warnings));
     }
     const double scale = read_scale(p);
     const FieldOfView field = read_field_of_view(p);
@@ -111,6 +109,7 @@ void SceneLights::add(const Element& e) {
         delta_.emplace_back(read_projector(p, context_));
     else
         fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot"});
+    p.number("sampling_weight");  // how often Mitsuba chooses it; changes noise only
     p.finish();
 }
 

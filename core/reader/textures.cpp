@@ -22,21 +22,18 @@ Texture read_bitmap(Properties& p, const Context& context) {
     p.boolean("accel");
     p.finish();
 
-    const std::string path = context.document.find_file(filename);
-    auto& texels = context.textures.images[path];
-    if (!texels) {
-        texels = std::make_shared<const Texels>(read_texels(path));
-        context.mesh_files.push_back(path);
-    }
     using Wrap = Bitmap::Wrap;
-    const auto bitmap = std::make_shared<const Bitmap>(texels, nearest ? Bitmap::Filter::nearest : Bitmap::Filter::bilinear,
-                                                       wrap == "repeat"   ? Wrap::repeat
-                                                       : wrap == "mirror" ? Wrap::mirror
-                                                                          : Wrap::clamp,
-                                                       raw);
-    return {{[bitmap, to_uv](const ShadingPoint& at) { return (*bitmap)(to_uv(at.uv)); }, bitmap->largest()},
+    const auto bitmap =
+        std::make_shared<const Bitmap>(read_texels(filename, context), nearest ? Bitmap::Filter::nearest : Bitmap::Filter::bilinear,
+                                       wrap == "repeat"   ? Wrap::repeat
+                                       : wrap == "mirror" ? Wrap::mirror
+                                                          : Wrap::clamp,
+                                       raw);
+    return {{[bitmap, to_uv](const ShadingPoint& at) { return (*bitmap)(to_uv(at.uv)); }, bitmap->largest(), bitmap->is_grey()},
             bitmap->smallest(),
-            [bitmap, to_uv](const ShadingPoint& at) { return to_uv.slope(bitmap->slope(to_uv(at.uv))); }};
+            [bitmap, to_uv](const ShadingPoint& at) { return to_uv.slope(bitmap->slope(to_uv(at.uv))); },
+            bitmap->width(),
+            bitmap->height()};
 }
 
 Texture read_checkerboard(Properties& p, Illuminant illuminant, const Context& context) {
@@ -48,7 +45,7 @@ Texture read_checkerboard(Properties& p, Illuminant illuminant, const Context& c
                  const Vec2 uv = to_uv(at.uv), part = uv - glm::floor(uv);
                  return ((part.x > 0.5) == (part.y > 0.5) ? color0 : color1)(at);
              },
-             glm::max(color0.upper_bound(), color1.upper_bound())}};
+             glm::max(color0.upper_bound(), color1.upper_bound()), color0.is_grey() && color1.is_grey()}};
 }
 
 const Attribute& attribute_name(Properties& p) { return p.require("name", {"string"}).attribute("value"); }
@@ -86,6 +83,16 @@ void find_mesh_attributes(const Element& e, const Objects& objects, std::set<con
 
 }  // namespace
 
+std::shared_ptr<const Texels> read_texels(const Attribute& filename, const Context& context) {
+    const std::string path = context.document.find_file(filename);
+    auto& texels = context.textures.images[path];
+    if (!texels) {
+        texels = std::make_shared<const Texels>(neumann::read_texels(path));
+        context.mesh_files.push_back(path);
+    }
+    return texels;
+}
+
 Texture read_texture(const Element& e, Illuminant illuminant, const Context& context) {
     if (!context.textures.open.insert(&e).second) throw InputError(e.place, "the texture stands inside itself");
     context.textures.known.insert(&e);
@@ -104,15 +111,18 @@ Texture read_texture(const Element& e, Illuminant illuminant, const Context& con
     return texture;
 }
 
+Texture read_not_negative(const Element& e, const std::string& name, Illuminant illuminant, const Context& context) {
+    Texture texture = read_texture(e, illuminant, context);
+    if (const Rgb& s = texture.smallest; std::min({s.r, s.g, s.b}) < 0.0)
+        throw InputError(e.place, fmt::format("the texture is negative somewhere, down to {}, expected a {} of at least 0",
+                                              std::min({s.r, s.g, s.b}), name));
+    return texture;
+}
+
 std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::string& name, Illuminant illuminant,
                                                   const Context& context) {
     const Element* e = p.object(name, "texture");
-    if (!e) return std::nullopt;
-    const Texture texture = read_texture(*e, illuminant, context);
-    if (const Rgb& s = texture.smallest; std::min({s.r, s.g, s.b}) < 0.0)
-        throw InputError(e->place, fmt::format("the texture is negative somewhere, down to {}, expected a {} of at least 0",
-                                               std::min({s.r, s.g, s.b}), name));
-    return texture.value;
+    return e ? std::optional(read_not_negative(*e, name, illuminant, context).value) : std::nullopt;
 }
 
 SurfaceFunction read_color_texture(Properties& p, const std::string& name, double missing, Illuminant illuminant,
@@ -126,7 +136,7 @@ SurfaceFunction read_number_texture(Properties& p, const std::string& name, doub
     const auto texture = find_color_texture(p, name, Illuminant::equal_energy, context);
     if (!texture) return Rgb(p.number(name).value_or(missing));
     const auto number = [](const Rgb& c) { return Rgb(is_grey(c) ? c.r : luminance(c)); };
-    return {[f = *texture, number](const ShadingPoint& at) { return number(f(at)); }, number(texture->upper_bound())};
+    return {[f = *texture, number](const ShadingPoint& at) { return number(f(at)); }, number(texture->upper_bound()), true};
 }
 
 std::map<std::string, const Element*> mesh_attributes_of(const Element& shape, const Objects& objects) {

@@ -5,6 +5,7 @@
 #include "core/material/surface_function.h"
 #include "core/reader/color.h"
 #include "core/reader/context.h"
+#include "core/reader/properties.h"
 
 namespace neumann::reader {
 
@@ -13,9 +14,13 @@ struct Texture {
     Rgb smallest{0.0};
     // (∂/∂u, ∂/∂v) of the luminance; empty where there is none.
     std::function<Vec2(const ShadingPoint&)> slope = {};
+    // Of a picture, or enough to see what there is.
+    int width = 64, height = 64;
 };
 
 Texture read_texture(const Element& e, Illuminant illuminant, const Context& context);
+// The same for what cannot be negative, called `name`.
+Texture read_not_negative(const Element& e, const std::string& name, Illuminant illuminant, const Context& context);
 
 // A colour; `missing` in all channels where it is not given.
 SurfaceFunction read_color_texture(Properties& p, const std::string& name, double missing, Illuminant illuminant,
@@ -23,6 +28,9 @@ SurfaceFunction read_color_texture(Properties& p, const std::string& name, doubl
 // A colour, if a <texture> says it.
 std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::string& name, Illuminant illuminant,
                                                   const Context& context);
+// A picture's texels, read only once for all textures; the file becomes part of the scene's hash.
+std::shared_ptr<const Texels> read_texels(const Attribute& filename, const Context& context);
+
 // A number, in all channels; of a texture, its luminance.
 SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context& context);
 

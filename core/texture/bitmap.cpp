@@ -24,6 +24,7 @@ Bitmap::Bitmap(std::shared_ptr<const Texels> texels, Filter filter, Wrap wrap, b
             const Rgb c = texel(x, y);
             smallest_ = glm::min(smallest_, c);
             largest_ = glm::max(largest_, c);
+            is_grey_ = is_grey_ && neumann::is_grey(c);
         }
 }
 
@@ -43,6 +44,13 @@ Rgb Bitmap::texel(double x, double y) const {
         return decode_ ? srgb_decode(v) : v;
     };
     return texels_->channels == 1 ? Rgb(value(0)) : Rgb(value(0), value(1), value(2));
+}
+
+Image Bitmap::image() const {
+    Image all(width(), height());
+    for (int y = 0; y < height(); ++y)
+        for (int x = 0; x < width(); ++x) all.at(x, y) = texel(x, y);
+    return all;
 }
 
 Bitmap::Around Bitmap::around(const Vec2& uv) const {

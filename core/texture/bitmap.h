@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/vec.h"
+#include "core/image/image.h"
 #include "core/image/texels.h"
 
 #include <array>
@@ -25,6 +26,11 @@ public:
 
     const Rgb& smallest() const { return smallest_; }
     const Rgb& largest() const { return largest_; }
+    bool is_grey() const { return is_grey_; }
+    int width() const { return texels_->width; }
+    int height() const { return texels_->height; }
+    // All texels.
+    Image image() const;
 
 private:
     // The four texels around a point, as [row][column], and where it is between their centres.
@@ -42,6 +48,7 @@ private:
     bool decode_;
     std::array<double, 256> value_of_byte_;
     Rgb smallest_, largest_;
+    bool is_grey_ = true;
 };
 
 }  // namespace neumann

@@ -138,6 +138,12 @@ TEST_F(ImageExr, ACutFileIsRefused) {
     EXPECT_EQ(refusal(path).rfind(path + ": the picture is damaged: ", 0), 0U) << refusal(path);
 }
 
+// Without asking for the memory.
+TEST_F(ImageExr, AHeaderThatPromisesTooMuchIsRefused) {
+    const std::string path = put("a.ppm", "P6\n20000 30000\n255\n123");
+    EXPECT_EQ(refusal(path), path + ": the picture is damaged or too large: its header says 20000×30000 pixels of 3 channels");
+}
+
 TEST_F(ImageExr, APictureWithoutRgbIsRefusedWithWhatItHas) {
     // A greyscale PGM.
     const std::string path = put("a.pgm", "P2\n1 1\n255\n7\n");

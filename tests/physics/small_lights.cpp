@@ -1,5 +1,6 @@
 // Lights that no ray meets, or that surround the scene alike on all sides: what they bring is known exactly.
 #include "core/sampling/independent_sampler.h"
+#include "core/texture/bitmap.h"
 #include "tests/physics/pictures.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
@@ -62,19 +63,16 @@ TEST(SmallLights, ASpotFallsOffLinearlyInTheAngle) {
     EXPECT_EQ(hard.beam({3, 0, 0.01}, nowhere).irradiance.r, 0.0);
 }
 
-Image four_pixels() {
-    Image image(2, 2);
-    image.at(0, 0) = grey(1.0);
-    image.at(1, 0) = grey(2.0);
-    image.at(0, 1) = grey(3.0);
-    image.at(1, 1) = grey(4.0);
-    return image;
+Slide four_pixels(Bitmap::Filter filter) {
+    const auto texels = std::make_shared<const Texels>(Texels{2, 2, 1, {}, {1, 2, 3, 4}});
+    const Bitmap bitmap(texels, filter, Bitmap::Wrap::repeat, false);
+    return {[bitmap](const Vec2& uv) { return bitmap(uv); }, 2, 2, true};
 }
 
 // The slide fills the square around the cone: u grows with the spot's own x and v with its y.
 TEST(SmallLights, ASpotThrowsItsSlide) {
     const double cutoff = glm::radians(40.0), size = std::tan(cutoff);
-    const SpotLight spot(Mat4(1.0), grey(5.0), cutoff, cutoff, Slide(four_pixels(), false));
+    const SpotLight spot(Mat4(1.0), grey(5.0), cutoff, cutoff, four_pixels(Bitmap::Filter::nearest));
     const auto thrown = [&](double x, double y) {
         const Vec3 p(x * size, y * size, 1.0);
         return spot.beam(p * 3.0, nowhere).irradiance.r * 9.0 * glm::dot(p, p) / 5.0;
@@ -85,36 +83,23 @@ TEST(SmallLights, ASpotThrowsItsSlide) {
     EXPECT_NEAR(thrown(0.5, 0.5), 4.0, 1e-14);
 }
 
-// Bilinear between the middles of pixels; beyond the outer ones the slide is repeated, mirrored, or its edge goes on.
-TEST(SmallLights, ASlideIsInterpolated) {
-    const auto at = [&](Slide::Wrap wrap, double u, double v) { return Slide(four_pixels(), true, wrap).at({u, v}).r; };
-    for (const Slide::Wrap wrap : {Slide::Wrap::repeat, Slide::Wrap::mirror, Slide::Wrap::clamp}) {
-        EXPECT_DOUBLE_EQ(at(wrap, 0.25, 0.25), 1.0);
-        EXPECT_DOUBLE_EQ(at(wrap, 0.75, 0.75), 4.0);
-        EXPECT_DOUBLE_EQ(at(wrap, 0.5, 0.5), 2.5);
-        EXPECT_DOUBLE_EQ(at(wrap, 0.5, 0.25), 1.5);
-    }
-    EXPECT_DOUBLE_EQ(at(Slide::Wrap::repeat, 0.0, 0.25), 1.5);
-    EXPECT_DOUBLE_EQ(at(Slide::Wrap::mirror, 0.0, 0.25), 1.0);
-    EXPECT_DOUBLE_EQ(at(Slide::Wrap::clamp, 0.0, 0.25), 1.0);
-    EXPECT_DOUBLE_EQ(at(Slide::Wrap::repeat, 1.25, -0.75), 1.0);
-    EXPECT_DOUBLE_EQ(at(Slide::Wrap::mirror, 1.25, -0.25), 2.0);
-    EXPECT_DOUBLE_EQ(at(Slide::Wrap::clamp, 1.25, -0.75), 2.0);
-    EXPECT_EQ(Slide(four_pixels()).mean(), 2.5);
+TEST(SmallLights, ASlidesMeanIsOfItsPixels) {
+    for (const auto filter : {Bitmap::Filter::nearest, Bitmap::Filter::bilinear}) EXPECT_EQ(four_pixels(filter).mean(), 2.5);
+    EXPECT_EQ(Slide({1, 2, 6}).mean(), 3.0);
+    EXPECT_EQ(Slide([](const Vec2& uv) { return Rgb(uv.x * uv.y); }, 64, 32, true).mean(), 0.25);
 }
 
 // A floor across the axis shows ρ E / z² wherever the picture falls; the first pixel is at +x and +y, as in a camera's film.
 TEST(SmallLights, AProjectorLightsAFloorEvenly) {
-    Image plain(2, 1);
-    plain.at(0, 0) = plain.at(1, 0) = grey(5.0);
-    const ProjectorLight projector(facing({0, 0, 2}, {0, 0, -1}, {0, 1, 0}), Slide(plain), 1.5, 0.8);
+    const Slide plain([](const Vec2&) { return grey(5.0); }, 2, 1, true);
+    const ProjectorLight projector(facing({0, 0, 2}, {0, 0, -1}, {0, 1, 0}), plain, 1.5, 0.8);
     // The picture is 3.2 wide and 1.6 high there.
     for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1.59, 0.79, 0), Vec3(-1.59, 0.4, 0), Vec3(0.3, -0.79, 0)})
         expect_reflected({projector}, p, rho * 5.0 * 1.5 / 4.0, "inside");
     expect_reflected({projector}, {1.61, 0, 0}, 0.0, "beside");
     expect_reflected({projector}, {0, 0.81, 0}, 0.0, "above");
 
-    const ProjectorLight sharp(Mat4(1.0), Slide(four_pixels(), false), 1.0, 0.5);
+    const ProjectorLight sharp(Mat4(1.0), four_pixels(Bitmap::Filter::nearest), 1.0, 0.5);
     const auto thrown = [&](double x, double y) {
         const Vec3 p(x, y, 1.0);
         return sharp.beam(p * 3.0, nowhere).irradiance.r * 9.0 / (pi * glm::length(p));
@@ -143,7 +128,7 @@ TEST(SmallLights, ChoiceIsByPower) {
     };
     expect_power(PointLight({0, 0, 0}, {1, 2, 3}));
     expect_power(SpotLight(Mat4(1.0), {1, 2, 3}, 1.0, 0.3));
-    expect_power(ProjectorLight(Mat4(1.0), Slide(four_pixels()), 1.5, 0.8));
+    expect_power(ProjectorLight(Mat4(1.0), four_pixels(Bitmap::Filter::bilinear), 1.5, 0.8));
 }
 
 // All kinds at once: the sum of what they bring alone, however they share the samples. A lamp of form factor 1/5 (a disc of radius

@@ -55,7 +55,8 @@ TEST_F(XmlLights, Directional) {
     EXPECT_NEAR(glm::distance(from(""), Vec3(0, 0, -1)), 0.0, 1e-15);
     EXPECT_NEAR(glm::distance(from("<vector name='direction' x='3' y='0' z='-4'/>"), Vec3(-0.6, 0, 0.8)), 0.0, 1e-15);
     EXPECT_NEAR(glm::distance(from(quarter_turn), Vec3(-1, 0, 0)), 0.0, 1e-15);
-    EXPECT_EQ(arrives("directional", "<float name='irradiance' value='3'/>", {1, 2, 3}), Rgb(3.0));
+    EXPECT_EQ(arrives("directional", "<float name='irradiance' value='3'/><float name='sampling_weight' value='2'/>", {1, 2, 3}),
+              Rgb(3.0));
     EXPECT_EQ(light_error("directional", "<vector name='direction' value='0'/>"), "scene.xml:3:26: the direction is zero");
 }
 
@@ -87,8 +88,23 @@ TEST_F(XmlLights, Spot) {
               "scene.xml:3:26: beam_width is 21, expected at least 0 and at most cutoff_angle, 20 degrees");
     EXPECT_EQ(light_error("spot", "<texture type='bitmap' name='image'/>"),
               "scene.xml:3:24: a <texture> of emitter 'spot' is named 'image', expected the name 'texture'");
-    EXPECT_EQ(light_error("spot", "<texture type='checkerboard' name='texture'/>"),
-              "scene.xml:3:10: texture type 'checkerboard' is not supported; allowed: bitmap");
+    EXPECT_EQ(light_error("spot", "<texture type='mesh_attribute' name='texture'><string name='name' value='vertex_c'/></texture>"),
+              "scene.xml:3:47: the mesh attribute 'vertex_c' is thrown by a light, which has no mesh");
+    write_exr("negative.exr", 2, {1.0, -2.0});
+    EXPECT_EQ(light_error("spot", "<texture type='bitmap' name='texture'><string name='filename' value='negative.exr'/></texture>"),
+              "scene.xml:3:1: the texture is negative somewhere, down to -2, expected a texture of at least 0");
+}
+
+// Any texture over the unit square, and it may be stretched.
+TEST_F(XmlLights, ASlideIsATexture) {
+    const std::string board =
+        "<texture type='checkerboard' name='texture'><float name='color0' value='3'/><float name='color1' value='5'/>";
+    EXPECT_NEAR(arrives("spot", board + "</texture>", {0.1, 0.1, 1}).r, 3.0 / 1.02, 1e-12);
+    EXPECT_NEAR(arrives("spot", board + "</texture>", {-0.1, 0.1, 1}).r, 5.0 / 1.02, 1e-12);
+    EXPECT_NEAR(arrives("spot", board + "<transform name='to_uv'><translate x='0.5'/></transform></texture>", {0.1, 0.1, 1}).r,
+                5.0 / 1.02, 1e-12);
+    EXPECT_TRUE(is_grey(light("spot", board + "</texture>").lights.delta.at(0)));
+    EXPECT_FALSE(is_grey(light("spot", board + "</texture><rgb name='intensity' value='1 2 1'/>").lights.delta.at(0)));
 }
 
 TEST_F(XmlLights, Projector) {
@@ -141,7 +157,7 @@ TEST_F(XmlLights, EnvironmentMap) {
               "scene.xml:3:25: 'small.exr' is 4×2 pixels, expected at least 2×3");
     write_exr("negative.exr", 2, {1, 2, 3, -4, 5, 6});
     EXPECT_EQ(light_error("envmap", "<string name='filename' value='negative.exr'/>"),
-              "scene.xml:3:25: pixel (1, 1) of 'negative.exr' is (-4, -4, -4), expected finite numbers that are not negative");
+              "scene.xml:3:25: pixel (1, 1) of 'negative.exr' is (-4, -4, -4), expected numbers that are not negative");
     EXPECT_EQ(light_error("envmap", file + "<transform name='to_world'><scale value='2'/></transform>"),
               "scene.xml:3:40: to_world of emitter 'envmap' scales or shears, expected rotations and translations");
 }
@@ -176,8 +192,9 @@ TEST_F(XmlLights, SeveralAndOneThatSurrounds) {
               "scene.xml:3:1: a second light that surrounds the scene, expected only one; the first is at scene.xml:2:1");
     EXPECT_EQ(error("<shape type='cube'>\n<emitter type='point'/></shape>"),
               "scene.xml:3:10: emitter type 'point' is not supported; allowed: area");
-    EXPECT_EQ(light_error("point", "<float name='radius' value='1'/>"),
-              "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity");
+    EXPECT_EQ(
+        light_error("point", "<float name='radius' value='1'/>"),
+        "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity, sampling_weight");
 }
 
 }  // namespace neumann
