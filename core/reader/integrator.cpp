@@ -2,6 +2,7 @@
 
 #include "core/reader/properties.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -16,6 +17,10 @@ void read_course_of_work(Properties& p) {
     p.integer("samples_per_pass");
     p.number("timeout");
 }
+
+// Those that estimate the light of all paths up to a length. That some follow them from the lights (`ptracer`) or through media, of
+// which there are none here, makes no difference to what is expected.
+const std::vector<std::string> path_types = {"path", "ptracer", "volpath", "volpathmis"};
 
 Integrator read_path(Properties& p) {
     const std::int64_t depth = p.integer("max_depth").value_or(-1);
@@ -51,7 +56,12 @@ Integrator read_direct(Properties& p) {
 
 Integrator read_integrator(const Element& e, const Context& context) {
     const std::string& type = e.attribute("type").value;
-    if (type != "direct" && type != "moment" && type != "path") fail_type(e, {"direct", "moment", "path"});
+    const bool is_path = std::find(path_types.begin(), path_types.end(), type) != path_types.end();
+    if (!is_path && type != "direct" && type != "moment") {
+        std::vector<std::string> allowed = {"direct", "moment"};
+        allowed.insert(allowed.end(), path_types.begin(), path_types.end());
+        fail_type(e, allowed);
+    }
     Properties p(e, context.objects);
     Integrator result;
     const Element* nested = nullptr;
@@ -61,7 +71,7 @@ Integrator read_integrator(const Element& e, const Context& context) {
         nested = integrators.front();
         if (nested->attribute("type").value == "moment") throw InputError(e.place, "integrator 'moment' stands inside another one");
     } else {
-        result = type == "path" ? read_path(p) : read_direct(p);
+        result = is_path ? read_path(p) : read_direct(p);
     }
     read_course_of_work(p);
     p.finish();

@@ -1,4 +1,4 @@
-// <integrator>: `path`, `direct`, and `moment` around one of them.
+// <integrator>: `path` and its like, `direct`, and `moment` around one of them.
 #pragma once
 
 #include "core/reader/context.h"

@@ -1,5 +1,7 @@
 #include "core/reader/upgrade.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -52,6 +54,64 @@ void gather_uv_transform(Element& parent, Warnings& warnings) {
     warnings.add("old scene file: uoffset, voffset, uscale and vscale taken as a transform to_uv");
 }
 
+// Of an object; nothing where it is a reference.
+std::string type_of(const Element& e) {
+    const Attribute* type = e.find("type");
+    return type ? type->value : "";
+}
+
+void rename_type(Element& e, const std::string& type, Warnings& warnings) {
+    for (Attribute& a : e.attributes)
+        if (a.name == "type") {
+            warnings.add(fmt::format("old scene file: {} '{}' taken as '{}'", e.tag, a.value, type));
+            a.value = type;
+        }
+}
+
+// Parameters by their names of today; whether there were any.
+bool drop(Element& e, const std::vector<std::string>& names) {
+    return std::erase_if(e.children, [&](const Element& child) {
+               const Attribute* name = child.find("name");
+               return name && std::find(names.begin(), names.end(), name->value) != names.end();
+           }) > 0;
+}
+
+// Pictures are linear here, and tone mapping is for viewers.
+void upgrade_film(Element& e, Warnings& warnings) {
+    if (type_of(e) == "ldrfilm") {
+        rename_type(e, "hdrfilm", warnings);
+        drop(e, {"file_format", "pixel_format", "tonemap_method", "gamma", "exposure", "key", "burn"});
+    }
+    drop(e, {"attach_log"});
+    for (Element& child : e.children)
+        for (Attribute& a : child.attributes)
+            if (a.name == "name" && a.value == "high_quality_edges") a.value = "sample_border";
+}
+
+void upgrade_sampler(Element& e, Warnings& warnings) {
+    const std::string type = type_of(e);
+    if (type != "sobol" && type != "halton" && type != "hammersley") return;
+    rename_type(e, "ldsampler", warnings);
+    drop(e, {"scramble", "dimension"});
+}
+
+void upgrade_bitmap(Element& e, Warnings& warnings) {
+    drop(e, {"cache", "max_anisotropy"});
+    for (Element& child : e.children) {
+        if (child.tag != "string" || child.attribute("name").value != "filter_type") continue;
+        for (Attribute& a : child.attributes)
+            if (a.name == "value" && (a.value == "ewa" || a.value == "trilinear")) {
+                warnings.add(fmt::format("old scene file: the texture filter '{}' taken as 'bilinear'", a.value));
+                a.value = "bilinear";
+            }
+    }
+}
+
+// Where shading normals and surfaces disagree Mitsuba 3 has no such test.
+void upgrade_integrator(Element& e, Warnings& warnings) {
+    if (drop(e, {"strict_normals"})) warnings.add("old scene file: strictNormals of an integrator left out");
+}
+
 }  // namespace
 
 void upgrade_tag(Element& e, Warnings& warnings) {
@@ -74,6 +134,10 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
                     warnings.add("old scene file: diffuseReflectance of bsdf 'diffuse' taken as reflectance");
                 }
     gather_uv_transform(e, warnings);
+    if (e.tag == "film") upgrade_film(e, warnings);
+    if (e.tag == "sampler") upgrade_sampler(e, warnings);
+    if (e.tag == "integrator") upgrade_integrator(e, warnings);
+    if (e.tag == "texture" && type_of(e) == "bitmap") upgrade_bitmap(e, warnings);
 }
 
 }  // namespace neumann::reader

@@ -128,8 +128,8 @@ TEST(BlackBody, LawsOfStefanAndBoltzmannAndOfWien) {
     }
 }
 
-// Chromaticities of black bodies as published for the CIE 1931 observer (Wyszecki and Stiles, Color Science, 1982), and of the CIE's
-// illuminant A, which is one of 2855.5 K.
+// Chromaticities of black bodies as published for the CIE 1931 observer (Wyszecki and Stiles, Color Science, 1982), and of the
+// CIE's illuminant A, which is one of 2855.5 K.
 TEST(BlackBody, Chromaticities) {
     struct Published {
         double temperature, x, y;

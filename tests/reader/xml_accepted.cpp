@@ -121,6 +121,9 @@ TEST_F(XmlAccepted, MaxDepthCountsOneMoreThanBounces) {
     EXPECT_EQ(bounces("<integer name='max_depth' value='1'/><boolean name='hide_emitters' value='false'/>"), 0);
     EXPECT_EQ(bounces("<integer name='max_depth' value='-1'/>"), std::nullopt);
     EXPECT_EQ(bounces(""), std::nullopt);
+    for (const char* type : {"ptracer", "volpath", "volpathmis"})
+        EXPECT_EQ(read(std::string("<integrator type='") + type + "'><integer name='max_depth' value='3'/></integrator>").bounces,
+                  2);
 }
 
 TEST_F(XmlAccepted, Integrators) {

@@ -21,17 +21,20 @@ protected:
 };
 
 TEST_F(XmlValueErrors, UnknownTypes) {
-    EXPECT_EQ(error("<bsdf type=\"clay\"/>"),
-              "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-              "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-              "thindielectric, twosided");
+    EXPECT_EQ(
+        error("<bsdf type=\"clay\"/>"),
+        "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
+        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
+        "thindielectric, twosided");
     EXPECT_EQ(error("<emitter type=\"sunsky\"/>"),
               "scene.xml:2:10: emitter type 'sunsky' is not supported; allowed: area, constant, directional, envmap, point, "
               "projector, spot");
-    EXPECT_EQ(error("<integrator type=\"volpath\"/>"), "scene.xml:2:13: integrator type 'volpath' is not supported; allowed: direct, moment, path");
     EXPECT_EQ(
-        error("<shape type=\"bsplinecurve\"/>"),
-        "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, serialized, shapegroup, sphere");
+        error("<integrator type=\"bdpt\"/>"),
+        "scene.xml:2:13: integrator type 'bdpt' is not supported; allowed: direct, moment, path, ptracer, volpath, volpathmis");
+    EXPECT_EQ(error("<shape type=\"bsplinecurve\"/>"),
+              "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, "
+              "rectangle, serialized, shapegroup, sphere");
     EXPECT_EQ(error("<sampler type=\"halton\"/>"),
               "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
               "ldsampler, multijitter, orthogonal, stratified");
@@ -208,8 +211,9 @@ TEST_F(XmlValueErrors, IntegratorsAndSamplers) {
     EXPECT_EQ(error("<integrator type='moment'/>"), "scene.xml:2:1: integrator 'moment' has no <integrator> inside, expected one");
     EXPECT_EQ(error("<integrator type='moment'><integrator type='moment'/></integrator>"),
               "scene.xml:2:1: integrator 'moment' stands inside another one");
-    EXPECT_EQ(error("<integrator type='moment'><integrator type='ptracer'/></integrator>"),
-              "scene.xml:2:39: integrator type 'ptracer' is not supported; allowed: direct, moment, path");
+    EXPECT_EQ(
+        error("<integrator type='moment'><integrator type='bdpt'/></integrator>"),
+        "scene.xml:2:39: integrator type 'bdpt' is not supported; allowed: direct, moment, path, ptracer, volpath, volpathmis");
     EXPECT_EQ(error("<sampler type='independent'><integer name='sample_count' value='0'/></sampler>"),
               "scene.xml:2:58: sample_count is 0, expected at least 1");
 }
