@@ -35,6 +35,8 @@ void check(const Scene& scene) {
             if (!factors(*bsdf))
                 refuse(scene, shape,
                        "varies by more than a factor of its reflectance, which patches do not hold; 'render --method walk' can");
+            if (needs_coordinates(white(*bsdf)))
+                refuse(scene, shape, "is anisotropic, which patches do not hold; 'render --method walk' can");
         }
 }
 
@@ -47,7 +49,10 @@ std::vector<SideDirections> side_directions(const Scene& scene) {
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const bool emits = scene.emitters.is_emitter(shape);
         const Bsdf *front = scene.materials.at(shape, true), *back = scene.materials.at(shape, false);
-        sides.push_back({front ? directions_of(*front) : emits ? 1u : 0u, back ? directions_of(*back) : 0u, emits, lit_from_elsewhere});
+        sides.push_back({front   ? directions_of(*front)
+                         : emits ? 1u
+                                 : 0u,
+                         back ? directions_of(*back) : 0u, emits, lit_from_elsewhere});
     }
     return sides;
 }

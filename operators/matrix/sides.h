@@ -9,8 +9,8 @@
 namespace neumann {
 
 // One direction for a side that is diffuse in all it does, cells a quarter as wide as the lobe for a rough one, the finest for a
-// mirror. Throws InputError where a material lets light through, or changes from point to point otherwise
-// than by a factor: patches have one matrix of reflection for a material.
+// mirror. Throws InputError where a material lets light through, changes from point to point otherwise than by a factor, or is
+// anisotropic: patches have one matrix of reflection for a material.
 std::vector<SideDirections> side_directions(const Scene& scene);
 
 // All colour channels are alike, in what is emitted and in what is reflected.

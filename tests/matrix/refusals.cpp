@@ -54,5 +54,13 @@ TEST(PatchRefusals, OfTexturesThatAreNoFactor) {
     EXPECT_EQ(refusal(made_of(Retroreflector(varying))), "none");
 }
 
+TEST(PatchRefusals, OfAnisotropy) {
+    const auto brushed = std::make_shared<const Bsdf>(RoughConductor(Ggx(Vec2(0.1, 0.3))));
+    EXPECT_EQ(refusal(made_of(*brushed)),
+              "the material of shape 1 is anisotropic, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(made_of(Blend(std::make_shared<const Bsdf>(Diffuse(Rgb(0.5))), brushed, Rgb(0.5)))),
+              "the material of shape 1 is anisotropic, which patches do not hold; 'render --method walk' can");
+}
+
 }  // namespace
 }  // namespace neumann
