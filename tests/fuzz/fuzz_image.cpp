@@ -2,12 +2,21 @@
 #include "core/image/image_io.h"
 #include "tests/fuzz/fuzz_mesh.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    neumann::fuzz::write_input(data, size);
+template <class Read>
+void try_picture(const Read& read) {
     try {
-        neumann::read_exr(neumann::fuzz::path());
+        read(neumann::fuzz::path());
     } catch (const neumann::InputError&) {
     } catch (const neumann::RunError&) {
     }
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    neumann::fuzz::write_input(data, size);
+    try_picture([](const std::string& path) { neumann::read_exr(path); });
+    try_picture([](const std::string& path) {
+        const neumann::Texels texels = neumann::read_texels(path);
+        if (texels.bytes.size() + texels.values.size() != texels.index(0, texels.height)) std::abort();
+    });
     return 0;
 }
