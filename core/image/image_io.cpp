@@ -101,6 +101,18 @@ Image pick_channels(const OIIO::ImageSpec& spec, const std::vector<float>& value
     return picture;
 }
 
+// All channels. Some of OpenImageIO's readers let exceptions out where a file is damaged.
+void read_pixels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type, void* values) {
+    std::string error;
+    try {
+        if (input.read_image(0, 0, 0, input.spec().nchannels, type, values)) return;
+        error = input.geterror();
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    throw InputError(fmt::format("{}: the picture is damaged: {}", path, error));
+}
+
 // Three channels of each pixel, or one.
 template <class T>
 std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type,
@@ -108,8 +120,7 @@ std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, O
     const OIIO::ImageSpec& spec = input.spec();
     const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
     std::vector<T> all(spec.image_pixels() * channels);
-    if (!input.read_image(0, 0, 0, spec.nchannels, type, all.data()))
-        throw InputError(fmt::format("{}: the picture is damaged: {}", path, input.geterror()));
+    read_pixels(input, path, type, all.data());
     std::size_t next = 0;
     for (std::size_t i = 0; i < all.size() / channels; ++i)
         for (const std::size_t place : places) {
@@ -151,7 +162,13 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     expect_readable(path);
     OIIO::ImageSpec as_they_are;
     as_they_are.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(path, &as_they_are);
+    constexpr int largest_picture_mb = 2048;
+    [[maybe_unused]] static const bool limited = OIIO::attribute("limits:imagesize_MB", largest_picture_mb);
+    std::unique_ptr<OIIO::ImageInput> input;
+    try {
+        input = OIIO::ImageInput::open(path, &as_they_are);
+    } catch (const std::exception&) {  // GIFs of no size, for instance
+    }
     if (!input) {
         OIIO::geterror();
         throw InputError(path + ": not a picture that can be read");
@@ -163,8 +180,7 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
 std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path) {
     const OIIO::ImageSpec& spec = input.spec();
     std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-        throw InputError(fmt::format("{}: the picture is damaged: {}", path, input.geterror()));
+    read_pixels(input, path, OIIO::TypeDesc::FLOAT, values.data());
     return values;
 }
 

@@ -72,6 +72,10 @@ bool Blend::is_grey() const {
     return !any([](const Bsdf& b) { return !neumann::is_grey(b); });
 }
 
+bool Blend::is_lawful() const {
+    return !any([](const Bsdf& b) { return !neumann::is_lawful(b); });
+}
+
 Lobe Blend::lobe() const {
     const Lobe a = first_ ? neumann::lobe(*first_) : Lobe{}, b = second_ ? neumann::lobe(*second_) : Lobe{};
     return a.kind > b.kind || (a.kind == b.kind && a.alpha < b.alpha) ? a : b;

@@ -30,6 +30,7 @@ public:
     bool is_constant() const;
     bool needs_coordinates() const;
     bool is_grey() const;
+    bool is_lawful() const;
     // The sharper one's.
     Lobe lobe() const;
 

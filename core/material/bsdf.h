@@ -72,6 +72,18 @@ inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
 }
 
+// It conserves energy, by its largest albedo, and is reciprocal; or it promises neither.
+inline bool is_lawful(const Bsdf& bsdf) {
+    return std::visit(
+        [](const auto& b) {
+            if constexpr (requires { b.is_lawful(); })
+                return b.is_lawful();
+            else
+                return true;
+        },
+        bsdf);
+}
+
 // fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1. Where fs is no such product they are 1 and the material itself.
 inline Rgb reflectance(const Bsdf& bsdf, const ShadingPoint& p) {
     return std::visit([&](const auto& b) { return b.reflectance(p); }, bsdf);

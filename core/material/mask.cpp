@@ -33,6 +33,7 @@ Rgb Mask::largest_basic_albedo() const { return bound(nested_ ? neumann::largest
 
 bool Mask::is_constant() const { return opacity_.is_constant() && (!nested_ || neumann::is_constant(*nested_)); }
 bool Mask::needs_coordinates() const { return !opacity_.is_constant() || (nested_ && neumann::needs_coordinates(*nested_)); }
+bool Mask::is_lawful() const { return !nested_ || neumann::is_lawful(*nested_); }
 bool Mask::is_grey() const { return !nested_ || neumann::is_grey(*nested_); }
 
 }  // namespace neumann

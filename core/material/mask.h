@@ -30,6 +30,7 @@ public:
     bool is_constant() const;
     bool needs_coordinates() const;
     bool is_grey() const;
+    bool is_lawful() const;
     Lobe lobe() const { return {Lobe::Kind::specular, 0.0}; }
 
 private:

@@ -47,6 +47,7 @@ public:
     PerturbedNormal white() const;
     Rgb largest_albedo() const;
     bool is_constant() const { return false; }
+    bool is_lawful() const { return false; }
     bool transmits() const;
     bool is_grey() const;
     Lobe lobe() const;

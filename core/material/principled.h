@@ -31,6 +31,7 @@ public:
     // Measured.
     Rgb largest_albedo() const { return largest_albedo_; }
     bool is_constant() const { return parameters_->is_constant(); }
+    bool is_lawful() const { return false; }
     bool needs_coordinates() const { return !is_constant() || !parameters_->is_isotropic(); }
     bool transmits() const { return !outside_ || !is_black(parameters_->spec_trans.upper_bound()); }
     bool is_grey() const { return parameters_->is_grey(); }

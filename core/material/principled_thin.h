@@ -29,6 +29,7 @@ public:
     // Measured.
     Rgb largest_albedo() const { return largest_albedo_; }
     bool is_constant() const { return parameters_->is_constant(); }
+    bool is_lawful() const { return false; }
     bool needs_coordinates() const { return !is_constant() || !parameters_->is_isotropic(); }
     bool transmits() const {
         return !is_black(parameters_->spec_trans.upper_bound()) || !is_black(parameters_->diff_trans.upper_bound());

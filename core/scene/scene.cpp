@@ -1,5 +1,9 @@
 #include "core/scene/scene.h"
 
+#include "core/scene/measured_laws.h"
+
+#include <fmt/format.h>
+
 namespace neumann {
 
 namespace {
@@ -21,6 +25,23 @@ std::size_t covered_lights(const Geometry& geometry, const std::vector<int>& lig
     return count;
 }
 
+// " (bsdf 'principled' of shape 'obj', room.xml:7:5)".
+std::string where(const std::vector<Origin>& origins, std::uint32_t shape) {
+    if (shape >= origins.size()) return "";
+    const Origin& origin = origins[shape];
+    return fmt::format(" ({} of {}, {})", origin.bsdf, origin.shape, to_string(origin.place));
+}
+
+void warn_of_laws(const MeasuredLaws& laws, const std::vector<Origin>& origins, Warnings& warnings) {
+    if (laws.materials == 0) return;
+    warnings.add(
+        fmt::format("{} material{} neither energy conservation nor reciprocity; the largest albedo is {:.3f}{} and the largest "
+                    "reciprocity defect "
+                    "{:.2g}{}",
+                    laws.materials, laws.materials == 1 ? " promises" : "s promise", laws.largest_albedo,
+                    where(origins, laws.brightest), laws.reciprocity_defect, where(origins, laws.least_reciprocal)));
+}
+
 }  // namespace
 
 Scene make_scene(SceneParts parts) {
@@ -37,9 +58,19 @@ Scene make_scene(SceneParts parts) {
     if (emitters.empty()) warnings.add("the scene has no light");
     if (max_component(materials.largest_basic_albedo()) > 1.0)
         warnings.add("reflectance above 1: a surface gives back more light than it receives");
+    warn_of_laws(measure_laws(geometry, materials), parts.origins, warnings);
     const Sensor camera(parts.camera, parts.film);
-    return {std::move(geometry), std::move(materials),  std::move(emitters),     camera, parts.film, parts.bounces, parts.sampler,
-            parts.hide_emitters, std::move(parts.hash), std::move(parts.origins), std::move(warnings)};
+    return {std::move(geometry),
+            std::move(materials),
+            std::move(emitters),
+            camera,
+            parts.film,
+            parts.bounces,
+            parts.sampler,
+            parts.hide_emitters,
+            std::move(parts.hash),
+            std::move(parts.origins),
+            std::move(warnings)};
 }
 
 }  // namespace neumann

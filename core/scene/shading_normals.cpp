@@ -7,7 +7,8 @@ bool has_shading_normals(const Scene& scene) {
     for (std::uint32_t shape = 0; shape < shapes.size(); ++shape) {
         if (has_smooth_normals(shapes[shape])) return true;
         for (const bool front : {true, false})
-            if (const Bsdf* bsdf = scene.materials.at(shape, front); bsdf && std::holds_alternative<PerturbedNormal>(*bsdf)) return true;
+            if (const Bsdf* bsdf = scene.materials.at(shape, front); bsdf && std::holds_alternative<PerturbedNormal>(*bsdf))
+                return true;
     }
     return false;
 }
