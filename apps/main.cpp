@@ -42,7 +42,7 @@ std::string commands(const CLI::App& app) {
     return names;
 }
 
-void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std::string>& definitions, std::string& direct) {
+void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std::string>& definitions) {
     auto* render = app.add_subcommand("render", "Render the bounces K^i Le of a scene, their sums, and what is left out");
     render->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
     render->add_option("-o", request.output, "Folder for the pictures and tables; out/NAME without it")->type_name("DIR");
@@ -71,12 +71,7 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
         ->type_name("NAME")
         ->check(CLI::IsMember({"walk", "pointwise", "matrix", "gather", "patches"}).description(""))
         ->capture_default_str();
-    render
-        ->add_option(
-            "--direct", direct,
-            "How a walk finds lights: by points on them (light), by the material's directions (bsdf), or both (mis, the default)")
-        ->type_name("HOW")
-        ->check(CLI::IsMember({"light", "bsdf", "mis"}).description(""));
+    neumann::add_light_options(*render, request.light);
     render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
         ->type_name("N")
         ->check(neumann::whole_from(0, std::uint64_t{1} << 40));
@@ -108,8 +103,7 @@ int main(int argc, char** argv) try {
 
     neumann::RenderRequest request;
     std::vector<std::string> definitions;
-    std::string direct;
-    add_render(app, request, definitions, direct);
+    add_render(app, request, definitions);
     std::string a, b;
     bool json = false;
     auto* compare = app.add_subcommand(
@@ -168,10 +162,6 @@ int main(int argc, char** argv) try {
     request.command_line = command_line;
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
-    if (!direct.empty())
-        request.direct = direct == "light"  ? neumann::DirectLight::light
-                         : direct == "bsdf" ? neumann::DirectLight::bsdf
-                                            : neumann::DirectLight::mis;
     return finish(neumann::render_command(request));
 } catch (const neumann::InputError& e) {
     complain(e.what());

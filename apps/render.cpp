@@ -66,7 +66,7 @@ int render_command(const RenderRequest& request) {
 
     const Scene scene = read_scene(request.scene, request.definitions);
     OutputFolder folder(request.output);
-    const Pilot pilot(scene, request.direct.value_or(DirectLight::mis), request.seed);
+    const Pilot pilot(scene, direct_light(request.light, scene.emitters), request.seed);
     const RenderJob job{request, scene, pilot};
     const RenderResult result = is_field_method(request.method) ? render_by_fields(job) : render_by_walk(job);
 

@@ -1,8 +1,8 @@
 // `neumann render`: a scene in, its bounce pictures out.
 #pragma once
 
+#include "apps/light_options.h"
 #include "core/scene/scene.h"
-#include "operators/walk/walk.h"
 
 #include <cstdint>
 #include <map>
@@ -21,7 +21,7 @@ struct RenderRequest {
     std::optional<double> seconds;
     std::optional<double> relative_error;
     std::string method = "walk";
-    std::optional<DirectLight> direct;
+    LightOptions light;
     std::optional<std::size_t> patches;
     std::optional<std::uint32_t> directions;
     std::string reference;  // a folder of an earlier render, or empty

@@ -32,7 +32,8 @@ std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
 
 FieldSettings choose_settings(const RenderJob& job) {
     const RenderRequest& request = job.request;
-    if (request.direct) throw InputError("--direct belongs to --method walk; " + request.method + " finds lights by itself");
+    if (request.light.given())
+        throw InputError("--direct and --lights belong to --method walk; " + request.method + " finds lights by itself");
     if (request.seconds)
         throw InputError("--time belongs to --method walk and pointwise; " + request.method +
                          " takes --error, or --spp, --patches and --directions");

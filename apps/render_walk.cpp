@@ -41,18 +41,6 @@ void check_memory(const Film& film, int bounces) {
             bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
-const char* name(DirectLight direct) {
-    switch (direct) {
-        case DirectLight::light:
-            return "light";
-        case DirectLight::bsdf:
-            return "bsdf";
-        case DirectLight::mis:
-            return "mis";
-    }
-    return "";
-}
-
 RestVerdict rest_verdict(const RenderJob& job) {
     if (job.request.method == "pointwise") return RestVerdict::not_sampled;
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
@@ -81,16 +69,17 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (request.patches || request.directions)
         throw InputError(
             fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
-    if (scene.emitters.has_delta_lights() && (request.method == "pointwise" || request.direct == DirectLight::bsdf))
-        throw InputError(
-            fmt::format("{} finds lights by chance, and no ray meets a light without extent (directional, point, "
-                        "projector, spot), of which the scene has some; take {}",
-                        request.method == "pointwise" ? "--method pointwise" : "--direct bsdf",
-                        request.method == "pointwise" ? "--method walk, matrix or gather" : "--direct mis or light"));
+    if (request.method == "pointwise") {
+        if (request.light.given()) throw InputError("--direct and --lights belong to --method walk; pointwise finds lights by chance");
+        if (scene.emitters.has_delta_lights())
+            throw InputError(
+                "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+                "spot), of which the scene has some; take --method walk, matrix or gather");
+    }
     PictureSampler::Settings settings;
     settings.method = request.method == "pointwise" ? Method::pointwise : Method::walk;
     settings.walk.bounces = choose_bounces(job);
-    settings.walk.direct = request.direct.value_or(DirectLight::mis);
+    settings.walk.direct = direct_light(request.light, scene.emitters);
     settings.sampler = scene.sampler.value_or(SamplerKind::sobol);
     settings.seed = request.seed;
 
@@ -145,7 +134,8 @@ RenderResult render_by_walk(const RenderJob& job) {
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
     result.options = {{"bounces", settings.walk.bounces},
                       {"method", request.method},
-                      {"direct", name(settings.walk.direct)},
+                      {"direct", request.light.direct.empty() ? "mis" : request.light.direct},
+                      {"lights", request.light.lights.empty() ? "mixed" : request.light.lights},
                       {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
                       {"seed", settings.seed}};
     result.samples = {

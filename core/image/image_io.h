@@ -30,15 +30,14 @@ std::string encode_png(const DisplayImage& picture);
 // An endless animated GIF of frames of one size (at least one frame), each of 256 colours of its own, dithered.
 std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_second);
 
-// Any picture that OpenImageIO reads, values as they are in the file (8-bit ones scaled to 0..1, not linearised; NaN and infinity
-// kept), and `attributes`, if asked for, with the numbers and texts of its header. Without stderr channels `standard_error` is
-// empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such file, not a picture, damaged, no
-// channels R, G, B.
+// A picture (OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP, TGA), values as they are in the file (8-bit ones scaled to
+// 0..1, not linearised; NaN and infinity kept), and `attributes`, if asked for, with the numbers and texts of its header. Without
+// stderr channels `standard_error` is empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such
+// file, not a picture, damaged, no channels R, G, B.
 Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
 
-// Any picture that OpenImageIO reads, as a texture: channels R, G, B where there are any of these names, otherwise the first three,
-// or the first where there are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value
-// that is not finite.
+// The same as a texture: channels R, G, B where there are any of these names, otherwise the first three, or the first where there
+// are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value that is not finite.
 Texels read_texels(const std::string& path);
 
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.

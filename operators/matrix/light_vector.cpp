@@ -1,6 +1,7 @@
 #include "operators/matrix/light_vector.h"
 
 #include "core/base/hot.h"
+#include "core/emitter/light_sampler.h"
 #include "core/sampling/sobol_sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -27,7 +28,7 @@ struct Segment {
 
 // Adds to the cells of a facet what the lights bring on average.
 template <int C>
-NEUMANN_HOT void light_facet(const Scene& scene, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
+NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
                              std::uint32_t number, ExitantVector<C>& means) {
     const Facet& facet = space.facets()[number];
     SobolSampler sampler(points, seed ^ direct_stream, number);
@@ -50,7 +51,7 @@ NEUMANN_HOT void light_facet(const Scene& scene, const PatchSpace& space, const 
         sampler.start(i);
         const Vec2 u = sampler.next2();
         const SurfacePoint x = space.patches().point(facet.patch, sampler.next2());
-        const LightSample y = scene.emitters.sample(scene.geometry, x.position, u);
+        const LightSample y = lights.sample(x.position, u);
         const Vec3 wi = PatchSpace::frame(facet, x).to_local(y.w);
         if (!(y.pdf > 0.0) || !(wi.z > 0.0)) continue;
         segments[waiting] = {x, y.point};
@@ -92,8 +93,9 @@ ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, 
     ExitantVector<C> means = ExitantVector<C>::Zero(C, space.size() + 1);
     if (scene.emitters.empty()) return means;
     const SobolPoints points(samples);
+    const LightSampler lights(scene.geometry, scene.emitters);
     for_facets(space, [&](std::uint32_t f) {
-        if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(scene, space, points, seed, f, means);
+        if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(lights, space, points, seed, f, means);
     });
     return R.of_means(std::move(means));
 }

@@ -42,7 +42,8 @@ public:
         for (std::size_t i = 0; i < few.size(); ++i) {
             const bool at_pixel = i < 2 && method != FieldMethod::patches;
             const double fallen = (square(few[i].sampling) - square(many[i].sampling)) * times / (times - 1.0);
-            by_samples_.push_back(at_pixel ? std::numeric_limits<double>::infinity() : std::clamp(fallen, 0.0, square(few[i].sampling)));
+            by_samples_.push_back(at_pixel ? std::numeric_limits<double>::infinity()
+                                           : std::clamp(fallen, 0.0, square(few[i].sampling)));
         }
     }
 
@@ -76,8 +77,8 @@ public:
     }
 
 private:
-    // Of the error in the number of patches, as the last two renders show it: 1 where it is that of linear interpolation, 1/2 beside
-    // edges.
+    // Of the error in the number of patches, as the last two renders show it: 1 where it is that of linear interpolation, 1/2
+    // beside edges.
     double order(std::size_t i, const std::vector<PictureError>& errors, const FieldSettings& settings) const {
         if (errors_before_.empty() || errors[i].discretisation == 0.0) return 0.5;
         return std::clamp(std::log(errors_before_[i].discretisation / errors[i].discretisation) /

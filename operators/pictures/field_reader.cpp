@@ -2,7 +2,7 @@
 
 #include "core/base/frame.h"
 #include "core/base/hot.h"
-#include "core/sampling/power_heuristic.h"
+#include "core/sampling/heuristic.h"
 #include "core/scene/pass_lights.h"
 
 #include <algorithm>
@@ -90,6 +90,7 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
       method_(method),
       stride_(3 * (static_cast<std::size_t>(bounces) + 2)),
       from_field_(bounces > 0 ? 6 : 3),
+      lights_(scene.geometry, scene.emitters),
       gather_rays_(gather_rays),
       compared_((gather_rays + 3) / 4) {
     if (scene.emitters.empty()) return;
@@ -102,7 +103,7 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
     Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
-        const LightSample light = scene.emitters.sample(scene.geometry, scene.geometry.center(), sampler.next2());
+        const LightSample light = lights_.sample(scene.geometry.center(), sampler.next2());
         if (light.pdf == delta_pdf) continue;
         low = glm::min(low, light.point.position);
         high = glm::max(high, light.point.position);
@@ -176,11 +177,10 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
 
 // Points on lights.
 std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
-    const Emitters& emitters = scene_.emitters;
-    if (emitters.empty()) return 0;
+    if (lights_.empty()) return 0;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        const LightSample light = emitters.sample(scene_.geometry, l.x.position, l.sample->sampler->next2());
+        const LightSample light = lights_.sample(l.x.position, l.sample->sampler->next2());
         if (!(light.pdf > 0.0)) continue;
         const SurfaceSide side = scene_.materials.side(l.x, l.wo);
         const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
@@ -222,7 +222,7 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
             const Rgb emitted = emitters.emitted(l.y, -l.wi);
             if (is_black(emitted)) return;
             add(l.sample->values, 1,
-                l.weight * emitted * (l.sample->weight * power_heuristic(l.pdf, emitters.pdf(l.x.position, l.wi, l.y))));
+                l.weight * emitted * (l.sample->weight * power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y))));
         });
     return asking.size();
 }

@@ -1,6 +1,7 @@
 // Reads all bounces of a pixel's samples at once: bounces 0 and 1 by rays, later ones and the rest from fields on patches.
 #pragma once
 
+#include "core/emitter/light_sampler.h"
 #include "core/sampling/sobol_sampler.h"
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
@@ -60,8 +61,9 @@ private:
 
     const Scene& scene_;
     FieldMethod method_;
-    std::size_t stride_;                    // floats of a pixel
-    std::size_t from_field_;                // of them, the first that is read from fields
+    std::size_t stride_;      // floats of a pixel
+    std::size_t from_field_;  // of them, the first that is read from fields
+    LightSampler lights_;
     std::uint32_t gather_rays_, compared_;  // of these, the first so many are compared with the coarser patches
     Vec3 low_{0.0}, high_{0.0};             // the box around the lights
     double near_ = 0.0;

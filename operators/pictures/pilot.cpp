@@ -16,9 +16,10 @@ constexpr std::uint64_t enough_rays = 4'000'000;
 
 }  // namespace
 
-Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
+Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed) {
     constexpr std::size_t quantities = bounces + 2;
     const WalkSettings settings{.bounces = bounces, .direct = direct, .rest_probability = 1.0, .give_up = give_up};
+    const DirectLightSampler direct_light(scene, direct);
     const Stopwatch watch;
 
     // For each walk the tails Σ_{k>i}, of which mean and variance are wanted; in batches of fixed order.
@@ -49,7 +50,8 @@ Pilot::Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed) {
             std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
             TermSamples result{sampled, round[b].rays};
             Walkers walkers;
-            walk(scene, scene.geometry, settings, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
+            walk(scene, scene.geometry, direct_light, settings, std::span<const CameraRay>(camera_rays), std::span(samplers),
+                 walkers, result);
             for (std::uint64_t i = 0; i < batch; ++i) {
                 const Rgb* terms = sampled.data() + i * quantities;
                 double sum = 0.0;

@@ -15,7 +15,7 @@ public:
     // Terms looked at one by one, and bounces beyond them after which a walk is given up.
     static constexpr int bounces = 256, give_up = 10'000;
 
-    Pilot(const Scene& scene, DirectLight direct, std::uint64_t seed);
+    Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed);
 
     // Σ_{k>i} K^k Le, averaged over the picture and the channels; i ≤ bounces.
     MeanWithError rest(int i) const;

@@ -14,16 +14,18 @@ namespace neumann {
 // One walk for all terms: the fast way.
 class WalkEstimator {
 public:
-    WalkEstimator(const Scene& scene, const WalkSettings& settings) : scene_(&scene), settings_(settings) {}
+    WalkEstimator(const Scene& scene, const WalkSettings& settings)
+        : scene_(&scene), settings_(settings), direct_(scene, settings.direct) {}
 
     template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
-        walk(*scene_, scene_->geometry, settings_, rays, samplers, walkers, result);
+        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result);
     }
 
 private:
     const Scene* scene_;
     WalkSettings settings_;
+    DirectLightSampler direct_;
 };
 
 // Each term asked for its value, by itself and from the start: the slow way, as on the slide. It has no rest.

@@ -3,15 +3,14 @@
 //
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
-// The last reflection may instead look for a light by itself (next-event estimation); with multiple importance sampling both are
-// used, each weighted by the power heuristic (Veach 1997, 9.2.4). After a mirror only the direction can find a light, and what it
-// finds counts in full whatever is asked for.
+// The last reflection may instead look for light by itself (direct_light.h), or do both. After a mirror only the direction can find
+// a light, and what it finds counts in full whatever is asked for.
 #pragma once
 
 #include "core/base/frame.h"
 #include "core/base/hot.h"
-#include "core/sampling/power_heuristic.h"
 #include "core/scene/pass_lights.h"
+#include "operators/walk/direct_light.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -21,12 +20,9 @@
 
 namespace neumann {
 
-// How the light of the last reflection is found: by points on lights, by directions of the material, or by both.
-enum class DirectLight { light, bsdf, mis };
-
 struct WalkSettings {
     int bounces = 8;  // N: the last term with a picture of its own
-    DirectLight direct = DirectLight::mis;
+    DirectLightSettings direct = {};
     // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le, at reciprocal weight; 0: no rest.
     double rest_probability = 1.0;
     // Bounces beyond N after which a walk is given up and counted.
@@ -50,8 +46,9 @@ struct Walker {
     // The next reflection.
     Vec3 from, wi;
     double pdf = 0.0;  // of wi, per solid angle; delta_pdf in a mirror
+    Vec3 asked;        // where light is looked for, by directions
     SurfacePoint light;
-    Rgb found;  // what arrives from `light` if it is seen
+    Rgb found;  // what arrives from `light` if it is seen, or the weight of what is seen along `asked`
 };
 
 // Work space of walk(), kept between calls.
@@ -65,12 +62,11 @@ struct Walkers {
 // that the processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as
 // Geometry does; samplers[i] gives the numbers of walk i.
 template <class Transport, class Sampler>
-NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings& settings, std::span<const CameraRay> rays,
-                      std::span<Sampler> samplers, Walkers& walkers, TermSamples& out) {
+NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
+                      std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out) {
     const int N = settings.bounces;
     const std::size_t stride = static_cast<std::size_t>(N) + 2;
     const Emitters& emitters = scene.emitters;
-    const bool next_event = settings.direct != DirectLight::bsdf && !emitters.empty();
 
     auto& [walker, alive, asking] = walkers;
     walker.resize(rays.size());
@@ -104,6 +100,47 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
     };
     const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x; };
 
+    // R of the last reflection: a question for light.
+    const auto ask = [&](Walker& w, std::uint32_t i, const SurfaceSide& side, const Vec3& wo, std::size_t question) {
+        w.found = Rgb(0.0);
+        const LightQuestion q = direct.ask(side, samplers[i], question);
+        if (!(q.pdf > 0.0)) return;
+        const Vec3 wi = side.p.frame.to_local(q.w);
+        const double pdf_other = direct.is_weighted() ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+        w.found =
+            w.beta * eval(*side.bsdf, side.p, wo, wi) * q.weight * (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_other));
+        w.light = q.point;
+        w.asked = q.w;
+    };
+    // T: the answers. The first points of a pixel's walks are close together.
+    const auto look = [&](std::size_t q, bool first) {
+        asking.clear();
+        for (const std::uint32_t i : alive)
+            if (!is_black(walker[i].found)) asking.push_back(i);
+        out.rays[q] += asking.size();
+        const auto kind = first ? RayCaster::Rays::alike : RayCaster::Rays::any;
+        for (std::size_t k = 0; k < asking.size(); k += packet) {
+            const std::size_t n = std::min(packet, asking.size() - k);
+            const auto at = [&](std::size_t j) -> Walker& { return walker[asking[k + j]]; };
+            if (direct.asks_directions()) {
+                const std::uint32_t hit = T.first_hits(
+                    n, [&](std::size_t j) { return std::pair<const SurfacePoint&, const Vec3&>(at(j).x, at(j).asked); },
+                    [&](std::size_t j) -> SurfacePoint& { return at(j).light; });
+                for (std::size_t j = 0; j < n; ++j) {
+                    Walker& w = at(j);
+                    if (!(hit >> j & 1u)) w.light.shape = SurfacePoint::infinity;
+                    add(asking[k + j], q, w.found * emitters.emitted(w.light, -w.asked));
+                }
+            } else {
+                const std::uint32_t seen = T.visible(
+                    n, [&](std::size_t j) { return std::pair<const SurfacePoint&, const SurfacePoint&>(at(j).x, at(j).light); },
+                    kind);
+                for (std::size_t j = 0; j < n; ++j)
+                    if (seen >> j & 1u) add(asking[k + j], q, at(j).found);
+            }
+        }
+    };
+
     // T: the first vertices.
     out.rays[0] += rays.size();
     advance([&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); },
@@ -134,25 +171,25 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
                 });
         }
 
-        // R: a direction for the next reflection, and a light.
+        for (std::size_t question = 1; question < direct.questions(); ++question) {
+            filter([&](Walker& w, std::uint32_t i) {
+                const SurfaceSide side = scene.materials.side(w.x, w.wo);
+                if (!side.bsdf) return false;
+                ask(w, i, side, side.p.frame.to_local(w.wo), question);
+                return true;
+            });
+            look(q, bounce == 1);
+        }
+
+        // R: a direction for the next reflection, and the first question.
         filter([&](Walker& w, std::uint32_t i) {
             const SurfaceSide side = scene.materials.side(w.x, w.wo);
             if (!side.bsdf) return false;
             const Frame& frame = side.p.frame;
             const Vec3 wo = frame.to_local(w.wo);
-            Sampler& sampler = samplers[i];
             w.found = Rgb(0.0);
-            if (next_event) {
-                const LightSample light = emitters.sample(scene.geometry, w.x.position, sampler.next2());
-                if (light.pdf > 0.0) {
-                    const Vec3 wi = frame.to_local(light.w);
-                    const double pdf_other = settings.direct == DirectLight::mis ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
-                    w.found = w.beta * eval(*side.bsdf, side.p, wo, wi) * light.weight *
-                              (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
-                    w.light = light.point;
-                }
-            }
-            const BsdfSample sampled = sample(*side.bsdf, side.p, wo, sampler.next2());
+            if (direct.questions() > 0) ask(w, i, side, wo, 0);
+            const BsdfSample sampled = sample(*side.bsdf, side.p, wo, samplers[i].next2());
             w.beta *= sampled.weight;
             w.pdf = sampled.pdf;
             w.wi = frame.to_world(sampled.wi);
@@ -160,27 +197,10 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
             return true;
         });
 
-        // T: the light is seen or not. The first points of a pixel's walks are close together.
-        asking.clear();
-        for (const std::uint32_t i : alive)
-            if (!is_black(walker[i].found)) asking.push_back(i);
-        out.rays[q] += asking.size();
-        const auto kind = bounce == 1 ? RayCaster::Rays::alike : RayCaster::Rays::any;
-        for (std::size_t k = 0; k < asking.size(); k += packet) {
-            const std::size_t n = std::min(packet, asking.size() - k);
-            const std::uint32_t seen = T.visible(
-                n,
-                [&](std::size_t j) {
-                    const Walker& w = walker[asking[k + j]];
-                    return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, w.light);
-                },
-                kind);
-            for (std::size_t j = 0; j < n; ++j)
-                if (seen >> j & 1u) add(asking[k + j], q, walker[asking[k + j]].found);
-        }
+        look(q, bounce == 1);
 
         // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
-        const bool only_mirrors = settings.direct == DirectLight::light && bounce == N && settings.rest_probability == 0.0;
+        const bool only_mirrors = !direct.counts_what_is_hit() && bounce == N && settings.rest_probability == 0.0;
         filter([&](Walker& w, std::uint32_t i) {
             if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
             // Roulette with the ratio of the throughput: weights stay as they are, so the variance stays finite wherever Σ β² does.
@@ -208,13 +228,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const WalkSettings
         };
         advance(next_points, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.wi;
-            if ((settings.direct != DirectLight::light || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
+            if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);
-                if (!is_black(emitted)) {
-                    const double weight =
-                        settings.direct == DirectLight::mis ? power_heuristic(w.pdf, emitters.pdf(w.from, w.wi, w.x)) : 1.0;
-                    add(i, q, w.beta * emitted * weight);
-                }
+                if (!is_black(emitted)) add(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf, w.from, w.wi, w.x));
             }
             return !w.x.is_infinite();
         });

@@ -53,6 +53,7 @@ struct Setup {
         std::vector<std::uint64_t> counts(10);
         TermSamples result{samples, counts};
         Walkers walkers;
+        const DirectLightSampler direct(scene, settings.walk.direct);
         const Film& film = scene.film;
         for (std::uint32_t first = 0; first < static_cast<std::uint32_t>(film.width * film.height); first += pixels_at_once) {
             std::vector<Counting> samplers;
@@ -66,7 +67,7 @@ struct Setup {
                     camera_rays.push_back(scene.camera.ray(film.sample(sampler.next2(), x, y).position));
                 }
             }
-            walk(scene, rays, settings.walk, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
+            walk(scene, rays, direct, settings.walk, std::span<const CameraRay>(camera_rays), std::span(samplers), walkers, result);
         }
     }
 };

@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <chrono>
 #include <cmath>
@@ -126,9 +127,11 @@ TEST_F(ImageExr, AFolderIsRefused) {
 }
 
 TEST_F(ImageExr, WhatIsNotAPictureIsRefused) {
-    // The last is a GIF whose size makes OpenImageIO's reader throw.
-    for (const std::string& path : {put("a.exr", "no picture at all"), put("b.exr", ""), put("c.gif", "GIF89a\x05\xfcyfil\x03")}) {
-        EXPECT_EQ(refusal(path), path + ": not a picture that can be read");
+    // OpenImageIO asks a reader of its own of the third, which throws, and of the fourth, which aborts.
+    for (const std::string& path : {put("a.exr", "no picture at all"), put("b.exr", ""), put("c.gif", "GIF89a\x05\xfcyfil\x03"),
+                                    put("d", std::string(1000, '\0'))}) {
+        EXPECT_EQ(refusal(path),
+                  path + ": not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");
     }
 }
 
@@ -137,6 +140,17 @@ TEST_F(ImageExr, ACutFileIsRefused) {
     bytes.resize(bytes.size() / 2);
     const std::string path = put("a.exr", bytes);
     EXPECT_EQ(refusal(path).rfind(path + ": the picture is damaged: ", 0), 0U) << refusal(path);
+}
+
+TEST_F(ImageExr, ACutPngIsRefused) {
+    std::string bytes = encode_png(DisplayImage(64, 64, 7));
+    bytes.resize(bytes.size() - 13);  // the last chunk, of 12, and a byte of the one before
+    const std::string path = put("a.png", bytes);
+    EXPECT_EQ(refusal(path), path + ": the picture is damaged: a part of it ends 1 bytes beyond the file");
+    bytes.replace(8, 4, "\x7f\xff\xff\xff");
+    EXPECT_EQ(refusal(put("a.png", bytes)),
+              fmt::format("{}: the picture is damaged: a part of it ends {} bytes beyond the file", path,
+                          std::int64_t{20} + 0x7fffffff - static_cast<std::int64_t>(bytes.size())));
 }
 
 // Without asking for the memory.

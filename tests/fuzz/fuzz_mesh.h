@@ -14,10 +14,10 @@
 
 namespace neumann::fuzz {
 
-// In memory where there is a file system for that.
+// In memory where there is a file system for that. Of formats only TGA is known by its name.
 inline const std::string& path() {
     static const std::string result =
-        fmt::format("{}/neumann_fuzz_{}", std::filesystem::exists("/dev/shm") ? "/dev/shm" : "/tmp", getpid());
+        fmt::format("{}/neumann_fuzz_{}.tga", std::filesystem::exists("/dev/shm") ? "/dev/shm" : "/tmp", getpid());
     return result;
 }
 

@@ -101,7 +101,9 @@ template <class Sampler>
 Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
                 const Sampler& sampler) {
     const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
-    const WalkSettings settings{effort.bounces, direct_light(way), effort.rest_probability, effort.give_up};
+    const WalkSettings settings{effort.bounces, effort.direct.value_or(DirectLightSettings{direct_light(way)}),
+                                effort.rest_probability, effort.give_up};
+    const DirectLightSampler direct(scene, settings.direct);
     Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities),
                 std::vector<LargestSamples>(quantities), 0};
     const std::uint32_t together = std::min(effort.samples, 64u);
@@ -123,7 +125,7 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
                 samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
         }
         if (series.terms.empty())
-            walk(scene, TransportFrom{&scene.geometry, rays, starts}, settings, std::span<const CameraRay>(rays),
+            walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
                  std::span<Sampler>(samplers), walkers, result);
         for (std::uint32_t i = 0; i < together; ++i) {
             Rgb reflected(0.0);

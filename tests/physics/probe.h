@@ -9,6 +9,7 @@
 #include "core/scene/scene.h"
 #include "operators/pointwise/field.h"
 #include "operators/statistics/tail_index.h"
+#include "operators/walk/direct_light.h"
 
 #include <functional>
 #include <span>
@@ -52,6 +53,7 @@ struct Effort {
     int give_up = 1'000'000;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = fixed_seed;
+    std::optional<DirectLightSettings> direct = {};  // of a walk, in place of its way's
 };
 
 struct Statistic {

@@ -184,7 +184,8 @@ TEST_F(XmlTextures, Errors) {
               "scene.xml:4:50: unknown parameter 'gamma' of texture 'bitmap'; allowed: filename, filter_type, wrap_mode, raw, "
               "to_uv, format, accel");
     write("text.png", "this is no picture\n");
-    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='text.png'/>"), "text.png: not a picture that can be read");
+    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='text.png'/>"),
+              "text.png: not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");
     EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='nan.exr'/>"),
               "nan.exr: the pixel in column 0 and row 0 is not finite");
     EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='negative.exr'/>"),

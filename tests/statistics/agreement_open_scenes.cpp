@@ -45,7 +45,7 @@ Scene open_scene(const std::string& lights) {
 RenderedSeries sample(const Scene& scene, Method method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
     PictureSampler::Settings settings;
     settings.method = method;
-    settings.walk = {.bounces = bounces, .direct = direct, .rest_probability = 0.0};
+    settings.walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0};
     settings.seed = seed;
     settings.replicate_size = 16;
     return render_series(scene, settings, {samples, {}, {}});

@@ -16,7 +16,7 @@ constexpr int resolution = 32, bounces = 4;
 SeriesMoments::Result render(const Scene& scene, Method method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
     constexpr std::uint32_t replicate_size = 16;
     const PictureSampler sampler(scene, {.method = method,
-                                         .walk = {.bounces = bounces, .direct = direct, .rest_probability = 0.0},
+                                         .walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0},
                                          .sampler = SamplerKind::sobol,
                                          .seed = seed,
                                          .replicate_size = replicate_size});

@@ -39,7 +39,7 @@ Scene cube() {
 std::vector<std::optional<TailIndex>> tails(const Scene& scene, DirectLight direct, SamplerKind kind, std::uint64_t seed,
                                             std::uint64_t replicates) {
     const PictureSampler sampler(
-        scene, {.walk = {.bounces = bounces, .direct = direct}, .sampler = kind, .seed = seed, .replicate_size = 8});
+        scene, {.walk = {.bounces = bounces, .direct = {direct}}, .sampler = kind, .seed = seed, .replicate_size = 8});
     Tally tally(sampler.quantities());
     (void)sampler.run(0, replicates, tally);
     std::vector<std::optional<TailIndex>> found;

@@ -1,0 +1,76 @@
+#include "apps/light_options.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace neumann {
+
+namespace {
+
+using Settings = DirectLightSettings;
+
+const std::map<std::string, Settings>& strategies() {
+    static const std::map<std::string, Settings> all = {
+        {"hemisphere", {.direct = DirectLight::hemisphere}},
+        {"cosine", {.direct = DirectLight::cosine}},
+        {"bsdf", {.direct = DirectLight::bsdf}},
+        {"surfaces", {.direct = DirectLight::surfaces}},
+        {"light", {.direct = DirectLight::light}},
+        {"solid-angle", {.direct = DirectLight::light, .place = LightPlace::solid_angle}},
+        {"mis", {}},
+        {"mis-balance", {.heuristic = Heuristic::balance}},
+        {"mis-solid-angle", {.place = LightPlace::solid_angle}}};
+    return all;
+}
+
+const std::map<std::string, LightChoice>& choices() {
+    static const std::map<std::string, LightChoice> all = {{"mixed", LightChoice::mixed},
+                                                           {"uniform", LightChoice::uniform},
+                                                           {"power", LightChoice::power},
+                                                           {"contribution", LightChoice::contribution},
+                                                           {"all", LightChoice::all}};
+    return all;
+}
+
+bool asks_lights(const Settings& settings) { return settings.direct == DirectLight::light || settings.direct == DirectLight::mis; }
+
+}  // namespace
+
+void add_light_options(CLI::App& command, LightOptions& options) {
+    command
+        .add_option("--direct", options.direct,
+                    "How a walk finds lights. By directions: hemisphere (uniform), cosine, bsdf (of the material). By points: "
+                    "surfaces (all "
+                    "of them), light (on lights), solid-angle (on lights, uniform as seen). Both: mis (bsdf and light by the power "
+                    "heuristic, the default), mis-balance, mis-solid-angle")
+        ->type_name("HOW")
+        ->check(CLI::IsMember(strategies()).description(""));
+    command
+        .add_option(
+            "--lights", options.lights,
+            "Which light is asked: mixed (half by power, half alike, the default), uniform, power, contribution (radiance times "
+            "solid angle), all (each in turn)")
+        ->type_name("WHICH")
+        ->check(CLI::IsMember(choices()).description(""));
+}
+
+DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters) {
+    Settings settings = options.direct.empty() ? Settings{} : strategies().at(options.direct);
+    if (!options.lights.empty()) {
+        if (!asks_lights(settings))
+            throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
+                                         options.direct));
+        settings.lights = choices().at(options.lights);
+    }
+    if (misses_light(settings.direct, emitters))
+        throw InputError(fmt::format("--direct {} cannot find {}, of which the scene has some; take --direct mis or light",
+                                     options.direct,
+                                     emitters.has_delta_lights() ? "lights without extent (directional, point, projector, spot)"
+                                                                 : "light from infinitely far away (constant, envmap)"));
+    return settings;
+}
+
+}  // namespace neumann

@@ -1,0 +1,23 @@
+// --direct and --lights: how walks find light.
+#pragma once
+
+#include "operators/walk/direct_light.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+struct LightOptions {
+    std::string direct, lights;  // as given; empty where they are not
+
+    bool given() const { return !direct.empty() || !lights.empty(); }
+};
+
+void add_light_options(CLI::App& command, LightOptions& options);
+// Throws InputError where lights are chosen that are not asked for, or are out of reach.
+DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters);
+
+}  // namespace neumann

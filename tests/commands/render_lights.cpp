@@ -1,0 +1,69 @@
+// --direct and --lights: every name gives the same picture, and what cannot find a light is refused.
+#include "tests/commands/render_output.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+namespace {
+
+class RenderLights : public RenderTest {
+protected:
+    void write_floor(const std::string& emitters) const {
+        write(
+            "floor.xml",
+            "<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='60'/><transform name='to_world'>"
+            "<lookat origin='0 0 1.5' target='0 0 0' up='0 1 0'/></transform><film type='hdrfilm'><integer name='width' value='8'/>"
+            "<integer name='height' value='8'/></film></sensor><shape type='rectangle'><bsdf type='diffuse'/></shape>" +
+                emitters + "</scene>");
+    }
+};
+
+constexpr const char* lamp =
+    "<shape type='rectangle'><transform name='to_world'><scale value='0.5'/><rotate x='1' angle='180'/><translate "
+    "z='2'/></transform>"
+    "<emitter type='area'><float name='radiance' value='5'/></emitter></shape>";
+
+// Bounce 1 of the whole picture, against the default at 4.5 standard errors: 13 comparisons.
+TEST_F(RenderLights, AllNamesGiveTheSame) {
+    write_floor(std::string(lamp) +
+                "<shape type='sphere'><point name='center' x='0.7' y='0.7' z='0.3'/>"
+                "<float name='radius' value='0.2'/><emitter type='area'><float name='radiance' value='1'/></emitter></shape>");
+    const auto mean_of = [&](const std::vector<std::string>& options, const std::string& samples) {
+        std::vector<std::string> all = {"-n", "2", "--spp", samples, "--quiet"};
+        all.insert(all.end(), options.begin(), options.end());
+        render("floor.xml", "a", all);
+        return channel_mean(picture("a", "bounce_001.exr"), 0);
+    };
+    const ChannelMean known = mean_of({}, "1024");
+    std::vector<std::vector<std::string>> ways;
+    for (const char* how : {"hemisphere", "cosine", "bsdf", "surfaces", "light", "solid-angle", "mis-balance", "mis-solid-angle"})
+        ways.push_back({"--direct", how});
+    for (const char* which : {"mixed", "uniform", "power", "contribution", "all"})
+        ways.push_back({"--lights", which, "--seed", "1"});
+    for (const std::vector<std::string>& way : ways) {
+        const ChannelMean found = mean_of(way, "512");
+        EXPECT_NEAR(found.mean, known.mean, 4.5 * std::hypot(found.standard_error, known.standard_error)) << way[1];
+        EXPECT_LT(found.standard_error, 0.1 * known.mean) << way[1];
+        EXPECT_EQ(run_json("a").at("options").at(way[0].substr(2)), way[1]);
+    }
+}
+
+TEST_F(RenderLights, WhatCannotFindALightIsRefused) {
+    const auto refusal = [&](const std::string& how) { return run({"render", "floor.xml", "--spp", "1", "--direct", how}).err; };
+    write_floor("<emitter type='point'><point name='position' x='0' y='0' z='1'/></emitter>");
+    for (const char* how : {"hemisphere", "cosine", "bsdf", "surfaces"})
+        EXPECT_EQ(refusal(how),
+                  fmt::format("--direct {} cannot find lights without extent (directional, point, projector, spot), of "
+                              "which the scene has some; take --direct mis or light\n",
+                              how));
+    EXPECT_EQ(run({"render", "floor.xml", "--spp", "1", "--method", "pointwise"}).err,
+              "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+              "spot), of which the scene has some; take --method walk, matrix or gather\n");
+    write_floor("<emitter type='constant'/>");
+    EXPECT_EQ(refusal("surfaces"),
+              "--direct surfaces cannot find light from infinitely far away (constant, envmap), of which the scene "
+              "has some; take --direct mis or light\n");
+}
+
+}  // namespace
+}  // namespace neumann
