@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <map>
 
 namespace neumann {
@@ -35,6 +36,16 @@ const std::map<std::string, LightChoice>& choices() {
     return all;
 }
 
+std::optional<Roulette> ending(const std::string& text) {
+    if (text == "none") return Roulette{};
+    if (text == "albedo") return Roulette{Roulette::Kind::albedo};
+    if (text == "throughput") return Roulette{Roulette::Kind::throughput};
+    double survival = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), survival);
+    if (error != std::errc() || end != text.data() + text.size() || !(survival > 0.0 && survival <= 1.0)) return std::nullopt;
+    return Roulette{Roulette::Kind::fixed, survival};
+}
+
 bool asks_lights(const Settings& settings) { return settings.direct == DirectLight::light || settings.direct == DirectLight::mis; }
 
 }  // namespace
@@ -55,7 +66,18 @@ void add_light_options(CLI::App& command, LightOptions& options) {
             "solid angle), all (each in turn)")
         ->type_name("WHICH")
         ->check(CLI::IsMember(choices()).description(""));
+    command
+        .add_option(
+            "--roulette", options.roulette,
+            "How walks end: none (not before the last picture, the default), albedo (by what the last reflection left of the "
+            "weight), throughput (by what all of them left), or a probability of going on, such as 0.9")
+        ->type_name("HOW")
+        ->check([](const std::string& text) {
+            return ending(text) ? "" : "'" + text + "' is not none, albedo, throughput or a number above 0 and at most 1";
+        });
 }
+
+Roulette roulette(const LightOptions& options) { return options.roulette.empty() ? Roulette{} : *ending(options.roulette); }
 
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters) {
     Settings settings = options.direct.empty() ? Settings{} : strategies().at(options.direct);

@@ -1,7 +1,8 @@
-// --direct and --lights: how walks find light.
+// --direct, --lights and --roulette: how walks find light, and how they end.
 #pragma once
 
 #include "operators/walk/direct_light.h"
+#include "operators/walk/roulette.h"
 
 #include <CLI/CLI.hpp>
 
@@ -11,13 +12,14 @@
 namespace neumann {
 
 struct LightOptions {
-    std::string direct, lights;  // as given; empty where they are not
+    std::string direct, lights, roulette;  // as given; empty where they are not
 
-    bool given() const { return !direct.empty() || !lights.empty(); }
+    bool given() const { return !direct.empty() || !lights.empty() || !roulette.empty(); }
 };
 
 void add_light_options(CLI::App& command, LightOptions& options);
 // Throws InputError where lights are chosen that are not asked for, or are out of reach.
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters);
+Roulette roulette(const LightOptions& options);
 
 }  // namespace neumann

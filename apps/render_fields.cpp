@@ -33,7 +33,7 @@ std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
 FieldSettings choose_settings(const RenderJob& job) {
     const RenderRequest& request = job.request;
     if (request.light.given())
-        throw InputError("--direct and --lights belong to --method walk; " + request.method + " finds lights by itself");
+        throw InputError("--direct, --lights and --roulette belong to --method walk, not to " + request.method);
     if (request.seconds)
         throw InputError("--time belongs to --method walk and pointwise; " + request.method +
                          " takes --error, or --spp, --patches and --directions");

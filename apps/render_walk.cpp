@@ -70,16 +70,18 @@ RenderResult render_by_walk(const RenderJob& job) {
         throw InputError(
             fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
     if (request.method == "pointwise") {
-        if (request.light.given()) throw InputError("--direct and --lights belong to --method walk; pointwise finds lights by chance");
+        if (request.light.given()) throw InputError("--direct, --lights and --roulette belong to --method walk, not to pointwise");
         if (scene.emitters.has_delta_lights())
             throw InputError(
-                "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+                "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, "
+                "projector, "
                 "spot), of which the scene has some; take --method walk, matrix or gather");
     }
     PictureSampler::Settings settings;
     settings.method = request.method == "pointwise" ? Method::pointwise : Method::walk;
     settings.walk.bounces = choose_bounces(job);
     settings.walk.direct = direct_light(request.light, scene.emitters);
+    settings.walk.roulette = roulette(request.light);
     settings.sampler = scene.sampler.value_or(SamplerKind::sobol);
     settings.seed = request.seed;
 
@@ -127,6 +129,12 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (scene.emitters.has_delta_lights() &&
         std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; }))
         warnings.add("what a mirror throws on from a light without extent is not found by the walk and is missing");
+    const double albedo = max_component(scene.materials.largest_basic_albedo());
+    if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
+        warnings.add(
+            fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
+                        "largest here is {:.3g}",
+                        request.light.roulette, std::sqrt(settings.walk.roulette.survival), albedo));
     if (series.moments.replicates() < 2) warnings.add("a single replicate was sampled: the standard errors are unknown");
     warnings.add("sample was not a finite number and was left out", series.tally.non_finite_count);
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
@@ -136,6 +144,7 @@ RenderResult render_by_walk(const RenderJob& job) {
                       {"method", request.method},
                       {"direct", request.light.direct.empty() ? "mis" : request.light.direct},
                       {"lights", request.light.lights.empty() ? "mixed" : request.light.lights},
+                      {"roulette", request.light.roulette.empty() ? "none" : request.light.roulette},
                       {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
                       {"seed", settings.seed}};
     result.samples = {

@@ -3,12 +3,12 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/image/gif_frames.h"
+#include "core/image/picture_format.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
@@ -158,50 +158,6 @@ void expect_possible_size(const OIIO::ImageSpec& spec, const std::string& path) 
                                      spec.width, spec.height, spec.nchannels));
 }
 
-// OpenImageIO's name of a file's format, by its first bytes, or by its name where there are none to tell. Left to itself
-// OpenImageIO asks all readers it has, of which some abort the program over bytes that are not theirs.
-std::string find_format(const std::string& path) {
-    using namespace std::string_view_literals;
-    static constexpr std::pair<std::string_view, const char*> beginnings[] = {{"\x76\x2f\x31\x01"sv, "openexr"},
-                                                                              {"\x89PNG"sv, "png"},
-                                                                              {"\xff\xd8\xff"sv, "jpeg"},
-                                                                              {"II*\0"sv, "tiff"},
-                                                                              {"MM\0*"sv, "tiff"},
-                                                                              {"II+\0"sv, "tiff"},
-                                                                              {"MM\0+"sv, "tiff"},
-                                                                              {"#?"sv, "hdr"},
-                                                                              {"BM"sv, "bmp"},
-                                                                              {"P1"sv, "pnm"},
-                                                                              {"P2"sv, "pnm"},
-                                                                              {"P3"sv, "pnm"},
-                                                                              {"P4"sv, "pnm"},
-                                                                              {"P5"sv, "pnm"},
-                                                                              {"P6"sv, "pnm"},
-                                                                              {"PF"sv, "pnm"},
-                                                                              {"Pf"sv, "pnm"}};
-    std::array<char, 4> first{};
-    std::ifstream(path, std::ios::binary).read(first.data(), first.size());
-    for (const auto& [beginning, format] : beginnings)
-        if (std::string_view(first.data(), first.size()).starts_with(beginning)) return format;
-    return OIIO::Strutil::iends_with(path, ".tga") ? "targa" : "";
-}
-
-// libpng sets aside as much memory as a chunk says it is long, up to 2 GiB, before it looks whether there is so much.
-void expect_whole_png(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    file.seekg(0, std::ios::end);
-    const std::int64_t size = file.tellg(), frame = 12;  // of a chunk: its length, type and check sum
-    for (std::int64_t at = 8; at + frame <= size;) {
-        std::array<unsigned char, 4> length{};
-        file.seekg(at);
-        file.read(reinterpret_cast<char*>(length.data()), length.size());
-        at += frame + (std::int64_t{length[0]} << 24 | length[1] << 16 | length[2] << 8 | length[3]);
-        if (at > size)
-            throw InputError(
-                fmt::format("{}: the picture is damaged: a part of it ends {} bytes beyond the file", path, at - size));
-    }
-}
-
 // Alpha is not multiplied into the colours.
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     expect_readable(path);
@@ -209,8 +165,8 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     as_they_are.attribute("oiio:UnassociatedAlpha", 1);
     constexpr int largest_picture_mb = 2048;
     [[maybe_unused]] static const bool limited = OIIO::attribute("limits:imagesize_MB", largest_picture_mb);
-    const std::string format = find_format(path);
-    if (format == "png") expect_whole_png(path);
+    const std::string format = find_picture_format(path);
+    expect_parts_within_file(path, format);
     std::unique_ptr<OIIO::ImageInput> input;
     bool opened = false;
     try {

@@ -11,6 +11,7 @@
 #include "core/base/hot.h"
 #include "core/scene/pass_lights.h"
 #include "operators/walk/direct_light.h"
+#include "operators/walk/roulette.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -23,6 +24,7 @@ namespace neumann {
 struct WalkSettings {
     int bounces = 8;  // N: the last term with a picture of its own
     DirectLightSettings direct = {};
+    Roulette roulette = {};
     // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le, at reciprocal weight; 0: no rest.
     double rest_probability = 1.0;
     // Bounces beyond N after which a walk is given up and counted.
@@ -42,6 +44,7 @@ struct Walker {
     Vec3 wo;  // towards the vertex before
     Rgb beta{1.0};
     double kept_weight = 0.0;  // largest channel of β when roulette last let the walk live
+    double reflected = 0.0;    // largest channel of the last reflection's weight
 
     // The next reflection.
     Vec3 from, wi;
@@ -191,6 +194,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             if (direct.questions() > 0) ask(w, i, side, wo, 0);
             const BsdfSample sampled = sample(*side.bsdf, side.p, wo, samplers[i].next2());
             w.beta *= sampled.weight;
+            w.reflected = max_component(sampled.weight);
             w.pdf = sampled.pdf;
             w.wi = frame.to_world(sampled.wi);
             w.from = w.x.position;
@@ -203,9 +207,8 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         const bool only_mirrors = !direct.counts_what_is_hit() && bounce == N && settings.rest_probability == 0.0;
         filter([&](Walker& w, std::uint32_t i) {
             if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
-            // Roulette with the ratio of the throughput: weights stay as they are, so the variance stays finite wherever Σ β² does.
-            if (rest) {
-                const double survival = max_component(w.beta) / w.kept_weight;
+            if (rest || settings.roulette.kind != Roulette::Kind::none) {
+                const double survival = settings.roulette.probability(rest, w.reflected, max_component(w.beta), w.kept_weight);
                 if (survival < 1.0) {
                     if (samplers[i].next() >= survival) return false;
                     w.beta /= survival;

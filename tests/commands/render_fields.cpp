@@ -94,9 +94,9 @@ TEST_F(RenderFields, Refusals) {
     expect_refused({"--method", "matrix", "--time", "3"},
                    "--time belongs to --method walk and pointwise; matrix takes --error, or --spp, --patches and --directions");
     expect_refused({"--method", "gather", "--direct", "light"},
-                   "--direct and --lights belong to --method walk; gather finds lights by itself");
+                   "--direct, --lights and --roulette belong to --method walk, not to gather");
     expect_refused({"--method", "pointwise", "--lights", "all"},
-                   "--direct and --lights belong to --method walk; pointwise finds lights by chance");
+                   "--direct, --lights and --roulette belong to --method walk, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
                    "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
     expect_refused({"--patches", "100"}, "--patches and --directions belong to --method patches, matrix and gather, not to walk");

@@ -31,8 +31,8 @@ protected:
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
     EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o", "-n", "--tail", "--spp", "--time", "--error", "--method",
-                                                    "--direct", "--lights", "--patches", "--directions", "--reference", "--seed",
-                                                    "-t", "-D", "--quiet", "--json"}));
+                                                    "--direct", "--lights", "--roulette", "--patches", "--directions",
+                                                    "--reference", "--seed", "-t", "-D", "--quiet", "--json"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
     // Nothing of how it is written.

@@ -48,6 +48,24 @@ TEST_F(RenderLights, AllNamesGiveTheSame) {
     }
 }
 
+TEST_F(RenderLights, WalksEndByRoulette) {
+    write("room.xml", closed_room("0.9"));
+    for (const char* how : {"none", "albedo", "throughput", "0.95", "0.5"}) {
+        const Finished done = run({"render", "room.xml", "-o", "a", "-n", "4", "--spp", "64", "--roulette", how});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_EQ(run_json("a").at("options").at("roulette"), how);
+        EXPECT_EQ(
+            done.err.find("--roulette 0.5: where the albedo is above 0.707, the sums of walks have an infinite variance, and the "
+                          "largest here is 0.9") != std::string::npos,
+            std::string(how) == "0.5")
+            << done.err;
+    }
+    EXPECT_EQ(
+        run({"render", "room.xml", "--roulette", "2"}).err,
+        "--roulette: '2' is not none, albedo, throughput or a number above 0 and at most 1\nRun with --help for more "
+        "information.\n");
+}
+
 TEST_F(RenderLights, WhatCannotFindALightIsRefused) {
     const auto refusal = [&](const std::string& how) { return run({"render", "floor.xml", "--spp", "1", "--direct", how}).err; };
     write_floor("<emitter type='point'><point name='position' x='0' y='0' z='1'/></emitter>");

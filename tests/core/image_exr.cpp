@@ -153,6 +153,16 @@ TEST_F(ImageExr, ACutPngIsRefused) {
                           std::int64_t{20} + 0x7fffffff - static_cast<std::int64_t>(bytes.size())));
 }
 
+// Of an attribute.
+TEST_F(ImageExr, AnExrThatPromisesTooMuchIsRefused) {
+    std::string bytes = encode_exr(gradient(4, 4), {{"neumann:bounce", std::int64_t{3}}});
+    const std::size_t length = bytes.find("neumann:bounce") + sizeof("neumann:bounce") + sizeof("int");
+    bytes.replace(length, 4, "\x00\x00\x00\x7f", 4);
+    const auto beyond = static_cast<std::int64_t>(length) + 4 + 0x7f000000 - static_cast<std::int64_t>(bytes.size());
+    const std::string path = put("a.exr", bytes);
+    EXPECT_EQ(refusal(path), fmt::format("{}: the picture is damaged: a part of it ends {} bytes beyond the file", path, beyond));
+}
+
 // Without asking for the memory.
 TEST_F(ImageExr, AHeaderThatPromisesTooMuchIsRefused) {
     const std::string path = put("a.ppm", "P6\n20000 30000\n255\n123");

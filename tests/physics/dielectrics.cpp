@@ -124,7 +124,9 @@ TEST(Dielectric, ASlabHasAGeometricSeries) {
         for (const Way way : ways) {
             SCOPED_TRACE(name(way) + ", " + std::to_string(degrees) + "°");
             const auto start = seen(scene, {0.01, 0.02, 3}, {std::sin(theta), 0, -std::cos(theta)});
-            expect_matches(probe(scene, start, way, {.samples = 2048, .bounces = static_cast<int>(exact.size()), .sampler = SamplerKind::independent}), exact, 1, 0.03);
+            expect_matches(probe(scene, start, way,
+                                 {.samples = 2048, .bounces = static_cast<int>(exact.size()), .sampler = SamplerKind::independent}),
+                           exact, 1, 0.03);
             if (way == Way::pointwise) continue;
             const Estimates all = probe(scene, start, way, {.samples = 64, .bounces = 60});
             EXPECT_NEAR(all.reflected.mean.r, 1.0, 1e-12);
@@ -149,10 +151,13 @@ TEST(Dielectric, AGlassSphereHasTheSameSeries) {
     for (const Way way : ways) {
         SCOPED_TRACE(name(way));
         const auto from_outside = seen(scene, center + Vec3(-3.0, std::sin(theta), 0), {1, 0, 0});
-        expect_matches(probe(scene, from_outside, way, {.samples = 2048, .bounces = 5, .sampler = SamplerKind::independent}), outside, 1, 0.03);
+        expect_matches(probe(scene, from_outside, way, {.samples = 2048, .bounces = 5, .sampler = SamplerKind::independent}),
+                       outside, 1, 0.03);
         // A ray inside at the distance b from the centre meets the surface at the angle of sine b.
         const auto from_inside = [&](double b) { return seen(scene, center + Vec3(0, b, 0), {1, 0, 0}); };
-        expect_matches(probe(scene, from_inside(std::sin(theta) / n), way, {.samples = 2048, .bounces = 3, .sampler = SamplerKind::independent}), inside, 1, 0.03);
+        expect_matches(probe(scene, from_inside(std::sin(theta) / n), way,
+                             {.samples = 2048, .bounces = 3, .sampler = SamplerKind::independent}),
+                       inside, 1, 0.03);
         const Estimates trapped = probe(scene, from_inside(0.7), way, {.samples = 2, .bounces = way == Way::pointwise ? 12 : 100});
         for (std::size_t i = 0; i < trapped.terms.size(); ++i) EXPECT_TRUE(is_black(trapped.terms[i].mean)) << i;
         if (way == Way::pointwise) continue;

@@ -68,6 +68,25 @@ TEST(DirectStrategiesSlow, ARectangleByLambertsFormula) {
     }
 }
 
+// One sample's variance below the ceiling of a unit cube, all of it a lamp: F (1 − F) of directions by their cosine, and two
+// integrals (quadrature to 1e-8).
+TEST(DirectStrategiesSlow, VariancesBelowACeiling) {
+    SceneMaker maker;
+    maker.add(patch({0.5, 0.5, 0}, {0, 0, 1}, 0.01), matte(1.0));
+    maker.add(parallelogram({0, 0, 1}, {0, 1, 0}, {1, 0, 0}), lamp(1.0));
+    const Scene scene = maker.make();
+    for (const auto& [direct, variance] :
+         {std::pair(DirectLight::cosine, 0.18211707), std::pair(DirectLight::hemisphere, 0.39080404),
+          std::pair(DirectLight::bsdf, 0.18211707), std::pair(DirectLight::light, 0.00174051)}) {
+        const Estimates found = probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Way::mis,
+                                      {.samples = 1 << 14,
+                                       .bounces = 1,
+                                       .sampler = SamplerKind::independent,
+                                       .direct = DirectLightSettings{.direct = direct}});
+        expect_matches(found.variance[1], variance, std::to_string(static_cast<int>(direct)), 0.005);
+    }
+}
+
 // Bounces 1 to 3 on the floor, against the plain walk by directions of the material. 75 comparisons of two estimates at 4.5
 // standard errors.
 TEST(DirectStrategiesSlow, ManyLights) {

@@ -163,7 +163,7 @@ TEST(Extremes, WithoutLightOrSurfacesAllIsZero) {
         EXPECT_FALSE(scene.warnings.counts().empty());
         for (const DirectLight direct : {DirectLight::mis, DirectLight::light, DirectLight::bsdf}) {
             PictureSampler::Settings settings;
-            settings.walk = {4, {direct}, 1.0};
+            settings.walk = {.bounces = 4, .direct = {direct}};
             const Pictures pictures = render(scene, settings, 4);
             for (std::size_t q = 0; q < pictures.result.quantities(); ++q)
                 for (const Estimate& e : {pictures.result.term(q), pictures.result.sum(q)})

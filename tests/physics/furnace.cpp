@@ -45,7 +45,7 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
                 PictureSampler::Settings settings;
                 settings.method = method;
                 settings.sampler = sampler;
-                settings.walk = {10, {DirectLight::bsdf}, 0.0};
+                settings.walk = {.bounces = 10, .direct = {DirectLight::bsdf}, .rest_probability = 0.0};
                 settings.seed = fixed_seed;
                 const Pictures pictures = render(scene, settings, 4);
                 for (int i = 0; i <= 10; ++i) {

@@ -51,7 +51,7 @@ Scene furnished_room(const Units& units) {
 
 Pictures pictures(const Scene& scene, DirectLight direct = DirectLight::mis) {
     PictureSampler::Settings settings;
-    settings.walk = {bounces, {direct}, 1.0};
+    settings.walk = {.bounces = bounces, .direct = {direct}};
     settings.seed = fixed_seed;
     return render(scene, settings, 4);
 }

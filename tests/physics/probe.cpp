@@ -101,8 +101,11 @@ template <class Sampler>
 Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
                 const Sampler& sampler) {
     const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
-    const WalkSettings settings{effort.bounces, effort.direct.value_or(DirectLightSettings{direct_light(way)}),
-                                effort.rest_probability, effort.give_up};
+    const WalkSettings settings{.bounces = effort.bounces,
+                                .direct = effort.direct.value_or(DirectLightSettings{direct_light(way)}),
+                                .roulette = effort.roulette,
+                                .rest_probability = effort.rest_probability,
+                                .give_up = effort.give_up};
     const DirectLightSampler direct(scene, settings.direct);
     Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities),
                 std::vector<LargestSamples>(quantities), 0};

@@ -10,6 +10,7 @@
 #include "operators/pointwise/field.h"
 #include "operators/statistics/tail_index.h"
 #include "operators/walk/direct_light.h"
+#include "operators/walk/roulette.h"
 
 #include <functional>
 #include <span>
@@ -54,6 +55,7 @@ struct Effort {
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = fixed_seed;
     std::optional<DirectLightSettings> direct = {};  // of a walk, in place of its way's
+    Roulette roulette = {};
 };
 
 struct Statistic {
