@@ -33,14 +33,20 @@ struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConduct
     using variant::variant;
 };
 
+// std::visit for the innermost loops: of so many materials it would call each through a table, and the plainest is worth inlining.
+template <class F>
+auto visit_fast(const Bsdf& bsdf, const F& f) {
+    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) return f(*diffuse);
+    return std::visit(f, static_cast<const Bsdf::variant&>(bsdf));
+}
 inline Rgb eval(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec3& wi) {
-    return std::visit([&](const auto& b) { return b.eval(p, wo, wi); }, bsdf);
+    return visit_fast(bsdf, [&](const auto& b) { return b.eval(p, wo, wi); });
 }
 inline double pdf(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec3& wi) {
-    return std::visit([&](const auto& b) { return b.pdf(p, wo, wi); }, bsdf);
+    return visit_fast(bsdf, [&](const auto& b) { return b.pdf(p, wo, wi); });
 }
 inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec2& u) {
-    return std::visit([&](const auto& b) { return b.sample(p, wo, u); }, bsdf);
+    return visit_fast(bsdf, [&](const auto& b) { return b.sample(p, wo, u); });
 }
 // An upper bound on ∫ fs |cosθ| dω over all points and directions, for each channel.
 inline Rgb largest_albedo(const Bsdf& bsdf) {
