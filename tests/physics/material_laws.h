@@ -3,13 +3,12 @@
 
 #include "core/sampling/independent_sampler.h"
 #include "tests/physics/quadrature.h"
+#include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
 namespace neumann::physics {
-
-inline constexpr std::uint64_t directions_seed = 20240229;
 
 // ∫ f(ω) dω over z and φ between bounds: Gauss's rule of 20 × 20 points.
 template <class Function>
@@ -36,7 +35,7 @@ inline double albedo_of_both_sides(const Bsdf& bsdf, const Vec3& wo, int channel
 // The probability of a χ² that is larger than that of 16384 directions in 12 × 24 cells of the sphere, equal in solid angle, and of
 // those that are deltas or none at all, whose share is 1 − ∫ pdf.
 inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, std::uint32_t stream,
-                                 std::uint64_t seed = directions_seed, int count = 16384) {
+                                 std::uint64_t seed = fixed_seed, int count = 16384) {
     constexpr int rings = 12, sectors = 24;
     std::vector<double> found(rings * sectors);
     double others = 0.0;
@@ -91,7 +90,7 @@ inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const 
 
 // weight · pdf = fs |cosθ|, and pdf() is the density that sample() says.
 inline void expect_consistent_samples(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, double tolerance = 1e-9) {
-    IndependentSampler sampler(directions_seed, 1);
+    IndependentSampler sampler(fixed_seed, 1);
     for (std::uint64_t i = 0; i < 1000; ++i) {
         sampler.start(i);
         const BsdfSample found = sample(bsdf, p, wo, sampler.next2());
@@ -106,7 +105,7 @@ inline void expect_consistent_samples(const Bsdf& bsdf, const ShadingPoint& p, c
 // The largest |fs(a → b)/fs(b → a) − 1|, relative to the larger one, over `count` pairs on the same side.
 inline double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, int count = 1000) {
     double worst = 0.0;
-    IndependentSampler sampler(directions_seed, 2);
+    IndependentSampler sampler(fixed_seed, 2);
     for (int i = 0; i < count; ++i) {
         sampler.start(static_cast<std::uint64_t>(i));
         const Vec3 a = uniform_hemisphere(sampler.next2()), b = uniform_hemisphere(sampler.next2());

@@ -11,6 +11,7 @@
 #include "operators/statistics/tail_index.h"
 #include "operators/walk/direct_light.h"
 #include "operators/walk/roulette.h"
+#include "tests/physics/seed.h"
 
 #include <functional>
 #include <span>
@@ -44,7 +45,6 @@ std::string name(Way way);
 // The others find a light by chance, with a probability that is its form factor, and need many more samples.
 inline bool looks_for_lights(Way way) { return way == Way::mis || way == Way::light; }
 
-inline constexpr std::uint64_t fixed_seed = 20240229;
 inline constexpr int batch_count = 64;
 
 struct Effort {
