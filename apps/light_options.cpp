@@ -95,4 +95,12 @@ DirectLightSettings direct_light(const LightOptions& options, const Emitters& em
     return settings;
 }
 
+nlohmann::ordered_json as_json(const LightOptions& options) {
+    nlohmann::ordered_json json;
+    json["direct"] = options.direct.empty() ? "mis" : options.direct;
+    if (asks_lights(strategies().at(json["direct"]))) json["lights"] = options.lights.empty() ? "mixed" : options.lights;
+    json["roulette"] = options.roulette.empty() ? "none" : options.roulette;
+    return json;
+}
+
 }  // namespace neumann

@@ -5,6 +5,7 @@
 #include "operators/walk/roulette.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
@@ -21,5 +22,7 @@ void add_light_options(CLI::App& command, LightOptions& options);
 // Throws InputError where lights are chosen that are not asked for, or are out of reach.
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters);
 Roulette roulette(const LightOptions& options);
+// What is given and what is not, as options that say the same.
+nlohmann::ordered_json as_json(const LightOptions& options);
 
 }  // namespace neumann

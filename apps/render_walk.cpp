@@ -140,13 +140,9 @@ RenderResult render_by_walk(const RenderJob& job) {
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
-    result.options = {{"bounces", settings.walk.bounces},
-                      {"method", request.method},
-                      {"direct", request.light.direct.empty() ? "mis" : request.light.direct},
-                      {"lights", request.light.lights.empty() ? "mixed" : request.light.lights},
-                      {"roulette", request.light.roulette.empty() ? "none" : request.light.roulette},
-                      {"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"},
-                      {"seed", settings.seed}};
+    result.options = {{"bounces", settings.walk.bounces}, {"method", request.method}};
+    if (request.method == "walk") result.options.update(as_json(request.light));
+    result.options.update({{"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"}, {"seed", settings.seed}});
     result.samples = {
         {"per_pixel", series.samples}, {"replicate_size", series.replicate_size}, {"replicates", series.moments.replicates()}};
     if (verdict == RestVerdict::measured)

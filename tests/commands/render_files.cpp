@@ -115,8 +115,13 @@ TEST_F(RenderFiles, FourBounces) {
     EXPECT_EQ(run.at("command"), "neumann render scene.xml -o a/b -n 3 --spp 48 --seed 5 -D height=4 --quiet");
     EXPECT_EQ(run.at("scene").at("file"), "scene.xml");
     EXPECT_EQ(run.at("scene").at("definitions"), nlohmann::json({{"height", "4"}}));
-    EXPECT_EQ(run.at("options"),
-              nlohmann::json({{"bounces", 3}, {"method", "walk"}, {"direct", "mis"}, {"sampler", "sobol"}, {"seed", 5}}));
+    EXPECT_EQ(run.at("options"), nlohmann::json({{"bounces", 3},
+                                                 {"method", "walk"},
+                                                 {"direct", "mis"},
+                                                 {"lights", "mixed"},
+                                                 {"roulette", "none"},
+                                                 {"sampler", "sobol"},
+                                                 {"seed", 5}}));
     EXPECT_EQ(run.at("samples").at("per_pixel"), 48);
     EXPECT_EQ(run.at("samples").at("replicates"), 6);
     EXPECT_EQ(run.at("samples").at("degrees_of_freedom"), 5.0);
