@@ -1,4 +1,4 @@
-// <spectrum> in all its forms.
+// Colours, and <spectrum> in all its forms.
 #include "tests/reader/xml_scene_files.h"
 
 namespace neumann {
@@ -117,6 +117,41 @@ TEST_F(XmlSpectra, Errors) {
               "scene.xml:3:42: <spectrum> has both 'type' and 'value', expected one of them");
     EXPECT_EQ(radiance_error("<spectrum name='radiance' value='1'>\n<float name='value' value='1'/></spectrum>"),
               "scene.xml:4:1: <float> is not supported in <spectrum> without 'type'");
+}
+
+TEST_F(XmlSpectra, Colours) {
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='0.1, +0.2 3e-1'/>"), Rgb(0.1, 0.2, 0.3));
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='0.5'/>"), Rgb(0.5));
+    EXPECT_EQ(reflectance("<rgb name='reflectance' value='2'/>"), Rgb(2.0));
+    EXPECT_EQ(reflectance("<spectrum name='reflectance' value=' 0.25 '/>"), Rgb(0.25));
+    EXPECT_EQ(reflectance("<integer name='reflectance' value='1'/>"), Rgb(1.0));
+    const Rgb hex = reflectance("<rgb name='reflectance' value='#ff8000'/>");
+    EXPECT_DOUBLE_EQ(hex.r, 1.0);
+    EXPECT_NEAR(hex.g, 0.2158605, 1e-7);
+    EXPECT_EQ(hex.b, 0.0);
+}
+
+TEST_F(XmlSpectra, Wavelengths) {
+    const Rgb white = reflectance("<spectrum name='reflectance' value='360:0.5, 830:0.5'/>");
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(white[i], 0.5, 1e-4);
+    const SceneParts parts =
+        read("<shape type='cube'><emitter type='area'><spectrum name='radiance' value='360:2, 830:2'/></emitter></shape>");
+    const Rgb lamp = parts.lights.area.at(0).largest;
+    EXPECT_NEAR(lamp.r, 2.0 * 1.2048, 1e-3);
+    EXPECT_NEAR(lamp.g, 2.0 * 0.9483, 1e-3);
+    EXPECT_NEAR(lamp.b, 2.0 * 0.9089, 1e-3);
+    EXPECT_TRUE(parts.warnings.counts().empty());
+}
+
+TEST_F(XmlSpectra, WavelengthsOutsideSrgb) {
+    const SceneParts parts = read(
+        "<shape type='cube'><bsdf type='diffuse'>"
+        "<spectrum name='reflectance' value='500:1 520:1'/></bsdf></shape>");
+    const Rgb green = largest_albedo(parts.bsdfs.at(0));
+    EXPECT_EQ(green.r, 0.0);  // negative before
+    EXPECT_GT(green.g, 0.1);
+    EXPECT_EQ(parts.warnings.counts(),
+              (std::map<std::string, std::uint64_t>{{"spectrum outside the colours of sRGB, cut to them", 1}}));
 }
 
 }  // namespace neumann

@@ -1,0 +1,143 @@
+// What takes the picture: sensors, films, filters, samplers, integrators.
+#include "tests/reader/xml_scene_files.h"
+
+#include <numbers>
+
+namespace neumann {
+
+class XmlSensors : public XmlTest {
+protected:
+    SceneParts read_sensor(const std::string& inside) const {
+        return read_file("<scene version=\"3.0.0\"><sensor type=\"perspective\">\n" + inside + "</sensor></scene>");
+    }
+    static double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+};
+
+TEST_F(XmlSensors, Camera) {
+    const SceneParts parts = read_sensor(
+        "<float name='fov' value='30'/><string name='fov_axis' value='smaller'/><float name='near_clip' value='10'/>"
+        "<integer name='far_clip' value='2800'/><float name='focus_distance' value='1000'/>"
+        "<float name='principal_point_offset_x' value='0.25'/><float name='principal_point_offset_y' value='-0.5'/>");
+    EXPECT_DOUBLE_EQ(parts.camera.fov, radians(30.0));
+    EXPECT_EQ(parts.camera.fov_axis, FovAxis::smaller);
+    EXPECT_EQ(parts.camera.near_clip, 10.0);
+    EXPECT_EQ(parts.camera.far_clip, 2800.0);
+    EXPECT_EQ(parts.camera.principal_point_offset, Vec2(0.25, -0.5));
+}
+
+TEST_F(XmlSensors, FocalLength) {
+    for (const char* given : {"<string name='focal_length' value='50mm'/>", ""}) {
+        const SceneParts parts = read_sensor(given);
+        EXPECT_EQ(parts.camera.fov_axis, FovAxis::diagonal);
+        EXPECT_NEAR(parts.camera.fov * 180.0 / std::numbers::pi, 46.7930, 1e-4);  // what a 50 mm lens is known for
+    }
+}
+
+TEST_F(XmlSensors, OtherSensors) {
+    const auto camera = [&](const std::string& type, const std::string& inside) {
+        return read_file("<scene version='3.0.0'><sensor type='" + type + "'>" + inside + "</sensor></scene>").camera;
+    };
+    const SensorOptions lens = camera("thinlens", "<float name='aperture_radius' value='0.1'/><float name='fov' value='30'/>");
+    EXPECT_EQ(lens.kind, SensorOptions::Kind::thin_lens);
+    EXPECT_EQ(lens.aperture_radius, 0.1);
+    EXPECT_EQ(lens.focus_distance, 1e4);  // the far plane
+    EXPECT_DOUBLE_EQ(lens.fov, radians(30.0));
+    EXPECT_EQ(
+        camera("thinlens", "<float name='aperture_radius' value='0.1'/><float name='focus_distance' value='3'/>").focus_distance,
+        3.0);
+    const SensorOptions flat = camera("orthographic", "<transform name='to_world'><scale x='10' y='10'/></transform>");
+    EXPECT_EQ(flat.kind, SensorOptions::Kind::orthographic);
+    EXPECT_EQ(flat.to_world[0][0], 10.0);
+    EXPECT_EQ(flat.near_clip, 1e-2);
+}
+
+TEST_F(XmlSensors, MirroredCamera) {
+    const SceneParts parts = read_sensor("<float name='fov' value='9'/><transform name='to_world'><scale x='-1'/></transform>");
+    EXPECT_EQ(parts.camera.to_world[0][0], -1.0);
+}
+
+TEST_F(XmlSensors, FilmAndSampler) {
+    const SceneParts parts = read_sensor(
+        "<float name='fov' value='9'/><sampler type='multijitter'><integer name='sample_count' value='64'/>"
+        "<integer name='seed' value='3'/></sampler>"
+        "<film type='hdrfilm'><integer name='width' value='100'/><integer name='height' value='50'/>"
+        "<integer name='crop_offset_x' value='20'/><integer name='crop_offset_y' value='10'/><integer name='crop_width' "
+        "value='30'/>"
+        "<string name='pixel_format' value='rgba'/><string name='component_format' value='float32'/>"
+        "<string name='file_format' value='openexr'/><boolean name='banner' value='FALSE'/><rfilter type='box'/></film>");
+    EXPECT_EQ(parts.sampler, SamplerKind::sobol);
+    EXPECT_EQ(parts.film.width, 100);
+    EXPECT_EQ(parts.film.height, 50);
+    EXPECT_EQ(parts.film.crop_x, 20);
+    EXPECT_EQ(parts.film.crop_y, 10);
+    EXPECT_EQ(parts.film.crop_width, 30);
+    EXPECT_EQ(parts.film.crop_height, 40);
+    EXPECT_TRUE(std::holds_alternative<BoxFilter>(parts.film.filter));
+}
+
+TEST_F(XmlSensors, Samplers) {
+    for (const auto& [type, kind] : std::map<std::string, SamplerKind>{{"independent", SamplerKind::independent},
+                                                                       {"ldsampler", SamplerKind::sobol},
+                                                                       {"orthogonal", SamplerKind::sobol},
+                                                                       {"stratified", SamplerKind::sobol}})
+        EXPECT_EQ(read_sensor("<float name='fov' value='9'/><sampler type='" + type + "'/>").sampler, kind) << type;
+}
+
+TEST_F(XmlSensors, Filters) {
+    const auto filter = [&](const std::string& inside) {
+        return read_sensor("<float name='fov' value='9'/><film type='hdrfilm'>" + inside + "</film>").film.filter;
+    };
+    EXPECT_EQ(std::get<TentFilter>(filter("<rfilter type='tent'/>")).radius(), 1.0);
+    EXPECT_EQ(std::get<TentFilter>(filter("<rfilter type='tent'><float name='radius' value='2.5'/></rfilter>")).radius(), 2.5);
+    EXPECT_EQ(std::get<GaussianFilter>(filter("<rfilter type='gaussian'><float name='stddev' value='1'/></rfilter>")).radius(),
+              4.0);
+    const auto at = [&](const std::string& inside, double x) { return std::get<SignedFilter>(filter(inside))(x); };
+    // Mitchell and Netravali's values at 0 and 1: 1 − B/3 and B/6.
+    EXPECT_NEAR(at("<rfilter type='mitchell'/>", 0.0), 8.0 / 9.0, 1e-15);
+    EXPECT_NEAR(at("<rfilter type='mitchell'/>", -1.0), 1.0 / 18.0, 1e-15);
+    EXPECT_NEAR(at("<rfilter type='mitchell'><float name='B' value='1'/><float name='C' value='0'/></rfilter>", 1.0), 1.0 / 6.0,
+                1e-15);
+    EXPECT_NEAR(at("<rfilter type='catmullrom'/>", 0.0), 1.0, 1e-15);
+    EXPECT_NEAR(at("<rfilter type='catmullrom'/>", 1.5), -0.0625, 1e-15);
+    // sinc(3/2) sinc(1/2) = −4 / (3 π²).
+    EXPECT_NEAR(at("<rfilter type='lanczos'/>", 1.5), -4.0 / (3.0 * std::numbers::pi * std::numbers::pi), 1e-15);
+    EXPECT_EQ(std::get<SignedFilter>(filter("<rfilter type='lanczos'/>")).radius(), 3.0);
+    EXPECT_EQ(std::get<SignedFilter>(filter("<rfilter type='lanczos'><integer name='lobes' value='5'/></rfilter>")).radius(), 5.0);
+    EXPECT_FALSE(read("").film.sample_border);
+    EXPECT_TRUE(read_sensor("<float name='fov' value='9'/><film type='hdrfilm'><boolean name='sample_border' value='true'/>"
+                            "<string name='file_format' value='exr'/></film>")
+                    .film.sample_border);
+}
+
+TEST_F(XmlSensors, MaxDepthCountsOneMoreThanBounces) {
+    const auto bounces = [&](const std::string& inside) {
+        return read("<integrator type='path'>" + inside + "</integrator>").bounces;
+    };
+    EXPECT_EQ(bounces("<integer name='max_depth' value='6'/><integer name='rr_depth' value='3'/>"), 5);
+    EXPECT_EQ(bounces("<integer name='max_depth' value='1'/><boolean name='hide_emitters' value='false'/>"), 0);
+    EXPECT_EQ(bounces("<integer name='max_depth' value='-1'/>"), std::nullopt);
+    EXPECT_EQ(bounces(""), std::nullopt);
+    for (const char* type : {"ptracer", "volpath", "volpathmis"})
+        EXPECT_EQ(read(std::string("<integrator type='") + type + "'><integer name='max_depth' value='3'/></integrator>").bounces,
+                  2);
+}
+
+TEST_F(XmlSensors, Integrators) {
+    const auto scene = [&](const std::string& integrator) { return read(integrator); };
+    const SceneParts direct = scene("<integrator type='direct'><integer name='emitter_samples' value='0'/></integrator>");
+    EXPECT_EQ(direct.bounces, 1);
+    EXPECT_FALSE(direct.hide_emitters);
+    EXPECT_EQ(scene("<integrator type='direct'><integer name='shading_samples' value='4'/></integrator>").bounces, 1);
+    EXPECT_TRUE(scene("<integrator type='direct'><boolean name='hide_emitters' value='true'/></integrator>").hide_emitters);
+    const SceneParts moment = scene(
+        "<integrator type='moment'><integrator type='path' name='first'><integer name='max_depth' value='4'/>"
+        "<boolean name='hide_emitters' value='true'/></integrator></integrator>");
+    EXPECT_EQ(moment.bounces, 3);
+    EXPECT_TRUE(moment.hide_emitters);
+    EXPECT_EQ(scene("<integrator type='path'><integer name='samples_per_pass' value='8'/><integer name='block_size' value='32'/>"
+                    "<float name='timeout' value='-1'/></integrator>")
+                  .bounces,
+              std::nullopt);
+}
+
+}  // namespace neumann
