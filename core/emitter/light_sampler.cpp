@@ -35,12 +35,7 @@ Vec3 center_of(const Cylinder& cylinder) { return cylinder.center(); }
 }  // namespace
 
 LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place)
-    : geometry_(&geometry),
-      emitters_(&emitters),
-      choice_(choice),
-      place_(place),
-      density_of_shape_(geometry.shapes().size(), 0.0),
-      first_part_(geometry.shapes().size(), 0) {
+    : geometry_(&geometry), emitters_(&emitters), choice_(choice), place_(place), density_of_shape_(geometry.shapes().size(), 0.0) {
     std::vector<double> share = probabilities(emitters.powers(), choice);
     const std::size_t shapes = geometry.shapes().size();
     if (choice == LightChoice::mixed && emitters.has_environment()) limit_to_half(share, shapes);
@@ -49,14 +44,14 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
     const auto add_light = [&](std::size_t first) { lights_.push_back({first, cumulative_.size()}); };
     for (std::uint32_t shape = 0; shape < shapes; ++shape) {
         if (share[shape] == 0.0) continue;
-        first_part_[shape] = parts_.size();
+        const std::size_t first = parts_.size();
         density_of_shape_[shape] = share[shape] / geometry.area(shape);
         for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive)
             if (const double area = geometry.area(shape, primitive); area > 0.0) {
                 parts_.push_back({shape, primitive});
                 add(density_of_shape_[shape] * area);
             }
-        add_light(first_part_[shape]);
+        add_light(first);
         if (choice == LightChoice::all) density_of_shape_[shape] = 1.0 / geometry.area(shape);
     }
     for (std::size_t i = shapes; i < share.size(); ++i) {

@@ -22,8 +22,9 @@ enum class LightChoice {
     mixed,         // half by power, half alike, an environment at most every other time
     uniform,       // alike
     power,         // by the power it gives off, of its largest radiance
-    contribution,  // by what it would bring to the point if nothing stood between: radiance times solid angle, of each of its parts
-    all            // each once
+    contribution,  // by what it would bring to the point if nothing stood between: radiance times solid angle, of each of its
+                   // parts, all of which are looked at for that
+    all  // each once
 };
 
 // Where on it: uniform on its surface, or in the directions in which it is seen.
@@ -109,7 +110,6 @@ private:
     std::vector<Light> lights_;
     std::vector<double> cumulative_;        // of the probabilities of parts_, then of the distant lights of Emitters
     std::vector<double> density_of_shape_;  // per area, of an ask
-    std::vector<std::size_t> first_part_;   // of a shape
 };
 
 }  // namespace neumann

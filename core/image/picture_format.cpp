@@ -29,10 +29,11 @@ public:
         if (big_endian) std::swap(bytes[0], bytes[3]), std::swap(bytes[1], bytes[2]);
         return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t{bytes[3]} << 24;
     }
-    // Up to a zero.
+    // Up to a zero, or one more than OpenEXR's names may have.
+    static constexpr std::size_t longest = 255;
     std::string text() {
         std::string result;
-        for (char c = 0; has(1); result += c) {
+        for (char c = 0; has(1) && result.size() <= longest; result += c) {
             read(&c, 1);
             if (c == '\0') break;
         }
@@ -74,14 +75,14 @@ void walk_exr(PartReader& file) {
     if (!file.has(4)) return;
     const bool several = (file.number(false) & several_parts) != 0;
     for (bool began = false; file.has(1);) {
-        if (file.text().empty()) {
+        const std::string name = file.text();
+        if (name.empty()) {
             if (!several || !began) return;
             began = false;
             continue;
         }
         began = true;
-        file.text();
-        if (!file.has(4)) return;
+        if (name.size() > PartReader::longest || file.text().size() > PartReader::longest || !file.has(4)) return;
         const std::uint32_t length = file.number(false);
         file.skip(length);
     }

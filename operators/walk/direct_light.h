@@ -53,8 +53,10 @@ public:
     LightQuestion ask(const SurfaceSide& side, Sampler& sampler, std::size_t question) const {
         switch (settings_.direct) {
             case DirectLight::hemisphere:
-            case DirectLight::cosine:
-                return ask_direction(side, sampler.next2(), transmits(*side.bsdf) ? sampler.next() : 0.0);
+            case DirectLight::cosine: {
+                const Vec2 u = sampler.next2();
+                return ask_direction(side, u, transmits(*side.bsdf) ? sampler.next() : 0.0);
+            }
             case DirectLight::surfaces: {
                 const double choice = sampler.next();
                 return ask_surface(side.p, choice, sampler.next2());
