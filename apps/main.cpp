@@ -69,7 +69,7 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
             "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
             "gather: the same with K once more at the pixel; patches: the patches as they are")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "pointwise", "matrix", "gather", "patches"}).description(""))
+        ->check(CLI::IsMember({"walk", "light", "bidirectional", "pointwise", "matrix", "gather", "patches"}).description(""))
         ->capture_default_str();
     neumann::add_light_options(*render, request.light);
     render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <numeric>
 
 namespace neumann {
@@ -46,6 +47,14 @@ RestVerdict rest_verdict(const RenderJob& job) {
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
+Method method_named(const std::string& name) {
+    static const std::map<std::string, Method> methods = {{"walk", Method::walk},
+                                                          {"pointwise", Method::pointwise},
+                                                          {"light", Method::light},
+                                                          {"bidirectional", Method::bidirectional}};
+    return methods.at(name);
+}
+
 BounceSeries bounce_series(const RenderedSeries& series, SeriesReport report) {
     BounceSeries out;
     const auto result = std::make_shared<SeriesMoments::Result>(series.moments.result());
@@ -78,7 +87,7 @@ RenderResult render_by_walk(const RenderJob& job) {
                 "spot), of which the scene has some; take --method walk, matrix or gather");
     }
     PictureSampler::Settings settings;
-    settings.method = request.method == "pointwise" ? Method::pointwise : Method::walk;
+    settings.method = method_named(request.method);
     settings.walk.bounces = choose_bounces(job);
     settings.walk.direct = direct_light(request.light, scene.emitters);
     settings.walk.roulette = roulette(request.light);

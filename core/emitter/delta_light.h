@@ -4,6 +4,7 @@
 #include "core/emitter/beam.h"
 #include "core/emitter/projector_light.h"
 #include "core/emitter/spot_light.h"
+#include "core/sampling/warp.h"
 
 #include <variant>
 
@@ -22,6 +23,11 @@ public:
     double brightness(const Surroundings&) const { return 4.0 * mean_component(intensity_); }
     bool is_grey() const { return neumann::is_grey(intensity_); }
 
+    const Vec3& position() const { return position_; }
+    // A direction to shine in, with the density direction_pdf(), per solid angle.
+    Vec3 sample_direction(const Vec2& u) const { return uniform_sphere(u); }
+    double direction_pdf(const Vec3&) const { return 0.25 * inv_pi; }
+
 private:
     Vec3 position_;
     Rgb intensity_;
@@ -38,6 +44,7 @@ public:
     }
     double brightness(const Surroundings& scene) const { return scene.radius * scene.radius * mean_component(irradiance_); }
     bool is_grey() const { return neumann::is_grey(irradiance_); }
+    const Vec3& direction() const { return direction_; }
 
 private:
     Vec3 direction_;

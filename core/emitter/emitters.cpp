@@ -1,5 +1,7 @@
 #include "core/emitter/emitters.h"
 
+#include "core/base/frame.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -41,15 +43,69 @@ DistantSample Emitters::sample_distant(std::size_t index, const Vec3& x, const V
         sample.pdf = environment_pdf(sample.w);
         if (sample.pdf > 0.0) sample.light = radiance(*lights_.environment, sample.w) / sample.pdf;
     } else {
-        const Beam found = beam(lights_.delta[index - (lights_.environment ? 1 : 0)], x, surroundings_);
+        const Beam found = beam(delta_light(index), x, surroundings_);
         sample = {found.from, glm::normalize(found.from - x), found.irradiance, delta_pdf};
     }
     return sample;
 }
 
+DistantEmission Emitters::send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const {
+    const double radius = surroundings_.radius;
+    // A point before the scene, from where a ray along w meets a disc across it through the middle.
+    const auto from_afar = [&](const Vec3& w) {
+        const Frame across(w);
+        const Vec2 disk = uniform_disk(place) * radius;
+        return surroundings_.center + across.s * disk.x + across.t * disk.y - w * (2.0 * radius);
+    };
+    DistantEmission sent;
+    if (lights_.environment && index == 0) {
+        const Vec3 towards = neumann::sample(*lights_.environment, direction);
+        sent.w = -towards;
+        sent.from = from_afar(sent.w);
+        sent.pdf = environment_pdf(towards) / (pi * radius * radius);
+        if (sent.pdf > 0.0) sent.light = radiance(*lights_.environment, towards) / sent.pdf;
+        return sent;
+    }
+    sent.is_delta = true;
+    std::visit(
+        [&](const auto& light) {
+            if constexpr (requires { light.direction(); }) {
+                sent.w = light.direction();
+                sent.from = from_afar(sent.w);
+                sent.pdf = 1.0 / (pi * radius * radius);
+                sent.light = light.beam(sent.from, surroundings_).irradiance / sent.pdf;
+            } else {
+                sent.is_point = true;
+                sent.from = light.position();
+                sent.w = light.sample_direction(direction);
+                sent.pdf = light.direction_pdf(sent.w);
+                // Intensity is the irradiance at the distance 1; at the scene's distance it has more digits.
+                if (sent.pdf > 0.0)
+                    sent.light = light.beam(sent.from + sent.w * radius, surroundings_).irradiance * (radius * radius / sent.pdf);
+            }
+        },
+        delta_light(index));
+    return sent;
+}
+
+double Emitters::distant_density(std::size_t index, const Vec3& x, const Vec3& w) const {
+    const double disk = pi * surroundings_.radius * surroundings_.radius;
+    if (lights_.environment && index == 0) return environment_pdf(-w) / disk;
+    return std::visit(
+        [&](const auto& light) {
+            if constexpr (requires { light.direction(); }) {
+                return 1.0 / disk;
+            } else {
+                const Vec3 d = x - light.position();
+                return light.direction_pdf(w) / glm::dot(d, d);
+            }
+        },
+        delta_light(index));
+}
+
 double Emitters::distant_irradiance(std::size_t index, const Vec3& x) const {
     if (lights_.environment && index == 0) return pi * brightness(*lights_.environment);
-    return mean_component(beam(lights_.delta[index - (lights_.environment ? 1 : 0)], x, surroundings_).irradiance);
+    return mean_component(beam(delta_light(index), x, surroundings_).irradiance);
 }
 
 bool Emitters::is_grey() const {

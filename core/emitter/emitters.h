@@ -28,6 +28,16 @@ struct DistantSample {
     double pdf = 0.0;  // of w, per solid angle, or delta_pdf
 };
 
+// A ray of such a light on its way into the scene.
+struct DistantEmission {
+    Vec3 from;         // of a light infinitely far away, before the scene
+    Vec3 w;            // in which it travels
+    Rgb light{0.0};    // power over pdf
+    double pdf = 0.0;  // of w per solid angle, where the light has several, times that per area across w, where it is infinitely far
+                       // away
+    bool is_point = false, is_delta = false;  // it stands somewhere; no ray meets it
+};
+
 class Emitters {
 public:
     static constexpr int none = -1;
@@ -56,6 +66,10 @@ public:
     const std::vector<double>& powers() const { return powers_; }
     // `index`: of a distant light.
     DistantSample sample_distant(std::size_t index, const Vec3& x, const Vec2& uv) const;
+    DistantEmission send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const;
+    // The density with which light is sent to x along w, per area across w at x, and per solid angle of w where it comes from an
+    // environment.
+    double distant_density(std::size_t index, const Vec3& x, const Vec3& w) const;
     // The mean of the channels that it brings to a surface at x that faces it.
     double distant_irradiance(std::size_t index, const Vec3& x) const;
     // The density per solid angle of a direction of sample_distant() where there is an environment.
@@ -69,6 +83,9 @@ public:
     std::size_t without_area() const { return without_area_; }
 
 private:
+    // By the index of a distant light.
+    const DeltaLight& delta_light(std::size_t index) const { return lights_.delta[index - (lights_.environment ? 1 : 0)]; }
+
     Lights lights_;
     std::shared_ptr<const std::vector<Shape>> shapes_;
     Surroundings surroundings_;

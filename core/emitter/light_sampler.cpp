@@ -9,23 +9,25 @@ namespace neumann {
 
 namespace {
 
-// Half as their power, half alike: a dim light may be the one that a place sees, and a bright one may be found by the material's
-// directions.
-std::vector<double> probabilities(const std::vector<double>& powers, LightChoice choice) {
-    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
-    const auto lights = static_cast<double>(std::count_if(powers.begin(), powers.end(), [](double p) { return p > 0.0; }));
-    const double by_power = choice == LightChoice::power ? 1.0 : choice == LightChoice::mixed ? 0.5 : 0.0;
-    std::vector<double> result;
-    for (const double power : powers) result.push_back(power > 0.0 ? by_power * power / total + (1.0 - by_power) / lights : 0.0);
-    return result;
-}
-
 // Of the light with this index, where there are others: directions of the material find an environment anyway.
 void limit_to_half(std::vector<double>& share, std::size_t index) {
     const double others = 1.0 - share[index];
     if (share[index] <= 0.5 || others <= 0.0) return;
     for (double& s : share) s *= 0.5 / others;
     share[index] = 0.5;
+}
+
+// Half as their power, half alike: a dim light may be the one that a place sees, and a bright one may be found by the material's
+// directions.
+std::vector<double> probabilities(const Emitters& emitters, LightChoice choice, std::size_t shapes) {
+    const std::vector<double>& powers = emitters.powers();
+    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
+    const auto lights = static_cast<double>(std::count_if(powers.begin(), powers.end(), [](double p) { return p > 0.0; }));
+    const double by_power = choice == LightChoice::power ? 1.0 : choice == LightChoice::mixed ? 0.5 : 0.0;
+    std::vector<double> result;
+    for (const double power : powers) result.push_back(power > 0.0 ? by_power * power / total + (1.0 - by_power) / lights : 0.0);
+    if (choice == LightChoice::mixed && emitters.has_environment()) limit_to_half(result, shapes);
+    return result;
 }
 
 Vec3 center_of(const Sphere& sphere) { return sphere.center; }
@@ -35,32 +37,14 @@ Vec3 center_of(const Cylinder& cylinder) { return cylinder.center(); }
 }  // namespace
 
 LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place)
-    : geometry_(&geometry), emitters_(&emitters), choice_(choice), place_(place), density_of_shape_(geometry.shapes().size(), 0.0) {
-    std::vector<double> share = probabilities(emitters.powers(), choice);
-    const std::size_t shapes = geometry.shapes().size();
-    if (choice == LightChoice::mixed && emitters.has_environment()) limit_to_half(share, shapes);
-    if (std::all_of(share.begin(), share.end(), [](double s) { return s == 0.0; })) return;
-    const auto add = [&](double s) { cumulative_.push_back((cumulative_.empty() ? 0.0 : cumulative_.back()) + s); };
-    const auto add_light = [&](std::size_t first) { lights_.push_back({first, cumulative_.size()}); };
-    for (std::uint32_t shape = 0; shape < shapes; ++shape) {
-        if (share[shape] == 0.0) continue;
-        const std::size_t first = parts_.size();
-        density_of_shape_[shape] = share[shape] / geometry.area(shape);
-        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive)
-            if (const double area = geometry.area(shape, primitive); area > 0.0) {
-                parts_.push_back({shape, primitive});
-                add(density_of_shape_[shape] * area);
-            }
-        add_light(first);
-        if (choice == LightChoice::all) density_of_shape_[shape] = 1.0 / geometry.area(shape);
-    }
-    for (std::size_t i = shapes; i < share.size(); ++i) {
-        add(share[i]);
-        if (share[i] > 0.0) add_light(cumulative_.size() - 1);
-    }
-    // Sums of rounded numbers; the last is 1.
-    const double all = cumulative_.back();
-    for (double& c : cumulative_) c /= all;
+    : LightSampler(geometry, emitters, choice, place, probabilities(emitters, choice, geometry.shapes().size())) {}
+
+LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
+                           const std::vector<double>& share)
+    : geometry_(&geometry), emitters_(&emitters), choice_(choice), place_(place), table_(geometry, emitters, share) {
+    for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
+        density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
+                                                        : (choice == LightChoice::all ? 1.0 : share[shape]) / geometry.area(shape));
 }
 
 LightSample LightSampler::on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const {
@@ -72,6 +56,8 @@ LightSample LightSampler::on_distant(std::size_t index, double probability, cons
     if (s.pdf > 0.0) light.weight = s.light / probability;
     light.point.normal = -light.w;
     light.point.shape = SurfacePoint::infinity;
+    light.distant = index;
+    light.probability = probability;
     return light;
 }
 
@@ -86,18 +72,6 @@ LightSample LightSampler::in_solid_angle(const Part& part, double probability, d
     return light;
 }
 
-LightSample LightSampler::sample_of(const Light& light, const Vec3& x, const Vec2& uv) const {
-    const double low = light.first == 0 ? 0.0 : cumulative_[light.first - 1], high = cumulative_[light.end - 1];
-    const double u = low + uv.x * (high - low);
-    const auto found = std::upper_bound(cumulative_.begin() + static_cast<std::ptrdiff_t>(light.first),
-                                        cumulative_.begin() + static_cast<std::ptrdiff_t>(light.end) - 1, u);
-    const auto chosen = static_cast<std::size_t>(found - cumulative_.begin());
-    if (chosen >= parts_.size()) return on_distant(chosen - parts_.size(), 1.0, x, uv);
-    const double below = chosen == 0 ? 0.0 : cumulative_[chosen - 1];
-    const double left = std::clamp((u - below) / (*found - below), 0.0, 0x1.fffffffffffffp-1);
-    return on_part(parts_[chosen], density_of_shape_[parts_[chosen].shape], x, {left, uv.y});
-}
-
 LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) const {
     const std::vector<double> sums = contributions(x);
     const double all = sums.back(), u = uv.x * all;
@@ -107,8 +81,8 @@ LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) 
     const double below = chosen == 0 ? 0.0 : sums[chosen - 1], share = *found - below;
     if (!(share > 0.0)) return {};
     const Vec2 left(std::min((u - below) / share, 0x1.fffffffffffffp-1), uv.y);
-    if (chosen >= parts_.size()) return on_distant(chosen - parts_.size(), share / all, x, left);
-    const Part& part = parts_[chosen];
+    if (table_.is_distant(chosen)) return on_distant(table_.distant(chosen), share / all, x, left);
+    const Part& part = table_.parts()[chosen];
     return on_part(part, share / all / geometry_->area(part.shape, part.primitive), x, left);
 }
 
@@ -116,13 +90,7 @@ double LightSampler::pdf_in_general(const Vec3& x, const Vec3& w, const SurfaceP
     const bool by_contribution = choice_ == LightChoice::contribution;
     if (y.is_infinite()) {
         if (empty() || !emitters_->has_environment()) return 0.0;
-        const std::size_t environment = parts_.size();
-        double probability = 1.0;
-        if (by_contribution)
-            probability = emitters_->distant_irradiance(0, x) / contributions(x).back();
-        else if (choice_ != LightChoice::all)
-            probability = cumulative_[environment] - (environment == 0 ? 0.0 : cumulative_[environment - 1]);
-        return probability * emitters_->environment_pdf(w);
+        return probability_of_distant(0, x) * emitters_->environment_pdf(w);
     }
     if (density_of_shape_[y.shape] == 0.0) return 0.0;
     const Part part{y.shape, y.primitive};
@@ -133,6 +101,12 @@ double LightSampler::pdf_in_general(const Vec3& x, const Vec3& w, const SurfaceP
     if (place_ == LightPlace::solid_angle)
         if (const double angle = sampled_solid_angle(part, x); angle > 0.0) return probability / angle;
     return probability / area * per_solid_angle(y.position - x, y.normal, w);
+}
+
+double LightSampler::probability_of_distant(std::size_t distant, const Vec3& x) const {
+    if (choice_ == LightChoice::all) return 1.0;
+    if (choice_ == LightChoice::contribution) return emitters_->distant_irradiance(distant, x) / contributions(x).back();
+    return table_.probability(table_.parts().size() + distant);
 }
 
 std::array<Vec3, 3> LightSampler::corners(const Part& part, const Vec3& x) const {
@@ -170,11 +144,11 @@ double LightSampler::contribution(const Part& part, const Vec3& x) const {
 
 std::vector<double> LightSampler::contributions(const Vec3& x) const {
     std::vector<double> sums;
-    sums.reserve(cumulative_.size());
+    sums.reserve(table_.size());
     double sum = 0.0;
-    for (const Part& part : parts_) sums.push_back(sum += contribution(part, x));
-    for (std::size_t i = parts_.size(); i < cumulative_.size(); ++i)
-        sums.push_back(sum += emitters_->distant_irradiance(i - parts_.size(), x));
+    for (const Part& part : table_.parts()) sums.push_back(sum += contribution(part, x));
+    for (std::size_t i = table_.parts().size(); i < table_.size(); ++i)
+        sums.push_back(sum += emitters_->distant_irradiance(table_.distant(i), x));
     return sums;
 }
 

@@ -1,10 +1,9 @@
 // How a point asks for light: which light it looks at, and where on it (next-event estimation).
 #pragma once
 
-#include "core/emitter/emitters.h"
+#include "core/emitter/light_table.h"
 #include "core/sampling/delta_pdf.h"
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -15,6 +14,9 @@ struct LightSample {
     Vec3 w;              // towards it
     Rgb weight{0.0};     // the radiance that arrives from there unless something stands between, over pdf
     double pdf = 0.0;    // of w, per solid angle, or delta_pdf where the light has no extent
+    // Of a light that no surface gives off: which of the distant ones, and the probability with which an ask picks it.
+    std::size_t distant = 0;
+    double probability = 0.0;
 };
 
 // Which light.
@@ -37,21 +39,17 @@ public:
                           LightPlace place = LightPlace::area);
 
     // No light can be asked.
-    bool empty() const { return cumulative_.empty(); }
+    bool empty() const { return table_.empty(); }
     // How often a point asks; the samples of all asks add up.
-    std::size_t asks() const { return choice_ == LightChoice::all ? lights_.size() : 1; }
+    std::size_t asks() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
     // Light for the point x: u picks a light, and what is left of it is, with v, the place there. The same density as pdf() tells.
     LightSample sample(const Vec3& x, const Vec2& uv, std::size_t ask = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
-        if (choice_ == LightChoice::all) return sample_of(lights_[ask], x, uv);
-        const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, uv.x);
-        const double low = found == cumulative_.begin() ? 0.0 : found[-1];
-        const auto chosen = static_cast<std::size_t>(found - cumulative_.begin());
-        const double left = std::min((uv.x - low) / (*found - low), 0x1.fffffffffffffp-1);
-        if (chosen >= parts_.size()) return on_distant(chosen - parts_.size(), *found - low, x, {left, uv.y});
-        return on_part(parts_[chosen], density_of_shape_[parts_[chosen].shape], x, {left, uv.y});
+        const LightTable::Choice chosen =
+            choice_ == LightChoice::all ? table_.choose_of(table_.lights()[ask], uv.x) : table_.choose(uv.x);
+        return sample_chosen(chosen, x, uv.y);
     }
     // The density, per solid angle, with which an ask for x finds the light that a ray from x along w ends at; y may be infinitely
     // far away.
@@ -61,14 +59,14 @@ public:
         return pdf_in_general(x, w, y);
     }
 
+    // The probability with which an ask for x picks that one of the distant lights.
+    double probability_of_distant(std::size_t distant, const Vec3& x) const;
+
 private:
-    struct Part {
-        std::uint32_t shape, primitive;
-    };
-    // A light's range in cumulative_.
-    struct Light {
-        std::size_t first, end;
-    };
+    LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
+                 const std::vector<double>& share);
+
+    using Part = LightTable::Part;
     // What a density per area becomes per solid angle: d² / |cosθ|.
     static double per_solid_angle(const Vec3& d, const Vec3& normal, const Vec3& w) {
         return glm::dot(d, d) / std::abs(glm::dot(normal, w));
@@ -89,9 +87,15 @@ private:
         light.weight = emitters_->emitted(light.point, -light.w) / light.pdf;
         return light;
     }
+    LightSample sample_chosen(const LightTable::Choice& chosen, const Vec3& x, double v) const {
+        const Vec2 left(chosen.left, v);
+        if (table_.is_distant(chosen.index))
+            return on_distant(table_.distant(chosen.index), choice_ == LightChoice::all ? 1.0 : chosen.probability, x, left);
+        const Part& part = table_.parts()[chosen.index];
+        return on_part(part, density_of_shape_[part.shape], x, left);
+    }
     LightSample on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const;
     LightSample in_solid_angle(const Part& part, double probability, double angle, const Vec3& x, const Vec2& uv) const;
-    LightSample sample_of(const Light& light, const Vec3& x, const Vec2& uv) const;
     LightSample sample_by_contribution(const Vec3& x, const Vec2& uv) const;
     double pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const;
 
@@ -106,9 +110,7 @@ private:
     const Emitters* emitters_;
     LightChoice choice_;
     LightPlace place_;
-    std::vector<Part> parts_;
-    std::vector<Light> lights_;
-    std::vector<double> cumulative_;        // of the probabilities of parts_, then of the distant lights of Emitters
+    LightTable table_;
     std::vector<double> density_of_shape_;  // per area, of an ask
 };
 

@@ -20,4 +20,15 @@ Beam ProjectorLight::beam(const Vec3& at, const Surroundings&) const {
     return {position_, slide_.at(uv) * (pi * scale_ * glm::length(local) / (local.z * local.z * local.z))};
 }
 
+Vec3 ProjectorLight::sample_direction(const Vec2& u) const {
+    return glm::normalize(glm::inverse(to_local_) * Vec3((2.0 * u - 1.0) * half_size_, 1.0));
+}
+
+// The picture lies at z = 1; to_world does not scale.
+double ProjectorLight::direction_pdf(const Vec3& w) const {
+    const Vec3 local = to_local_ * w;
+    if (!(local.z > 0.0) || std::abs(local.x) > half_size_.x * local.z || std::abs(local.y) > half_size_.y * local.z) return 0.0;
+    return 1.0 / (4.0 * half_size_.x * half_size_.y * local.z * local.z * local.z);
+}
+
 }  // namespace neumann

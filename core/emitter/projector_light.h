@@ -16,6 +16,10 @@ public:
     // The power in all, over π.
     double brightness(const Surroundings&) const { return slide_.mean() * scale_ * 4.0 * half_size_.x * half_size_.y; }
     bool is_grey() const { return slide_.is_grey(); }
+    const Vec3& position() const { return position_; }
+    // Uniform on the picture, per solid angle.
+    Vec3 sample_direction(const Vec2& u) const;
+    double direction_pdf(const Vec3& w) const;
 
 private:
     glm::dmat3 to_local_;

@@ -1,5 +1,7 @@
 #include "core/emitter/spot_light.h"
 
+#include "core/sampling/warp.h"
+
 #include <cmath>
 
 namespace neumann {
@@ -20,6 +22,20 @@ Beam SpotLight::beam(const Vec3& at, const Surroundings&) const {
     Rgb intensity = intensity_ * falloff;
     if (slide_) intensity *= slide_->at(Vec2(0.5) + Vec2(local) * (0.5 / (local.z * std::tan(cutoff_))));
     return {position_, intensity / glm::dot(d, d)};
+}
+
+// The transform may scale, and then the angles that count are those in the light's own space: the cone is drawn there, and turned.
+Vec3 SpotLight::sample_direction(const Vec2& u) const {
+    const double z = 1.0 - u.x * (1.0 - std::cos(cutoff_));
+    return glm::normalize(glm::inverse(to_local_) * Vec3(direction_on_circle(u.y) * std::sqrt((1.0 - z) * (1.0 + z)), z));
+}
+
+// dω_local / dω = |det M| / |M ω|³ for local = M ω.
+double SpotLight::direction_pdf(const Vec3& w) const {
+    const Vec3 local = to_local_ * w;
+    const double length = glm::length(local);
+    if (local.z < length * std::cos(cutoff_)) return 0.0;
+    return std::abs(glm::determinant(to_local_)) / (length * length * length) / (2.0 * pi * (1.0 - std::cos(cutoff_)));
 }
 
 double SpotLight::brightness(const Surroundings&) const {

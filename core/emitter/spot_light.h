@@ -18,6 +18,10 @@ public:
     // The power in all, over π.
     double brightness(const Surroundings&) const;
     bool is_grey() const { return neumann::is_grey(intensity_) && (!slide_ || slide_->is_grey()); }
+    const Vec3& position() const { return position_; }
+    // Uniform in the cone, per solid angle.
+    Vec3 sample_direction(const Vec2& u) const;
+    double direction_pdf(const Vec3& w) const;
 
 private:
     glm::dmat3 to_local_;

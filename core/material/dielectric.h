@@ -28,7 +28,7 @@ public:
         if (wo.z <= 0.0) return {};
         if (u.x < conductor_fresnel(wo.z, eta_, 0.0)) return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p), delta_pdf};
         const double cosine = std::sqrt((eta_ - 1.0) * (eta_ + 1.0) + wo.z * wo.z);
-        return {Vec3(-wo.x, -wo.y, -cosine) / eta_, transmittance_(p) / (eta_ * eta_), delta_pdf};
+        return {Vec3(-wo.x, -wo.y, -cosine) / eta_, transmittance_(p) / (eta_ * eta_), delta_pdf, eta_};
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const Dielectric& white() const { return *this; }

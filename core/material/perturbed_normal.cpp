@@ -62,7 +62,7 @@ BsdfSample PerturbedNormal::sample(const ShadingPoint& p, const Vec3& wo, const 
     const BsdfSample drawn = neumann::sample(*nested_, there.p, wo_there, u);
     const Vec3 wi = there.frame.to_world(drawn.wi);
     if (wi.z * drawn.wi.z <= 0.0) return {};
-    return {wi, drawn.weight * shadowing(there.frame.n, wi), drawn.pdf};
+    return {wi, drawn.weight * shadowing(there.frame.n, wi), drawn.pdf, drawn.eta};
 }
 
 Rgb PerturbedNormal::reflectance(const ShadingPoint& p) const { return neumann::reflectance(*nested_, p); }

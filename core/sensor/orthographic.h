@@ -11,11 +11,15 @@ public:
     Orthographic(const SensorOptions& options, const Film& film);
 
     CameraRay ray(const Vec2& position, const Vec2&) const {
-        return {corner_ + across_ * position.x + down_ * position.y, direction_, length_};
+        return {plane_.at(position), direction_, length_};
+    }
+    std::optional<FilmPoint> see(const Vec3& p, const Vec2&) const;
+    double pixels_per_area(const CameraRay&, const Vec3&) const {
+        return 1.0 / (plane_.area() * std::abs(glm::dot(direction_, plane_.normal())));
     }
 
 private:
-    Vec3 corner_, across_, down_;  // in the near plane
+    FilmPlane plane_;  // the near plane
     Vec3 direction_;
     double length_;
 };

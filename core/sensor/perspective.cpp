@@ -27,21 +27,49 @@ double tan_half_width(double fov, FovAxis axis, double aspect) {
     return t;
 }
 
-Perspective::Perspective(const SensorOptions& options, const Film& film) : near_(options.near_clip), far_(options.far_clip) {
+namespace {
+
+FilmPlane plane_of(const SensorOptions& options, const Film& film) {
     const double aspect = static_cast<double>(film.width) / film.height;
     const double x = tan_half_width(options.fov, options.fov_axis, aspect), y = x / aspect;
     const Vec2 shift(2.0 * options.principal_point_offset.x * x, 2.0 * options.principal_point_offset.y * y);
-    origin_ = Vec3(options.to_world * glm::dvec4(0.0, 0.0, 0.0, 1.0));
-    axis_ = glm::normalize(rotate(options.to_world, {0.0, 0.0, 1.0}));
-    corner_ = rotate(options.to_world, {x + shift.x, y + shift.y, 1.0});
-    across_ = rotate(options.to_world, {-2.0 * x / film.width, 0.0, 0.0});
-    down_ = rotate(options.to_world, {0.0, -2.0 * y / film.height, 0.0});
+    return {rotate(options.to_world, {x + shift.x, y + shift.y, 1.0}), rotate(options.to_world, {-2.0 * x / film.width, 0.0, 0.0}),
+            rotate(options.to_world, {0.0, -2.0 * y / film.height, 0.0})};
 }
 
+}  // namespace
+
+Perspective::Perspective(const SensorOptions& options, const Film& film)
+    : origin_(options.to_world * glm::dvec4(0.0, 0.0, 0.0, 1.0)),
+      plane_(plane_of(options, film)),
+      axis_(glm::normalize(rotate(options.to_world, {0.0, 0.0, 1.0}))),
+      near_(options.near_clip),
+      far_(options.far_clip) {}
+
 CameraRay Perspective::ray(const Vec2& position, const Vec2&) const {
-    const Vec3 direction = glm::normalize(corner_ + across_ * position.x + down_ * position.y);
+    const Vec3 direction = glm::normalize(plane_.at(position));
     const double along = 1.0 / glm::dot(direction, axis_);  // distance per unit of depth
     return {origin_ + direction * (near_ * along), direction, (far_ - near_) * along};
+}
+
+std::optional<FilmPoint> Perspective::see(const Vec3& p, const Vec2&) const {
+    return see_through(origin_, plane_, axis_, near_, far_, p);
+}
+
+double Perspective::pixels_per_area(const CameraRay& ray, const Vec3& p) const {
+    const Vec3 d = p - origin_;
+    return plane_.pixels_per_solid_angle(ray.direction) / glm::dot(d, d);
+}
+
+std::optional<FilmPoint> see_through(const Vec3& pinhole, const FilmPlane& plane, const Vec3& axis, double near, double far,
+                                     const Vec3& p) {
+    const Vec3 d = p - pinhole;
+    const double depth = glm::dot(d, axis), distance2 = glm::dot(d, d);
+    if (!(depth > near && depth < far)) return std::nullopt;
+    const Vec3 direction = d / std::sqrt(distance2);
+    const Vec3 on_plane = d * (glm::dot(plane.corner(), plane.normal()) / glm::dot(d, plane.normal()));
+    return FilmPoint{plane.position(on_plane), pinhole + d * (near / depth), -direction,
+                     plane.pixels_per_solid_angle(direction) / distance2};
 }
 
 }  // namespace neumann

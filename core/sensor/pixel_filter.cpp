@@ -27,6 +27,12 @@ double TentFilter::integral(double x) const {
     return x < 0.0 ? tail : radius_ - tail;
 }
 
+double TentFilter::weight(double x, int pixel, const FilmExtent& film) const {
+    const double center = pixel + 0.5, away = std::abs(x - center);
+    const auto [low, high] = cut(radius_, center, film);
+    return away < radius_ ? (1.0 - away / radius_) / (integral(high) - integral(low)) : 0.0;
+}
+
 FilterSample TentFilter::sample(double u, int pixel, const FilmExtent& film) const {
     const double center = pixel + 0.5;
     const auto [low, high] = cut(radius_, center, film);
@@ -38,6 +44,13 @@ FilterSample TentFilter::sample(double u, int pixel, const FilmExtent& film) con
 double GaussianFilter::integral(double x) const {
     const double edge = std::exp(-radius_ * radius_ / (2.0 * stddev_ * stddev_));
     return stddev_ * std::sqrt(pi / 2.0) * std::erf(x / (stddev_ * std::sqrt(2.0))) - edge * x;
+}
+
+double GaussianFilter::weight(double x, int pixel, const FilmExtent& film) const {
+    const double center = pixel + 0.5, away = std::abs(x - center), scale = -1.0 / (2.0 * stddev_ * stddev_);
+    if (away >= radius_) return 0.0;
+    const auto [low, high] = cut(radius_, center, film);
+    return (std::exp(away * away * scale) - std::exp(radius_ * radius_ * scale)) / (integral(high) - integral(low));
 }
 
 FilterSample GaussianFilter::sample(double u, int pixel, const FilmExtent& film) const {
@@ -102,6 +115,12 @@ SignedFilter SignedFilter::lanczos(int lobes) {
 
 std::size_t SignedFilter::node(double x) const {
     return static_cast<std::size_t>(std::lround((x + table_->radius) * cells_per_pixel));
+}
+
+double SignedFilter::weight(double x, int pixel, const FilmExtent& film) const {
+    const double center = pixel + 0.5;
+    const auto [low, high] = cut(table_->radius, center, film);
+    return (*this)(x - center) / (table_->integral[node(high)] - table_->integral[node(low)]);
 }
 
 FilterSample SignedFilter::sample(double u, int pixel, const FilmExtent& film) const {

@@ -4,7 +4,7 @@
 //
 //     ∫ f(x − centre) L(x) dx / ∫ f(x − centre) dx,
 //
-// over the film. A filter that is nowhere negative is drawn exactly, and all samples weigh 1. One with negative lobes is drawn in
+// over the film. Where samples come from elsewhere, weight() is the normalised filter itself. A filter that is nowhere negative is drawn exactly, and all samples weigh 1. One with negative lobes is drawn in
 // proportion to |f|, and a sample weighs f / pdf, over ∫ f.
 #pragma once
 
@@ -30,6 +30,9 @@ struct FilmExtent {
 // Mitsuba's `box`: the pixel itself.
 struct BoxFilter {
     FilterSample sample(double u, int pixel, const FilmExtent&) const { return {pixel + u, 1.0}; }
+    // Of the pixel, for a place on the film; ∫ weight(x) dx = 1 over the film.
+    double weight(double x, int pixel, const FilmExtent&) const { return x >= pixel && x < pixel + 1 ? 1.0 : 0.0; }
+    double radius() const { return 0.5; }
 };
 
 // Mitsuba's `tent`: falls linearly to 0 at the radius.
@@ -37,6 +40,7 @@ class TentFilter {
 public:
     explicit TentFilter(double radius = 1.0) : radius_(radius) {}
     FilterSample sample(double u, int pixel, const FilmExtent& film) const;
+    double weight(double x, int pixel, const FilmExtent& film) const;
     double radius() const { return radius_; }
 
 private:
@@ -49,6 +53,7 @@ class GaussianFilter {
 public:
     explicit GaussianFilter(double stddev = 0.5) : stddev_(stddev), radius_(4.0 * stddev) {}
     FilterSample sample(double u, int pixel, const FilmExtent& film) const;
+    double weight(double x, int pixel, const FilmExtent& film) const;
     double radius() const { return radius_; }
 
 private:
@@ -68,6 +73,7 @@ public:
     static SignedFilter lanczos(int lobes = 3);
 
     FilterSample sample(double u, int pixel, const FilmExtent& film) const;
+    double weight(double x, int pixel, const FilmExtent& film) const;
     double operator()(double x) const { return std::abs(x) < table_->radius ? table_->f(std::abs(x)) : 0.0; }
     double radius() const { return table_->radius; }
 
@@ -92,6 +98,14 @@ struct FilmSample {
     Vec2 position;
     double weight;
 };
+
+inline double radius(const PixelFilter& filter) {
+    return std::visit([](const auto& f) { return f.radius(); }, filter);
+}
+// On one axis.
+inline double weight(const PixelFilter& filter, double position, int pixel, const FilmExtent& film) {
+    return std::visit([&](const auto& f) { return f.weight(position, pixel, film); }, filter);
+}
 
 inline FilmSample sample(const PixelFilter& filter, const Vec2& u, int x, int y, const FilmExtent& across, const FilmExtent& down) {
     return std::visit(

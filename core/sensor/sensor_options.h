@@ -5,6 +5,7 @@
 #include "core/sensor/pixel_filter.h"
 
 #include <limits>
+#include <optional>
 
 namespace neumann {
 
@@ -16,17 +17,62 @@ struct Film {
     bool sample_border = false;  // whether samples lie beyond the film's edges too, or the filter is cut off there
 
     // For the pixel (x, y) of the whole film.
-    FilmSample sample(const Vec2& u, int x, int y) const {
+    FilmSample sample(const Vec2& u, int x, int y) const { return neumann::sample(filter, u, x, y, extent(width), extent(height)); }
+    // What a place on the film counts for a pixel of the column x, and of the row y; the product counts.
+    double weight_across(double position, int x) const { return weight(filter, position, x, extent(width)); }
+    double weight_down(double position, int y) const { return weight(filter, position, y, extent(height)); }
+    // Whether light that falls there counts for any pixel.
+    bool holds(const Vec2& position) const {
+        return sample_border || (position.x >= 0.0 && position.x < width && position.y >= 0.0 && position.y < height);
+    }
+
+private:
+    FilmExtent extent(int size) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        const auto extent = [&](int size) {
-            return sample_border ? FilmExtent{-infinity, infinity} : FilmExtent{0.0, double(size)};
-        };
-        return neumann::sample(filter, u, x, y, extent(width), extent(height));
+        return sample_border ? FilmExtent{-infinity, infinity} : FilmExtent{0.0, double(size)};
     }
 };
 
 // From the camera into the scene; ends at the far plane.
 using CameraRay = Ray;
+
+// How the camera sees a point: the camera ray through it, turned round.
+struct FilmPoint {
+    Vec2 position;           // where it is on the film: pixels from the upper left corner
+    Vec3 start;              // of the camera ray
+    Vec3 w;                  // from the point to the camera, unit length
+    double pixels_per_area;  // of film for an area at the point that faces the camera
+};
+
+// Places in a plane, by two vectors that span it and the corner they start from.
+class FilmPlane {
+public:
+    FilmPlane(const Vec3& corner, const Vec3& across, const Vec3& down);
+
+    Vec3 at(const Vec2& position) const { return corner_ + across_ * position.x + down_ * position.y; }
+    // The other way, of a point of the plane.
+    Vec2 position(const Vec3& p) const { return {glm::dot(p - corner_, dual_across_), glm::dot(p - corner_, dual_down_)}; }
+    // The same plane, given from another place.
+    FilmPlane from(const Vec3& origin) const {
+        FilmPlane moved = *this;
+        moved.corner_ -= origin;
+        return moved;
+    }
+    // Unit length, to either side.
+    const Vec3& normal() const { return normal_; }
+    const Vec3& corner() const { return corner_; }
+    // Of a pixel.
+    double area() const { return area_; }
+    // Pixels in a solid angle, seen from where the plane is given from, along a direction of unit length.
+    double pixels_per_solid_angle(const Vec3& direction) const {
+        const double cosine = std::abs(glm::dot(direction, normal_)), distance = std::abs(glm::dot(corner_, normal_)) / cosine;
+        return distance * distance / (area_ * cosine);
+    }
+
+private:
+    Vec3 corner_, across_, down_, dual_across_, dual_down_, normal_;
+    double area_;
+};
 
 // The image axis that a field of view is given for.
 enum class FovAxis { x, y, diagonal, smaller, larger };

@@ -12,9 +12,14 @@ public:
     ThinLens(const SensorOptions& options, const Film& film);
 
     CameraRay ray(const Vec2& position, const Vec2& lens) const;
+    std::optional<FilmPoint> see(const Vec3& p, const Vec2& lens) const;
+    double pixels_per_area(const CameraRay& ray, const Vec3& p) const;
 
 private:
-    Vec3 origin_, corner_, across_, down_;  // from the middle of the lens to a film position's point in the plane of focus
+    Vec3 aside(const Vec2& lens) const;
+
+    Vec3 origin_;
+    FilmPlane plane_;          // from the middle of the lens to a film position's point in the plane of focus
     Vec3 lens_x_, lens_y_;                  // radii of the lens
     Vec3 axis_;
     double near_, far_;

@@ -13,8 +13,6 @@ namespace neumann {
 
 namespace {
 
-constexpr std::size_t non_finite_kept = 16;
-
 // Walks that advance together: enough that those that are still on their way fill the packets of rays.
 constexpr std::uint32_t walks_at_once = 64;
 
@@ -42,11 +40,6 @@ struct Pixel {
     int x, y;
 };
 
-void keep_first(std::vector<NonFiniteSample>& samples) {
-    std::sort(samples.begin(), samples.end());
-    if (samples.size() > non_finite_kept) samples.resize(non_finite_kept);
-}
-
 // Takes down the samples of one quantity that are not finite, makes them zero, and returns the sum of the others.
 Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate,
                          Workspace& work) {
@@ -55,8 +48,7 @@ Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q
         Rgb& x = samples[i * work.sum.size() + q];
         if (!is_finite(x)) {
             ++work.tally.non_finite_count;
-            work.tally.non_finite.push_back({pixel.x, pixel.y, static_cast<int>(q), replicate * size + i});
-            if (work.tally.non_finite.size() > 4 * non_finite_kept) keep_first(work.tally.non_finite);
+            work.tally.keep({pixel.x, pixel.y, static_cast<int>(q), replicate * size + i});
             x = Rgb(0.0);
         }
         sum += x;
@@ -128,27 +120,18 @@ std::variant<WalkEstimator, PointwiseEstimator> make_estimator(const Scene& scen
 
 }  // namespace
 
-void Tally::merge(const Tally& other) {
-    for (std::size_t q = 0; q < rays.size(); ++q) {
-        rays[q] += other.rays[q];
-        largest[q].merge(other.largest[q]);
-    }
-    given_up += other.given_up;
-    non_finite_count += other.non_finite_count;
-    non_finite.insert(non_finite.end(), other.non_finite.begin(), other.non_finite.end());
-    keep_first(non_finite);
-}
-
 PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
     : scene_(scene), settings_(settings), estimator_(make_estimator(scene, settings)), sobol_(settings.replicate_size) {
     if (!std::has_single_bit(settings.replicate_size))
         throw std::logic_error("PictureSampler: replicate_size is not a power of two");
+    if (splats(settings.method)) whole_pictures_.emplace(scene, settings);
 }
 
 std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                                std::vector<double> memory) const {
     if (!std::has_single_bit(count) || first % count != 0)
         throw std::logic_error("PictureSampler: not a node of the tree of replicates");
+    if (whole_pictures_) return whole_pictures_->run(first, count, tally, watch, std::move(memory));
     const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
     const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;

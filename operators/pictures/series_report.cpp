@@ -29,7 +29,7 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     };
     for (std::size_t i = 0; i <= N; ++i) {
         BounceReport bounce;
-        bounce.mean = picture_mean(result.term(i));
+        bounce.mean = result.mean_of_term(i);
         if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
         bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
         bounce.tail = tail_index(series.tally.largest[i]);
@@ -38,9 +38,9 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
         bounce.seconds = all_rays > 0.0 ? series.seconds * static_cast<double>(bounce.rays) / all_rays : 0.0;
         report.bounces.push_back(bounce);
     }
-    report.sum = picture_mean(result.sum(N));
+    report.sum = result.mean_of_sum(N);
     if (rest_verdict == RestVerdict::measured) {
-        report.rest = picture_mean(result.term(N + 1));
+        report.rest = result.mean_of_term(N + 1);
         report.rest_infinite_variance = is_infinite(N + 1);
     }
     return report;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 namespace neumann {
 
@@ -95,22 +96,33 @@ SeriesMoments::Result SeriesMoments::result() const {
     return result;
 }
 
+std::pair<Rgb, Rgb> SeriesMoments::Result::at(std::size_t pixel, std::size_t quantity, bool sum) const {
+    const double* data = data_.data() + pixel * quantities_ * stride;
+    const std::size_t m2_at = sum ? sum_m2_at : term_m2_at;
+    std::pair<Rgb, Rgb> result;
+    for (int c = 0; c < 3; ++c) {
+        double mean = 0.0;
+        for (std::size_t q = sum ? 0 : quantity; q <= quantity; ++q)
+            mean += data[q * stride + mean_at + static_cast<std::size_t>(c)];
+        const double m2 = data[quantity * stride + m2_at + static_cast<std::size_t>(c)];
+        result.first[c] = mean;
+        result.second[c] = count_ > 1.0 ? std::sqrt(m2 / (count_ * (count_ - 1.0))) : std::numeric_limits<double>::infinity();
+    }
+    return result;
+}
+
 Estimate SeriesMoments::Result::estimate(std::size_t quantity, bool sum) const {
     Estimate estimate{Image(width_, height_), Image(width_, height_), degrees_of_freedom()};
-    const std::size_t pixels = estimate.mean.pixels.size(), m2_at = sum ? sum_m2_at : term_m2_at;
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-        const double* data = data_.data() + pixel * quantities_ * stride;
-        for (int c = 0; c < 3; ++c) {
-            double mean = 0.0;
-            for (std::size_t q = sum ? 0 : quantity; q <= quantity; ++q)
-                mean += data[q * stride + mean_at + static_cast<std::size_t>(c)];
-            const double m2 = data[quantity * stride + m2_at + static_cast<std::size_t>(c)];
-            estimate.mean.pixels[pixel][c] = mean;
-            estimate.standard_error.pixels[pixel][c] =
-                count_ > 1.0 ? std::sqrt(m2 / (count_ * (count_ - 1.0))) : std::numeric_limits<double>::infinity();
-        }
-    }
+    estimate.pixels_are_independent = pixels_are_independent();
+    for (std::size_t pixel = 0; pixel < estimate.mean.pixels.size(); ++pixel)
+        std::tie(estimate.mean.pixels[pixel], estimate.standard_error.pixels[pixel]) = at(pixel, quantity, sum);
     return estimate;
+}
+
+MeanWithError SeriesMoments::Result::mean(std::size_t quantity, bool sum) const {
+    if (pixels_are_independent()) return picture_mean(estimate(quantity, sum));
+    const auto [mean, error] = at(pixels(), quantity, sum);
+    return {mean_component(mean), mean_component(error), degrees_of_freedom()};
 }
 
 }  // namespace neumann

@@ -7,9 +7,11 @@
 #pragma once
 
 #include "core/image/image.h"
+#include "operators/statistics/picture_statistics.h"
 
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace neumann {
 
@@ -27,7 +29,7 @@ public:
 // A node of the tree: 2^k consecutive replicates of a whole picture.
 struct MomentsNode {
     std::uint64_t first = 0, count = 0;
-    std::vector<double> data;  // pixel by pixel
+    std::vector<double> data;  // pixel by pixel; where pixels are not independent, their mean comes after them as one more
 };
 
 // Any consecutive replicates, as the fewest nodes.
@@ -64,6 +66,10 @@ public:
     Estimate term(std::size_t i) const { return estimate(i, false); }
     Estimate sum(std::size_t i) const { return estimate(i, true); }
 
+    // Of their means over pixels and channels. Where pixels are not independent it is the spread of whole pictures that counts.
+    MeanWithError mean_of_term(std::size_t i) const { return mean(i, false); }
+    MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
+
     double degrees_of_freedom() const { return count_ > 0.0 ? count_ - 1.0 : 0.0; }
     std::size_t quantities() const { return quantities_; }
     int width() const { return width_; }
@@ -72,6 +78,13 @@ public:
 private:
     friend class SeriesMoments;
     Estimate estimate(std::size_t i, bool sum) const;
+    MeanWithError mean(std::size_t i, bool sum) const;
+    // At one pixel: its mean and standard error.
+    std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
+    std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+    bool pixels_are_independent() const {
+        return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity;
+    }
 
     int width_ = 0, height_ = 0;
     std::size_t quantities_ = 0;

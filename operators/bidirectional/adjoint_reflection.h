@@ -1,0 +1,88 @@
+// R*, the reflection of what comes from the light: it carries power where R carries radiance,
+//
+//     power along ωo per projected area = fs(ωi → ωo) |cosθo| · power along ωi,
+//
+// with geometric cosines. fs is asked from ωo's side, so it need not be reciprocal; where shading normals differ from geometric
+// ones, R has |ωi·ns| for |ωi·ng|, and so must R* (Veach 1997, 5.3).
+#pragma once
+
+#include "core/material/materials.h"
+#include "core/sampling/choose.h"
+#include "core/sampling/third_number.h"
+#include "core/sampling/warp.h"
+
+namespace neumann {
+
+// fs(ωi → ωo) |ωi·ns| / |ωi·ng|, that is R's kernel against the geometric projected solid angle of ωi.
+inline Rgb geometric_bsdf(const SurfaceSide& side_of_wo, const Vec3& wo, const Vec3& wi) {
+    const ShadingPoint& p = side_of_wo.p;
+    const Vec3 local = p.frame.to_local(wi);
+    return eval(*side_of_wo.bsdf, p, p.frame.to_local(wo), local) * std::abs(local.z / glm::dot(p.normal, wi));
+}
+
+// The density with which R draws ωi for what leaves x along ωo, per solid angle.
+inline double camera_pdf(const Materials& materials, const SurfacePoint& x, const Vec3& wo, const Vec3& wi) {
+    const SurfaceSide side = materials.side(x, wo);
+    return side.bsdf ? pdf(*side.bsdf, side.p, side.p.frame.to_local(wo), side.p.frame.to_local(wi)) : 0.0;
+}
+
+// A direction for what has arrived from ωi, as if it had come from there along the camera's side: materials draw one for the other.
+// Those that are not reciprocal may leave out directions that count, so every other time they are asked for all.
+class AdjointReflection {
+public:
+    struct Sample {
+        Vec3 wo{0.0};
+        Rgb weight{0.0};   // fs(ωi → ωo) |cosθo| / pdf
+        double pdf = 0.0;  // per solid angle, or delta_pdf
+    };
+
+    // `side`: of ωi.
+    static Sample sample(const Materials& materials, const SurfaceSide& side, const Vec3& wi, Vec2 u) {
+        const Frame& frame = side.p.frame;
+        const bool lawful = is_lawful(*side.bsdf);
+        Sample result;
+        if (lawful || choose_first(0.5, u.x)) {
+            const BsdfSample drawn = neumann::sample(*side.bsdf, side.p, frame.to_local(wi), u);
+            result.wo = frame.to_world(drawn.wi);
+            result.pdf = drawn.pdf;
+            if (drawn.pdf == delta_pdf) {
+                result.weight = drawn.weight * (only_direction(side.p.normal, wi, result.wo, drawn.eta) * (lawful ? 1.0 : 2.0));
+                return result;
+            }
+            if (!(drawn.pdf > 0.0)) return result;
+        } else {
+            Vec3 local = cosine_hemisphere(u);
+            if (transmits(*side.bsdf) && third_number(u) < 0.5) local.z = -local.z;
+            result.wo = frame.to_world(local);
+        }
+        if (!lawful) result.pdf = pdf(side, wi, result.wo);
+        const SurfaceSide there = materials.side(side.p, result.wo);
+        if (!there.bsdf || !(result.pdf > 0.0)) return {};
+        result.weight = geometric_bsdf(there, result.wo, wi) * (std::abs(glm::dot(side.p.normal, result.wo)) / result.pdf);
+        return result;
+    }
+
+    // The density with which sample() finds ωo, but for directions that are the only ones.
+    static double pdf(const SurfaceSide& side, const Vec3& wi, const Vec3& wo) {
+        const Vec3 local = side.p.frame.to_local(wo);
+        const double drawn = neumann::pdf(*side.bsdf, side.p, side.p.frame.to_local(wi), local);
+        if (is_lawful(*side.bsdf)) return drawn;
+        const bool both = transmits(*side.bsdf);
+        const double any = both ? 0.5 * std::abs(local.z) * inv_pi : std::max(local.z, 0.0) * inv_pi;
+        return 0.5 * (drawn + any);
+    }
+
+private:
+    // For the sampled weight of the only direction: of radiance along ωo, which is `a` as it was asked. Radiance keeps
+    // L/n² while its beam changes from dω(b) to dω(a), about the normal m of the mirror or boundary that the directions tell.
+    static double only_direction(const Vec3& normal, const Vec3& a, const Vec3& b, double eta) {
+        double beam = std::abs(glm::dot(normal, b) / glm::dot(normal, a));
+        if (eta != 1.0) {
+            const Vec3 m = a + b * eta;
+            beam *= eta * eta * std::abs(glm::dot(m, a) / glm::dot(m, b));
+        }
+        return beam;
+    }
+};
+
+}  // namespace neumann

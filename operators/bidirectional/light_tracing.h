@@ -1,0 +1,38 @@
+// Source shooting joined to the camera: every vertex of a path from the light is looked at by the camera. What cannot be made so is
+// what the camera sees by way of a mirror or through glass, and what surrounds the scene.
+#pragma once
+
+#include "operators/bidirectional/film_splats.h"
+
+namespace neumann {
+
+struct LightTracingWork {
+    LightWalkers walkers;
+    std::vector<CameraEdge> edges;
+};
+
+// A path for each sampler. `splatted(position, quantity, value)`: radiance times pixels at a place on the film, of bounces 0 … N and
+// the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
+template <class Transport, class Sampler, class OnSplat>
+NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
+                          const LightWalkSettings& settings, std::span<Sampler> samplers, LightTracingWork& work,
+                          const OnSplat& splatted, std::span<std::uint64_t> rays) {
+    const auto quantity = [&](int bounce) { return static_cast<std::size_t>(std::min(bounce, settings.vertices + 1)); };
+    return walk_from_lights(
+        scene, T, emission, lights, settings, samplers, work.walkers,
+        [&](int j, const LightWalkers& walkers) {
+            work.edges.clear();
+            for (const std::uint32_t i : walkers.alive) {
+                const CameraEdge edge = j == 0 ? emission_edge(scene, i, walkers.walker[i].emission, samplers[i])
+                                               : camera_edge(scene, i, walkers.walker[i].vertex, samplers[i]);
+                if (!is_black(edge.value)) work.edges.push_back(edge);
+            }
+            rays[quantity(j)] += work.edges.size();
+            splat_what_is_seen(T, walkers, work.edges, [&](std::size_t, const Vec2& position, const Rgb& value) {
+                splatted(position, quantity(j), value);
+            });
+        },
+        [&](int j, std::size_t n) { rays[quantity(j)] += n; });
+}
+
+}  // namespace neumann

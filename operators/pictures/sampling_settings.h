@@ -1,0 +1,34 @@
+// How the terms are sampled.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/walk/walk.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+namespace neumann {
+
+enum class Method { walk, pointwise, light, bidirectional };
+// What its samples find counts for pixels all over the film.
+inline bool splats(Method method) { return method == Method::light || method == Method::bidirectional; }
+
+struct SamplingSettings {
+    Method method = Method::walk;
+    WalkSettings walk;
+    SamplerKind sampler = SamplerKind::sobol;
+    std::uint64_t seed = 0;
+    std::uint32_t replicate_size = 8;  // samples a pixel; a power of two
+    // What the pictures and their errors are of: this matrix times the samples' RGB. RGB itself without it.
+    std::optional<glm::dmat3> colors = {};
+    // Of `bidirectional`: in place of the terms, the ways (s, t) to make bounce N, weighted and then unweighted, N + 2 of each.
+    bool ways_of_last_bounce = false;
+
+    std::size_t quantities() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
+};
+
+// Is told how many pixels are done as work goes on, from any thread, and drops the work by answering true.
+using Watch = std::function<bool(std::uint64_t pixels_done)>;
+
+}  // namespace neumann

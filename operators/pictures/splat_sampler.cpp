@@ -1,0 +1,285 @@
+#include "operators/pictures/splat_sampler.h"
+
+#include "core/sampling/independent_sampler.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace neumann {
+
+namespace {
+
+// Paths that advance together, and groups of them that are one piece of work.
+constexpr std::uint32_t paths_at_once = 64, groups_at_once = 8;
+// Paths from the lights that are stratified together.
+constexpr std::uint32_t light_net = 4096;
+// Stands for the lights where random numbers belong to a pixel.
+constexpr std::uint32_t of_lights = 0xffffffffu;
+
+BidirectionalSettings bidirectional_settings(const Scene& scene, const SamplingSettings& settings) {
+    BidirectionalSettings result;
+    result.bounces = settings.walk.bounces;
+    result.lights = settings.walk.direct.lights;
+    result.place = settings.walk.direct.place;
+    result.heuristic = settings.walk.direct.heuristic;
+    result.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
+    result.rest_probability = settings.walk.rest_probability;
+    result.give_up = settings.walk.give_up;
+    return result;
+}
+
+}  // namespace
+
+// Of a thread.
+struct SplatSampler::Workspace {
+    explicit Workspace(std::size_t quantities) : tally(quantities) {}
+
+    std::vector<CameraRay> rays;
+    std::vector<double> weights;  // of the film's filter
+    std::vector<Rgb> samples;
+    LightTracingWork light;
+    BidirectionalWork bidirectional;
+    std::vector<double> across, down;
+    Tally tally;
+};
+
+// What a piece of work brings to pixels anywhere, in the order in which it was found.
+struct SplatSampler::Chunk {
+    struct Share {
+        std::uint32_t pixel, quantity;
+        Rgb value;
+    };
+    std::uint32_t first = 0, end = 0;  // samples of the replicate
+    std::vector<Share> shares;
+};
+
+SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
+      emission_(scene.geometry, scene.emitters),
+      lights_(scene.geometry, scene.emitters),
+      bidirectional_(scene, bidirectional_settings(scene, settings)),
+      camera_points_(settings.replicate_size),
+      light_points_(light_net),
+      filter_radius_(radius(scene.film.filter)) {}
+
+// Radiance times pixels, of one path among as many as there are pixels.
+void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb& value, std::uint64_t sample, Chunk& chunk,
+                          Workspace& work) const {
+    const Film& film = scene_->film;
+    const Rgb each = value / static_cast<double>(pixels_);
+    if (!is_finite(each)) [[unlikely]] {
+        ++work.tally.non_finite_count;
+        work.tally.keep({static_cast<int>(position.x), static_cast<int>(position.y), static_cast<int>(quantity), sample});
+        return;
+    }
+    const auto reached = [&](double x, int crop, int size) {
+        return std::pair(std::max(static_cast<int>(std::floor(x - filter_radius_)), crop),
+                         std::min(static_cast<int>(std::floor(x + filter_radius_)), crop + size - 1));
+    };
+    const auto [left, right] = reached(position.x, film.crop_x, film.crop_width);
+    const auto [top, bottom] = reached(position.y, film.crop_y, film.crop_height);
+    work.across.clear();
+    for (int x = left; x <= right; ++x) work.across.push_back(film.weight_across(position.x, x));
+    double largest = 0.0;
+    for (int y = top; y <= bottom; ++y) {
+        const double down = film.weight_down(position.y, y);
+        for (int x = left; x <= right; ++x) {
+            const double weight = down * work.across[static_cast<std::size_t>(x - left)];
+            if (weight == 0.0) continue;
+            largest = std::max(largest, std::abs(weight));
+            const int pixel = (y - film.crop_y) * film.crop_width + x - film.crop_x;
+            chunk.shares.push_back({static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(quantity), each * weight});
+        }
+    }
+    work.tally.largest[quantity].add(max_component(each) * largest);
+}
+
+template <class Sampler, class SamplerOf>
+void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SamplerOf& sampler_of,
+                                Chunk& chunk, std::span<Rgb> own, Workspace& work) const {
+    const std::size_t Q = settings_.quantities();
+    const std::uint32_t size = settings_.replicate_size;
+    const Film& film = scene_->film;
+    // Each replicate begins a net of its own.
+    const std::uint64_t paths = (std::uint64_t{pixels_} * size + light_net - 1) / light_net * light_net;
+    std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
+    for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
+
+    if (settings_.method == Method::light) {
+        LightWalkSettings walk;
+        walk.vertices = settings_.walk.bounces;
+        walk.rest_probability = settings_.walk.rest_probability;
+        walk.give_up = settings_.walk.give_up;
+        work.tally.given_up += trace_light(
+            *scene_, scene_->geometry, emission_, lights_, walk, std::span(light), work.light,
+            [&](const Vec2& position, std::size_t quantity, const Rgb& value) {
+                spread(position, quantity, value, replicate * size + first, chunk, work);
+            },
+            work.tally.rays);
+        return;
+    }
+
+    std::vector<Sampler> camera;
+    work.rays.resize(samples);
+    work.weights.resize(samples);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const std::uint32_t pixel = (first + i) / size;
+        const int x = film.crop_x + static_cast<int>(pixel) % film.crop_width, y = film.crop_y + static_cast<int>(pixel) / film.crop_width;
+        camera.push_back((first + i) % size == 0 ? sampler_of(camera_points_, pixel) : camera.back());
+        camera.back().start(replicate * size + (first + i) % size);
+        const FilmSample place = film.sample(camera[i].next2(), x, y);
+        work.rays[i] = scene_->camera.sample_ray(place.position, camera[i]);
+        work.weights[i] = place.weight;
+    }
+    work.samples.assign(samples * Q, Rgb(0.0));
+    const int N = settings_.walk.bounces;
+    // To which quantities something found belongs: its bounce, or its way.
+    const auto sort = [&](const Found& f, const auto& add) {
+        if (!settings_.ways_of_last_bounce) {
+            add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value);
+        } else if (f.bounce == N) {
+            add(static_cast<std::size_t>(f.s), f.value);
+            add(static_cast<std::size_t>(N + 2 + f.s), f.value / f.weight);
+        }
+    };
+    work.tally.given_up += bidirectional_.trace(
+        scene_->geometry, std::span<const CameraRay>(work.rays), std::span(camera), std::span(light), work.bidirectional,
+        [&](std::uint32_t i, const Found& f) { sort(f, [&](std::size_t q, const Rgb& value) { work.samples[i * Q + q] += value; }); },
+        [&](const Vec2& position, const Found& f) {
+            sort(f, [&](std::size_t q, const Rgb& value) { spread(position, q, value, replicate * size + first, chunk, work); });
+        },
+        work.tally.rays);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const std::uint32_t pixel = (first + i) / size;
+        for (std::size_t q = 0; q < Q; ++q) {
+            Rgb& x = work.samples[i * Q + q];
+            if (!is_finite(x)) [[unlikely]] {
+                ++work.tally.non_finite_count;
+                work.tally.keep({film.crop_x + static_cast<int>(pixel) % film.crop_width,
+                                 film.crop_y + static_cast<int>(pixel) / film.crop_width, static_cast<int>(q),
+                                 replicate * size + (first + i) % size});
+                x = Rgb(0.0);
+            }
+            work.tally.largest[q].add(max_component(glm::abs(x)));
+            own[pixel * Q + q] += x * work.weights[i];
+        }
+    }
+}
+
+bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally,
+                                  const std::function<bool(double)>& part_done) const {
+    const std::size_t Q = settings_.quantities();
+    const std::uint32_t samples = pixels_ * settings_.replicate_size, at_once = paths_at_once * groups_at_once;
+    picture.assign(pixels_ * Q, Rgb(0.0));
+    std::vector<Rgb> splatted(picture.size(), Rgb(0.0));
+    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
+        Workspace work(Q);
+        for (std::size_t q = 0; q < Q; ++q) work.tally.largest[q].outdo(tally.largest[q]);
+        return work;
+    });
+    const auto run_chunk = [&](Chunk& chunk) {
+        Workspace& work = workspaces.local();
+        chunk.shares.clear();
+        for (std::uint32_t first = chunk.first; first < chunk.end; first += paths_at_once) {
+            const std::uint32_t n = std::min(paths_at_once, chunk.end - first);
+            if (settings_.sampler == SamplerKind::sobol)
+                sample_group<SobolSampler>(
+                    replicate, first, n,
+                    [&](const SobolPoints& points, std::uint32_t pixel) { return SobolSampler(points, settings_.seed, pixel); }, chunk,
+                    picture, work);
+            else
+                sample_group<IndependentSampler>(
+                    replicate, first, n,
+                    [&](const SobolPoints&, std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, chunk, picture,
+                    work);
+        }
+    };
+    // Pieces are worked on in any order and added up in one: the same bits on any number of threads.
+    const std::size_t in_flight = 4 * static_cast<std::size_t>(oneapi::tbb::info::default_concurrency());
+    std::vector<Chunk> chunks(in_flight);
+    std::uint32_t next = 0;
+    std::size_t begun = 0;
+    std::atomic<bool> dropped = false;
+    oneapi::tbb::parallel_pipeline(
+        in_flight, oneapi::tbb::make_filter<void, Chunk*>(oneapi::tbb::filter_mode::serial_in_order,
+                                                          [&](oneapi::tbb::flow_control& control) -> Chunk* {
+                                                              if (next >= samples || dropped) {
+                                                                  control.stop();
+                                                                  return nullptr;
+                                                              }
+                                                              Chunk& chunk = chunks[begun++ % in_flight];
+                                                              chunk.first = next;
+                                                              chunk.end = next = std::min(next + at_once, samples);
+                                                              return &chunk;
+                                                          }) &
+                       oneapi::tbb::make_filter<Chunk*, Chunk*>(oneapi::tbb::filter_mode::parallel,
+                                                                [&](Chunk* chunk) {
+                                                                    run_chunk(*chunk);
+                                                                    return chunk;
+                                                                }) &
+                       oneapi::tbb::make_filter<Chunk*, void>(
+                           oneapi::tbb::filter_mode::serial_in_order, [&](const Chunk* chunk) {
+                               for (const Chunk::Share& s : chunk->shares) splatted[s.pixel * Q + s.quantity] += s.value;
+                               if (part_done(static_cast<double>(chunk->end) / samples)) dropped = true;
+                           }));
+    if (dropped) return false;
+    for (const Workspace& work : workspaces) tally.merge(work.tally);
+    for (LargestSamples& largest : tally.largest) largest.add_count(samples);
+    const double each = 1.0 / settings_.replicate_size;
+    std::vector<Rgb> mean(Q, Rgb(0.0));
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        picture[i] = (picture[i] + splatted[i]) * each;
+        if (settings_.colors) picture[i] = *settings_.colors * picture[i];
+        mean[i % Q] += picture[i];
+    }
+    for (const Rgb& sum : mean) picture.push_back(sum / static_cast<double>(pixels_));
+    return true;
+}
+
+std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+                                             std::vector<double> memory) const {
+    const std::size_t Q = settings_.quantities(), stride = Q * PixelMoments::doubles_per_quantity;
+    std::vector<std::vector<double>> waiting(static_cast<std::size_t>(std::countr_zero(count)) + 1);
+    std::vector<double> carry = std::move(memory);
+    std::vector<Rgb> picture;
+    Tally new_tally(Q);
+    for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
+    // And for their mean.
+    const auto for_each_pixel = [&](const auto& f) {
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels_ + 1, 256), [&](const auto& range) {
+            for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) f(pixel);
+        });
+    };
+    for (std::uint64_t r = 0; r < count; ++r) {
+        const auto part_done = [&](double part) {
+            const double done = (static_cast<double>(r) + part) / static_cast<double>(count);
+            return watch && watch(static_cast<std::uint64_t>(done * pixels_));
+        };
+        if (!sample_picture(first + r, picture, new_tally, part_done)) return std::nullopt;
+        carry.resize((pixels_ + 1) * stride);
+        const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
+        for_each_pixel([&](std::size_t pixel) {
+            PixelMoments::set(of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * Q, Q));
+        });
+        // Nodes of equal size are joined as digits carry in adding 1 to a binary number.
+        std::size_t level = 0;
+        for (; r >> level & 1; ++level) {
+            const auto n = static_cast<double>(std::uint64_t{1} << level);
+            for_each_pixel([&](std::size_t pixel) { PixelMoments::merge(of(waiting[level], pixel), n, of(carry, pixel), n); });
+            std::swap(waiting[level], carry);
+        }
+        std::swap(waiting[level], carry);
+    }
+    tally.merge(new_tally);
+    return MomentsNode{first, count, std::move(waiting.back())};
+}
+
+}  // namespace neumann

@@ -1,0 +1,46 @@
+// Samples the terms by paths from the lights, which find their pixels themselves: a replicate is a whole picture. There are as many
+// paths as camera samples would be, and each counts for the pixels whose filter reaches to where it is seen.
+#pragma once
+
+#include "core/sampling/sobol_sampler.h"
+#include "operators/bidirectional/bidirectional.h"
+#include "operators/bidirectional/light_tracing.h"
+#include "operators/pictures/sampling_settings.h"
+#include "operators/pictures/tally.h"
+#include "operators/statistics/series_moments.h"
+
+#include <memory>
+
+namespace neumann {
+
+class SplatSampler {
+public:
+    SplatSampler(const Scene& scene, const SamplingSettings& settings);
+
+    // As PictureSampler::run().
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+                                   std::vector<double> memory) const;
+
+private:
+    struct Workspace;
+    struct Chunk;
+    // A replicate's picture, all quantities of each pixel, and then their means. False where the work was dropped.
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally, const std::function<bool(double)>& part_done) const;
+    // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate.
+    template <class Sampler, class SamplerOf>
+    void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SamplerOf& sampler_of, Chunk& chunk,
+                      std::span<Rgb> own, Workspace& work) const;
+    void spread(const Vec2& position, std::size_t quantity, const Rgb& value, std::uint64_t sample, Chunk& chunk,
+                Workspace& work) const;
+
+    const Scene* scene_;
+    SamplingSettings settings_;
+    std::uint32_t pixels_;
+    EmissionSampler emission_;
+    LightSampler lights_;
+    Bidirectional bidirectional_;
+    SobolPoints camera_points_, light_points_;
+    double filter_radius_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,34 @@
+#include "operators/pictures/tally.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::size_t non_finite_kept = 16;
+
+void keep_first(std::vector<NonFiniteSample>& samples) {
+    std::sort(samples.begin(), samples.end());
+    if (samples.size() > non_finite_kept) samples.resize(non_finite_kept);
+}
+
+}  // namespace
+
+void Tally::keep(const NonFiniteSample& sample) {
+    non_finite.push_back(sample);
+    if (non_finite.size() > 4 * non_finite_kept) keep_first(non_finite);
+}
+
+void Tally::merge(const Tally& other) {
+    for (std::size_t q = 0; q < rays.size(); ++q) {
+        rays[q] += other.rays[q];
+        largest[q].merge(other.largest[q]);
+    }
+    given_up += other.given_up;
+    non_finite_count += other.non_finite_count;
+    non_finite.insert(non_finite.end(), other.non_finite.begin(), other.non_finite.end());
+    keep_first(non_finite);
+}
+
+}  // namespace neumann
