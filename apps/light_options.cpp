@@ -77,6 +77,11 @@ void add_light_options(CLI::App& command, LightOptions& options) {
         });
 }
 
+void check_light_options(const LightOptions& options, const std::string& method) {
+    if (options.given() && method != "walk")
+        throw InputError("--direct, --lights and --roulette belong to --method walk, not to " + method);
+}
+
 Roulette roulette(const LightOptions& options) { return options.roulette.empty() ? Roulette{} : *ending(options.roulette); }
 
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters) {

@@ -1,4 +1,4 @@
-// Renders by sampling: walk and pointwise.
+// Renders by sampling: walk, surface, classic and pointwise.
 #include "apps/render_method.h"
 
 #include "apps/interrupt.h"
@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <numeric>
 
 namespace neumann {
@@ -41,6 +42,12 @@ void check_memory(const Film& film, int bounces) {
             bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
+Method method_of(const std::string& name) {
+    static const std::map<std::string, Method> methods = {
+        {"walk", Method::walk}, {"surface", Method::surface}, {"classic", Method::classic}, {"pointwise", Method::pointwise}};
+    return methods.at(name);
+}
+
 RestVerdict rest_verdict(const RenderJob& job) {
     if (job.request.method == "pointwise") return RestVerdict::not_sampled;
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
@@ -69,18 +76,19 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (request.patches || request.directions)
         throw InputError(
             fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
-    if (request.method == "pointwise") {
-        if (request.light.given()) throw InputError("--direct, --lights and --roulette belong to --method walk, not to pointwise");
-        if (scene.emitters.has_delta_lights())
-            throw InputError(
-                "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, "
-                "projector, "
-                "spot), of which the scene has some; take --method walk, matrix or gather");
-    }
+    check_light_options(request.light, request.method);
     PictureSampler::Settings settings;
-    settings.method = request.method == "pointwise" ? Method::pointwise : Method::walk;
+    settings.method = method_of(request.method);
+    if (settings.method == Method::pointwise && scene.emitters.has_delta_lights())
+        throw InputError(
+            "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+            "spot), of which the scene has some; take --method walk, matrix or gather");
+    const Paths paths = paths_of(settings.method, scene);
     settings.walk.bounces = choose_bounces(job);
     settings.walk.direct = direct_light(request.light, scene.emitters);
+    // Neither finds lights by directions of its own, but in mirrors.
+    if (settings.method == Method::surface || settings.method == Method::classic)
+        settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
     settings.sampler = scene.sampler.value_or(SamplerKind::sobol);
     settings.seed = request.seed;
@@ -122,13 +130,24 @@ RenderResult render_by_walk(const RenderJob& job) {
                        *request.tail, settings.walk.bounces);
     }
 
+    if (paths != Paths::all) report_missing(report, pilot);
+
     RenderResult result;
     result.series = bounce_series(series, std::move(report));
+    result.series.paths = paths;
     Warnings& warnings = result.warnings;
     const auto& bsdfs = scene.materials.bsdfs();
     if (scene.emitters.has_delta_lights() &&
         std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; }))
         warnings.add("what a mirror throws on from a light without extent is not found by the walk and is missing");
+    if (paths == Paths::specular)
+        warnings.add(
+            "--method classic makes only paths whose reflections are specular but for the last one: the light of all other "
+            "paths is missing");
+    if (paths == Paths::without_specular)
+        warnings.add(
+            "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
+            "direction: what these reflect and let through is missing");
     const double albedo = max_component(scene.materials.largest_basic_albedo());
     if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
         warnings.add(

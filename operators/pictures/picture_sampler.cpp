@@ -121,9 +121,18 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspac
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<WalkEstimator, PointwiseEstimator> make_estimator(const Scene& scene, const PictureSampler::Settings& settings) {
-    if (settings.method == Method::pointwise) return PointwiseEstimator(scene, settings.walk.bounces);
-    return WalkEstimator(scene, settings.walk);
+TermEstimator make_estimator(const Scene& scene, const PictureSampler::Settings& settings) {
+    switch (settings.method) {
+        case Method::pointwise:
+            return PointwiseEstimator(scene, settings.walk.bounces);
+        case Method::surface:
+            return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
+        case Method::classic:
+            return WalkEstimator(scene, settings.walk, SpecularContinuation());
+        case Method::walk:
+            break;
+    }
+    return WalkEstimator(scene, settings.walk, MaterialContinuation());
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <variant>
 #include <vector>
 
 namespace neumann {
@@ -35,8 +34,8 @@ struct Tally {
     std::vector<NonFiniteSample> non_finite;  // the first ones in order of pixel and sample
 };
 
-// How the terms are sampled.
-enum class Method { walk, pointwise };
+// How the terms are sampled: by the walk, with the continuation of the material, of surfaces, or of mirrors alone; or one by one.
+enum class Method { walk, surface, classic, pointwise };
 
 class PictureSampler {
 public:
@@ -68,7 +67,7 @@ public:
 private:
     const Scene& scene_;
     Settings settings_;
-    std::variant<WalkEstimator, PointwiseEstimator> estimator_;
+    TermEstimator estimator_;
     SobolPoints sobol_;
 };
 

@@ -1,0 +1,27 @@
+#include "operators/pictures/missing_paths.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+bool has_specular(const Materials& materials) {
+    const auto& bsdfs = materials.bsdfs();
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; });
+}
+
+}  // namespace
+
+Paths paths_of(Method method, const Scene& scene) {
+    if (method == Method::classic) return Paths::specular;
+    return method == Method::surface && has_specular(scene.materials) ? Paths::without_specular : Paths::all;
+}
+
+void report_missing(SeriesReport& report, const Pilot& pilot) {
+    const std::size_t known = std::min(report.bounces.size(), std::size_t{Pilot::bounces} + 1);
+    for (std::size_t i = 0; i < known; ++i)
+        report.bounces[i].missing = difference(pilot.term(static_cast<int>(i)), report.bounces[i].mean);
+}
+
+}  // namespace neumann
