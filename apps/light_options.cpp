@@ -77,6 +77,21 @@ void add_light_options(CLI::App& command, LightOptions& options) {
         });
 }
 
+void check_light_options(const LightOptions& options, const std::string& method) {
+    if (method == "bidirectional") {
+        if (!options.roulette.empty()) throw InputError("--roulette belongs to --method walk, not to bidirectional");
+        if (!options.direct.empty() && strategies().at(options.direct).direct != DirectLight::mis)
+            throw InputError(fmt::format(
+                "--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or mis-solid-angle, not {}",
+                options.direct));
+        if (options.lights == "all")
+            throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
+        return;
+    }
+    if (options.given() && method != "walk")
+        throw InputError("--direct, --lights and --roulette belong to --method walk, not to " + method);
+}
+
 Roulette roulette(const LightOptions& options) { return options.roulette.empty() ? Roulette{} : *ending(options.roulette); }
 
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters) {

@@ -19,6 +19,8 @@ struct LightOptions {
 };
 
 void add_light_options(CLI::App& command, LightOptions& options);
+// Throws InputError where they are given to a method they do not belong to.
+void check_light_options(const LightOptions& options, const std::string& method);
 // Throws InputError where lights are chosen that are not asked for, or are out of reach.
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters);
 Roulette roulette(const LightOptions& options);

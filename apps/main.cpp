@@ -66,10 +66,12 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
     render
         ->add_option(
             "--method", request.method,
-            "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
+            "walk: one walk for all bounces; surface: the same by points on all surfaces; classic: the same by mirrors and glass "
+            "alone, some of all paths; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
             "gather: the same with K once more at the pixel; patches: the patches as they are")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "light", "bidirectional", "pointwise", "matrix", "gather", "patches"}).description(""))
+        ->check(CLI::IsMember({"walk", "surface", "light", "bidirectional", "classic", "pointwise", "matrix", "gather", "patches"})
+                    .description(""))
         ->capture_default_str();
     neumann::add_light_options(*render, request.light);
     render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")

@@ -26,13 +26,15 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
     const auto patches = [&](const std::optional<DiscretisationReport>& d) {
         return d ? fmt::format("  {:>9.2g}  {:>9.2g}", d->mean, d->worst) : std::string();
     };
-    fmt::print("{:>6}  {:>12}  {:<18}  {:>8}  {:>10}{}\n", "bounce", "mean", "95% interval", "ratio", "tail bound",
-               discretised ? "  discretisation: mean, worst" : "");
+    const bool subset = series.paths != Paths::all;
+    fmt::print("{:>6}  {:>12}  {:<18}  {:>8}  {:>10}{}{}\n", "bounce", "mean", "95% interval", "ratio", "tail bound",
+               discretised ? "  discretisation: mean, worst" : "", subset ? "  missing" : "");
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const BounceReport& b = report.bounces[i];
-        fmt::print("{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>10}{}\n", i, b.mean.mean, interval(b.mean, b.infinite_variance),
+        fmt::print("{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>10}{}{}\n", i, b.mean.mean, interval(b.mean, b.infinite_variance),
                    b.ratio ? fmt::format("{:.4f}", *b.ratio) : "", std::isfinite(b.bound) ? fmt::format("{:.3g}", b.bound) : "none",
-                   patches(b.discretisation));
+                   patches(b.discretisation),
+                   b.missing ? fmt::format("  {:.3g} {}", b.missing->mean, interval(*b.missing, b.infinite_variance)) : "");
     }
     fmt::print("{:>6}  {:>12.6g}  {:<18}{:>22}{}\n", "sum", report.sum.mean, interval(report.sum, report.infinite_variance()), "",
                patches(report.sum_discretisation));
@@ -48,6 +50,8 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
         case RestVerdict::not_sampled:
             break;
     }
+    if (subset)
+        fmt::print("These are some of all paths. What is missing of a bounce is its mean over walks of all paths, less this.\n");
     if (report.infinite_variance())
         fmt::print(
             "The largest samples show that the variance is infinite: no interval holds there, and more samples help little.\n");

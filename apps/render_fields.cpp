@@ -32,10 +32,9 @@ std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
 
 FieldSettings choose_settings(const RenderJob& job) {
     const RenderRequest& request = job.request;
-    if (request.light.given())
-        throw InputError("--direct, --lights and --roulette belong to --method walk, not to " + request.method);
+    check_light_options(request.light, request.method);
     if (request.seconds)
-        throw InputError("--time belongs to --method walk and pointwise; " + request.method +
+        throw InputError("--time belongs to --method walk, surface, classic and pointwise; " + request.method +
                          " takes --error, or --spp, --patches and --directions");
     FieldSettings settings;
     settings.method = field_method(request.method);

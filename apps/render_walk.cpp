@@ -1,4 +1,4 @@
-// Renders by sampling: walk and pointwise.
+// Renders by sampling: walk, surface, classic and pointwise.
 #include "apps/render_method.h"
 
 #include "apps/interrupt.h"
@@ -42,17 +42,16 @@ void check_memory(const Film& film, int bounces) {
             bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
+Method method_of(const std::string& name) {
+    static const std::map<std::string, Method> methods = {
+        {"walk", Method::walk},       {"surface", Method::surface}, {"light", Method::light}, {"bidirectional", Method::bidirectional},
+        {"classic", Method::classic}, {"pointwise", Method::pointwise}};
+    return methods.at(name);
+}
+
 RestVerdict rest_verdict(const RenderJob& job) {
     if (job.request.method == "pointwise") return RestVerdict::not_sampled;
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
-}
-
-Method method_named(const std::string& name) {
-    static const std::map<std::string, Method> methods = {{"walk", Method::walk},
-                                                          {"pointwise", Method::pointwise},
-                                                          {"light", Method::light},
-                                                          {"bidirectional", Method::bidirectional}};
-    return methods.at(name);
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, SeriesReport report) {
@@ -78,18 +77,22 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (request.patches || request.directions)
         throw InputError(
             fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
-    if (request.method == "pointwise") {
-        if (request.light.given()) throw InputError("--direct, --lights and --roulette belong to --method walk, not to pointwise");
-        if (scene.emitters.has_delta_lights())
-            throw InputError(
-                "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, "
-                "projector, "
-                "spot), of which the scene has some; take --method walk, matrix or gather");
-    }
+    check_light_options(request.light, request.method);
     PictureSampler::Settings settings;
-    settings.method = method_named(request.method);
+    settings.method = method_of(request.method);
+    if (settings.method == Method::pointwise && scene.emitters.has_delta_lights())
+        throw InputError(
+            "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+            "spot), of which the scene has some; take --method walk, matrix or gather");
+    if (scene.hide_emitters && splats(settings.method))
+        throw InputError(fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk",
+                                     request.method));
+    const Paths paths = paths_of(settings.method, scene);
     settings.walk.bounces = choose_bounces(job);
     settings.walk.direct = direct_light(request.light, scene.emitters);
+    // Neither finds lights by directions of its own, but in mirrors.
+    if (settings.method == Method::surface || settings.method == Method::classic)
+        settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
     settings.sampler = scene.sampler.value_or(SamplerKind::sobol);
     settings.seed = request.seed;
@@ -131,13 +134,28 @@ RenderResult render_by_walk(const RenderJob& job) {
                        *request.tail, settings.walk.bounces);
     }
 
+    if (paths != Paths::all) report_missing(report, pilot);
+
     RenderResult result;
     result.series = bounce_series(series, std::move(report));
+    result.series.paths = paths;
     Warnings& warnings = result.warnings;
-    const auto& bsdfs = scene.materials.bsdfs();
-    if (scene.emitters.has_delta_lights() &&
-        std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; }))
-        warnings.add("what a mirror throws on from a light without extent is not found by the walk and is missing");
+    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.method != Method::light)
+        warnings.add(settings.method == Method::bidirectional
+                         ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
+                         : "what a mirror throws on from a light without extent is not found by the walk and is missing");
+    if (paths == Paths::seen_directly)
+        warnings.add(
+            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else that "
+            "sends light in a single direction, and does not see what surrounds the scene: these are missing");
+    if (paths == Paths::specular)
+        warnings.add(
+            "--method classic makes only paths whose reflections are specular but for the last one: the light of all other "
+            "paths is missing");
+    if (paths == Paths::without_specular)
+        warnings.add(
+            "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
+            "direction: what these reflect and let through is missing");
     const double albedo = max_component(scene.materials.largest_basic_albedo());
     if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
         warnings.add(
@@ -150,7 +168,7 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (result.series.report.infinite_variance())
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
     result.options = {{"bounces", settings.walk.bounces}, {"method", request.method}};
-    if (request.method == "walk") result.options.update(as_json(request.light));
+    if (request.method == "walk" || request.method == "bidirectional") result.options.update(as_json(request.light));
     result.options.update({{"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"}, {"seed", settings.seed}});
     result.samples = {
         {"per_pixel", series.samples}, {"replicate_size", series.replicate_size}, {"replicates", series.moments.replicates()}};

@@ -39,6 +39,20 @@ const char* name(Outcome outcome) {
     return "";
 }
 
+const char* name(Paths paths) {
+    switch (paths) {
+        case Paths::all:
+            return "all";
+        case Paths::without_specular:
+            return "a subset: those without specular reflections";
+        case Paths::seen_directly:
+            return "a subset: those that the camera sees on surfaces, and not in a mirror or through glass";
+        case Paths::specular:
+            return "a subset: those whose reflections are specular but for the last one, which looks for light";
+    }
+    return "";
+}
+
 Json rest_json(const Scene& scene, const RenderResult& result) {
     const SeriesReport& report = result.series.report;
     const double bound = report.bounces.back().bound;
@@ -87,6 +101,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     json["scene"] = {{"file", request.scene}, {"hash", scene.hash}, {"definitions", request.definitions}};
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
     json["options"] = result.options;
+    json["paths"] = name(series.paths);
     json["samples"] = result.samples;
     json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;
     json["samples"]["outcome"] = name(series.outcome);
@@ -97,6 +112,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     for (const BounceReport& b : report.bounces) {
         Json bounce = mean_json(b.mean, b.infinite_variance);
         add_discretisation(bounce, b.discretisation);
+        if (b.missing) bounce["missing"] = mean_json(*b.missing, b.infinite_variance);
         if (b.ratio) bounce["ratio_estimate"] = *b.ratio;
         bounce["tail_bound"] = number(b.bound);
         if (b.tail) bounce["tail_index"] = {{"estimate", b.tail->alpha}, {"upper_99.9", b.tail->upper}};

@@ -21,6 +21,7 @@ std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
                        {"neumann:samples", static_cast<std::int64_t>(series.samples)},
                        {"neumann:degrees_of_freedom", series.degrees_of_freedom},
                        {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
+        if (series.paths != Paths::all) all["neumann:paths"] = std::string("a subset");
         if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
         return all;
     };
@@ -40,11 +41,12 @@ std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
         terms.push_back(series.rest->mean);
     }
 
+    const char* const subset = series.paths == Paths::all ? "" : ", some paths";
     std::vector<LabelledPicture> term_pictures, sum_pictures;
     for (std::size_t i = 0; i < terms.size(); ++i)
-        term_pictures.push_back({i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N), &terms[i]});
+        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + subset, &terms[i]});
     for (std::size_t i = 0; i < sums.size(); ++i)
-        sum_pictures.push_back({i == 0 ? "sum 0" : fmt::format("sum 0..{}", i), &sums[i]});
+        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(subset), &sums[i]});
     const double exposure = exposure_for(sums.back(), terms.front());
     const auto font = find_label_font();
     folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
@@ -57,7 +59,10 @@ std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
 std::string series_table(const SeriesReport& report) {
     std::string csv = "bounce,mean,mean_stderr,ratio,bound,rays,seconds,interval95";
     const bool discretised = report.sum_discretisation.has_value();
-    csv += discretised ? ",discretisation_mean,discretisation_worst,worst_x,worst_y\n" : "\n";
+    const bool subset = report.bounces.front().missing.has_value();
+    if (discretised) csv += ",discretisation_mean,discretisation_worst,worst_x,worst_y";
+    if (subset) csv += ",missing,missing_stderr";
+    csv += "\n";
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const BounceReport& b = report.bounces[i];
         const double infinity = std::numeric_limits<double>::infinity();
@@ -65,6 +70,9 @@ std::string series_table(const SeriesReport& report) {
                            b.infinite_variance ? infinity : b.mean.standard_error, b.ratio ? fmt::format("{:.6g}", *b.ratio) : "",
                            b.bound, b.rays, b.seconds, b.infinite_variance ? infinity : b.mean.interval());
         if (const auto& d = b.discretisation) csv += fmt::format(",{:.4g},{:.4g},{},{}", d->mean, d->worst, d->worst_x, d->worst_y);
+        if (b.missing)
+            csv += fmt::format(",{:.9g},{:.4g}", b.missing->mean, b.infinite_variance ? infinity : b.missing->standard_error);
+        if (subset && !b.missing) csv += ",,";
         csv += "\n";
     }
     return csv;

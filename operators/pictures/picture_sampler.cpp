@@ -113,25 +113,39 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspac
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<WalkEstimator, PointwiseEstimator> make_estimator(const Scene& scene, const PictureSampler::Settings& settings) {
-    if (settings.method == Method::pointwise) return PointwiseEstimator(scene, settings.walk.bounces);
-    return WalkEstimator(scene, settings.walk);
+TermEstimator make_estimator(const Scene& scene, const PictureSampler::Settings& settings) {
+    switch (settings.method) {
+        case Method::pointwise:
+            return PointwiseEstimator(scene, settings.walk.bounces);
+        case Method::surface:
+            return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
+        case Method::classic:
+            return WalkEstimator(scene, settings.walk, SpecularContinuation());
+        default:
+            return WalkEstimator(scene, settings.walk, MaterialContinuation());
+    }
+}
+
+std::variant<TermEstimator, SplatSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
+    if (splats(settings.method)) return SplatSampler(scene, settings);
+    return make_estimator(scene, settings);
 }
 
 }  // namespace
 
 PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
-    : scene_(scene), settings_(settings), estimator_(make_estimator(scene, settings)), sobol_(settings.replicate_size) {
+    : scene_(scene), settings_(settings), sampler_(make_sampler(scene, settings)), sobol_(settings.replicate_size) {
     if (!std::has_single_bit(settings.replicate_size))
         throw std::logic_error("PictureSampler: replicate_size is not a power of two");
-    if (splats(settings.method)) whole_pictures_.emplace(scene, settings);
 }
 
 std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                                std::vector<double> memory) const {
     if (!std::has_single_bit(count) || first % count != 0)
         throw std::logic_error("PictureSampler: not a node of the tree of replicates");
-    if (whole_pictures_) return whole_pictures_->run(first, count, tally, watch, std::move(memory));
+    if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
+        return whole_pictures->run(first, count, tally, watch, std::move(memory));
+    const TermEstimator& estimator = std::get<TermEstimator>(sampler_);
     const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
     const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
@@ -187,7 +201,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
                             estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end,
                             work);
                 },
-                estimator_);
+                estimator);
             done += end - begin;
         }
         pixels_done += done;

@@ -37,8 +37,7 @@ public:
 private:
     const Scene& scene_;
     Settings settings_;
-    std::variant<WalkEstimator, PointwiseEstimator> estimator_;
-    std::optional<SplatSampler> whole_pictures_;  // of methods that make all pixels together
+    std::variant<TermEstimator, SplatSampler> sampler_;
     SobolPoints sobol_;
 };
 

@@ -22,14 +22,30 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
     const DirectLightSampler direct_light(scene, direct);
     const Stopwatch watch;
 
-    // For each walk the tails Σ_{k>i}, of which mean and variance are wanted; in batches of fixed order.
+    // For each walk the terms and the tails Σ_{k>i}, of which mean and variance are wanted; in batches of fixed order.
+    struct Moments {
+        std::vector<double> sum = std::vector<double>(quantities), square = std::vector<double>(quantities);
+        void add(std::size_t q, double x) {
+            sum[q] += x;
+            square[q] += x * x;
+        }
+        void add(const Moments& other) {
+            for (std::size_t q = 0; q < quantities; ++q) {
+                sum[q] += other.sum[q];
+                square[q] += other.square[q];
+            }
+        }
+        MeanWithError mean(std::size_t q, double n) const {
+            const double mean = sum[q] / n, variance = std::max(square[q] / n - mean * mean, 0.0) / (n - 1.0);
+            return {mean, std::sqrt(variance), n - 1.0};
+        }
+    };
     struct Batch {
-        double emitted = 0.0;
-        std::vector<double> tail = std::vector<double>(quantities), square = std::vector<double>(quantities);
+        Moments term, tail;
         std::vector<std::uint64_t> rays = std::vector<std::uint64_t>(quantities);
         std::uint64_t given_up = 0;
     };
-    std::vector<double> tail(quantities), square(quantities);
+    Moments term, tail;
     std::vector<std::uint64_t> rays(quantities);
     std::uint64_t all_rays = 0, batches = 0;
     constexpr std::uint64_t together = 8;
@@ -57,19 +73,18 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
                 double sum = 0.0;
                 for (std::size_t q = quantities; q-- > 1;) {
                     sum += mean_component(terms[q]);
-                    round[b].tail[q - 1] += sum;
-                    round[b].square[q - 1] += sum * sum;
+                    round[b].tail.add(q - 1, sum);
+                    round[b].term.add(q, mean_component(terms[q]));
                 }
-                round[b].emitted += mean_component(terms[0]);
+                round[b].term.add(0, mean_component(terms[0]));
             }
             round[b].given_up = result.given_up;
         });
         for (const Batch& b : round) {
-            emitted_ += b.emitted;
+            term.add(b.term);
+            tail.add(b.tail);
             given_up_ += b.given_up;
             for (std::size_t q = 0; q < quantities; ++q) {
-                tail[q] += b.tail[q];
-                square[q] += b.square[q];
                 rays[q] += b.rays[q];
                 all_rays += b.rays[q];
             }
@@ -78,14 +93,15 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
     }
     walks_ = batches * batch;
     const auto n = static_cast<double>(walks_);
-    emitted_ /= n;
     for (std::size_t q = 0; q < quantities; ++q) {
-        const double mean = tail[q] / n, variance = std::max(square[q] / n - mean * mean, 0.0) / (n - 1.0);
-        rest_.push_back({mean, std::sqrt(variance), n - 1.0});
+        term_.push_back(term.mean(q, n));
+        rest_.push_back(tail.mean(q, n));
         rays_.push_back(static_cast<double>(rays[q]) / n);
     }
     seconds_per_walk_ = watch.seconds() / n;
 }
+
+MeanWithError Pilot::term(int i) const { return term_[static_cast<std::size_t>(i)]; }
 
 MeanWithError Pilot::rest(int i) const { return rest_[static_cast<std::size_t>(i)]; }
 

@@ -17,10 +17,11 @@ public:
 
     Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed);
 
-    // Σ_{k>i} K^k Le, averaged over the picture and the channels; i ≤ bounces.
+    // K^i Le, averaged over the channels and over the film, on which walks start uniformly whatever its filter; i ≤ bounces.
+    MeanWithError term(int i) const;
+    // Σ_{k>i} K^k Le, likewise.
     MeanWithError rest(int i) const;
-    // Σ_k K^k Le, likewise.
-    double sum() const { return rest_[0].mean + emitted_; }
+    double sum() const { return rest_[0].mean + term_[0].mean; }
 
     // More than 1 in 20 walks were alive when given up: either the series does not converge, or too slowly to tell.
     bool converges() const { return given_up_ * 20 <= walks_; }
@@ -34,8 +35,7 @@ public:
     double seconds_per_walk() const { return seconds_per_walk_; }
 
 private:
-    double emitted_ = 0.0;
-    std::vector<MeanWithError> rest_;
+    std::vector<MeanWithError> term_, rest_;
     std::vector<double> rays_;  // for each term and the rest beyond `bounces`, a walk
     std::uint64_t walks_ = 0, given_up_ = 0;
     double seconds_per_walk_ = 0.0;  // all terms, on all threads

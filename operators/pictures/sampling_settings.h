@@ -10,7 +10,14 @@
 
 namespace neumann {
 
-enum class Method { walk, pointwise, light, bidirectional };
+enum class Method {
+    walk,           // from the camera, by directions of the material
+    surface,        // by points on all surfaces
+    light,          // from the lights
+    bidirectional,  // from both ends
+    classic,        // the walk in mirrors and through glass alone
+    pointwise       // each term by itself
+};
 // What its samples find counts for pixels all over the film.
 inline bool splats(Method method) { return method == Method::light || method == Method::bidirectional; }
 

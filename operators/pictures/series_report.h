@@ -26,6 +26,7 @@ struct BounceReport {
     std::uint64_t rays = 0;
     double seconds = 0.0;  // of the sampling, shared out by rays
     std::optional<DiscretisationReport> discretisation;
+    std::optional<MeanWithError> missing;  // by methods that do not make all paths (missing_paths.h)
 };
 
 enum class RestVerdict {

@@ -8,24 +8,27 @@
 #include "operators/walk/walk.h"
 
 #include <memory>
+#include <variant>
 
 namespace neumann {
 
 // One walk for all terms: the fast way.
+template <class Continuation>
 class WalkEstimator {
 public:
-    WalkEstimator(const Scene& scene, const WalkSettings& settings)
-        : scene_(&scene), settings_(settings), direct_(scene, settings.direct) {}
+    WalkEstimator(const Scene& scene, const WalkSettings& settings, const Continuation& continuation)
+        : scene_(&scene), settings_(settings), direct_(scene, settings.direct), continuation_(continuation) {}
 
     template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
-        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result);
+        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
 
 private:
     const Scene* scene_;
     WalkSettings settings_;
     DirectLightSampler direct_;
+    Continuation continuation_;
 };
 
 // Each term asked for its value, by itself and from the start: the slow way, as on the slide. It has no rest.
@@ -65,5 +68,8 @@ private:
     const Scene* scene_;
     std::vector<ExitantField> terms_;
 };
+
+using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>,
+                                   WalkEstimator<SpecularContinuation>, PointwiseEstimator>;
 
 }  // namespace neumann

@@ -47,6 +47,13 @@ MeanWithError picture_mean(const Estimate& estimate) {
     return {mean, largest_error * std::sqrt(variance) / static_cast<double>(n), df * variance * variance / variance2};
 }
 
+MeanWithError difference(const MeanWithError& a, const MeanWithError& b) {
+    const double error = std::hypot(a.standard_error, b.standard_error);
+    if (error == 0.0) return {a.mean - b.mean, 0.0, std::min(a.degrees_of_freedom, b.degrees_of_freedom)};
+    const double share_a = std::pow(a.standard_error / error, 4), share_b = std::pow(b.standard_error / error, 4);
+    return {a.mean - b.mean, error, 1.0 / (share_a / a.degrees_of_freedom + share_b / b.degrees_of_freedom)};
+}
+
 double relative_standard_error(const Estimate& estimate) {
     const double scale = largest(estimate.mean);
     if (scale == 0.0) return 0.0;

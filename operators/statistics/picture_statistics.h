@@ -15,6 +15,9 @@ struct MeanWithError {
 // only make the error larger. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
+// a − b, of independent means. Degrees of freedom by Welch and Satterthwaite.
+MeanWithError difference(const MeanWithError& a, const MeanWithError& b);
+
 // √(Σ SE² / Σ mean²) over pixels and channels; 0 for a picture that is zero everywhere.
 double relative_standard_error(const Estimate& estimate);
 

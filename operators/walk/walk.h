@@ -3,6 +3,8 @@
 //
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
+// The directions are those of the material, or of another continuation (continuation.h).
+//
 // The last reflection may instead look for light by itself (direct_light.h), or do both. After a mirror only the direction can find
 // a light, and what it finds counts in full whatever is asked for.
 #pragma once
@@ -10,6 +12,7 @@
 #include "core/base/frame.h"
 #include "core/base/hot.h"
 #include "core/scene/pass_lights.h"
+#include "operators/walk/continuation.h"
 #include "operators/walk/direct_light.h"
 #include "operators/walk/roulette.h"
 
@@ -59,21 +62,24 @@ struct Walkers {
     std::vector<Walker> walker;         // one for each ray
     std::vector<std::uint32_t> alive;   // those that go on, in order
     std::vector<std::uint32_t> asking;  // of them, those that ask for their light
+    std::vector<SurfacePoint> next;     // of a continuation that joins points: the next vertex of each
 };
 
 // Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so
 // that the processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as
 // Geometry does; samplers[i] gives the numbers of walk i.
-template <class Transport, class Sampler>
+template <class Transport, class Sampler, class Continuation = MaterialContinuation>
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
-                      std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out) {
+                      std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
+                      const Continuation& continuation = {}) {
     const int N = settings.bounces;
     const std::size_t stride = static_cast<std::size_t>(N) + 2;
     const Emitters& emitters = scene.emitters;
 
-    auto& [walker, alive, asking] = walkers;
+    auto& [walker, alive, asking, next] = walkers;
     walker.resize(rays.size());
     alive.resize(rays.size());
+    if constexpr (Continuation::joins_points) next.resize(rays.size());
     std::iota(alive.begin(), alive.end(), 0u);
     // For each walk that goes on: goes on with those of which f is true.
     const auto filter = [&](const auto& f) {
@@ -83,9 +89,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         alive.resize(kept);
     };
     // The same after asking T for the next points of as many walks at once as make a packet. Those that hit nothing end infinitely
-    // far away.
+    // far away, if there is `something_there`.
     constexpr std::size_t packet = RayCaster::packet_size;
-    const auto advance = [&](const auto& first_hits, const auto& f) {
+    const auto advance = [&](const auto& first_hits, bool something_there, const auto& f) {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < alive.size(); k += packet) {
             const std::size_t n = std::min(packet, alive.size() - k);
@@ -93,13 +99,19 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             for (std::size_t j = 0; j < n; ++j) {
                 const std::uint32_t i = alive[k + j];
                 if (!(found >> j & 1u)) {
-                    if (!emitters.has_environment()) continue;
+                    if (!something_there) continue;
                     walker[i].x.shape = SurfacePoint::infinity;
                 }
                 if (f(walker[i], i)) alive[kept++] = i;
             }
         }
         alive.resize(kept);
+    };
+    const auto draw_direction = [&](const SurfaceSide& side, const Vec3& wo, std::uint32_t i) {
+        if constexpr (Continuation::joins_points)
+            return continuation.sample(side, wo, samplers[i], next[i]);
+        else
+            return continuation.sample(side, wo, samplers[i]);
     };
     const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x; };
 
@@ -109,7 +121,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         const LightQuestion q = direct.ask(side, samplers[i], question);
         if (!(q.pdf > 0.0)) return;
         const Vec3 wi = side.p.frame.to_local(q.w);
-        const double pdf_other = direct.is_weighted() ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+        const double pdf_other = direct.is_weighted() ? continuation.pdf(side, wo, wi, q.point) : 0.0;
         w.found =
             w.beta * eval(*side.bsdf, side.p, wo, wi) * q.weight * (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_other));
         w.light = q.point;
@@ -147,6 +159,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     // T: the first vertices.
     out.rays[0] += rays.size();
     advance([&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); },
+            emitters.has_environment(),
             [&](Walker& w, std::uint32_t i) {
                 w.wo = -rays[i].direction;
                 w.beta = Rgb(1.0);
@@ -192,7 +205,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             const Vec3 wo = frame.to_local(w.wo);
             w.found = Rgb(0.0);
             if (direct.questions() > 0) ask(w, i, side, wo, 0);
-            const BsdfSample sampled = sample(*side.bsdf, side.p, wo, samplers[i].next2());
+            const BsdfSample sampled = draw_direction(side, wo, i);
             w.beta *= sampled.weight;
             w.reflected = max_component(sampled.weight);
             w.pdf = sampled.pdf;
@@ -221,15 +234,27 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         // T: the next vertices.
         out.rays[q] += alive.size();
         const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
-            return T.first_hits(
-                n,
-                [&](std::size_t j) {
-                    const Walker& w = walker[alive[k + j]];
-                    return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
-                },
-                hit);
+            if constexpr (Continuation::joins_points) {
+                const std::uint32_t seen = T.visible(
+                    n,
+                    [&](std::size_t j) {
+                        const std::uint32_t i = alive[k + j];
+                        return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[i].x, next[i]);
+                    },
+                    RayCaster::Rays::any);
+                for (std::size_t j = 0; j < n; ++j)
+                    if (seen >> j & 1u) hit(j) = next[alive[k + j]];
+                return seen;
+            } else
+                return T.first_hits(
+                    n,
+                    [&](std::size_t j) {
+                        const Walker& w = walker[alive[k + j]];
+                        return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
+                    },
+                    hit);
         };
-        advance(next_points, [&](Walker& w, std::uint32_t i) {
+        advance(next_points, !Continuation::joins_points && emitters.has_environment(), [&](Walker& w, std::uint32_t i) {
             w.wo = -w.wi;
             if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);

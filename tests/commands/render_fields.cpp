@@ -92,7 +92,8 @@ TEST_F(RenderFields, AClosedRoomOfAlbedoOneHasNoRest) {
 
 TEST_F(RenderFields, Refusals) {
     expect_refused({"--method", "matrix", "--time", "3"},
-                   "--time belongs to --method walk and pointwise; matrix takes --error, or --spp, --patches and --directions");
+                   "--time belongs to --method walk, surface, classic and pointwise; matrix takes --error, or --spp, --patches and "
+                   "--directions");
     expect_refused({"--method", "gather", "--direct", "light"},
                    "--direct, --lights and --roulette belong to --method walk, not to gather");
     expect_refused({"--method", "pointwise", "--lights", "all"},

@@ -116,6 +116,10 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
     std::vector<Rgb> samples(together * quantities);
     Walkers walkers;
     TermSamples result{samples, batch.rays};
+    const auto walk_on = [&](const auto& continuation) {
+        walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
+             std::span<Sampler>(samplers), walkers, result, continuation);
+    };
     for (std::uint32_t first = 0; first < effort.samples; first += together) {
         std::fill(samples.begin(), samples.end(), Rgb(0.0));
         for (std::uint32_t i = 0; i < together; ++i) {
@@ -127,9 +131,11 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
             for (std::size_t k = 0; k < series.terms.size(); ++k)
                 samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
         }
-        if (series.terms.empty())
-            walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
-                 std::span<Sampler>(samplers), walkers, result);
+        if (series.terms.empty()) {
+            if (effort.going_on == GoingOn::material) walk_on(MaterialContinuation());
+            if (effort.going_on == GoingOn::surfaces) walk_on(SurfaceContinuation(scene.geometry));
+            if (effort.going_on == GoingOn::specular) walk_on(SpecularContinuation());
+        }
         for (std::uint32_t i = 0; i < together; ++i) {
             Rgb reflected(0.0);
             for (std::size_t q = 0; q < quantities; ++q) {

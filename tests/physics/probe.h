@@ -45,6 +45,9 @@ std::string name(Way way);
 // The others find a light by chance, with a probability that is its form factor, and need many more samples.
 inline bool looks_for_lights(Way way) { return way == Way::mis || way == Way::light; }
 
+// How walks go on: by directions of the material, by points on all surfaces, by mirrors alone.
+enum class GoingOn { material, surfaces, specular };
+
 inline constexpr int batch_count = 64;
 
 struct Effort {
@@ -56,6 +59,7 @@ struct Effort {
     std::uint64_t seed = fixed_seed;
     std::optional<DirectLightSettings> direct = {};  // of a walk, in place of its way's
     Roulette roulette = {};
+    GoingOn going_on = GoingOn::material;  // of a walk
 };
 
 struct Statistic {

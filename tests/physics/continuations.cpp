@@ -1,0 +1,142 @@
+// Walks that go on by points on all surfaces, and walks that go on in mirrors alone.
+#include "tests/physics/probe.h"
+#include "tests/physics/scene_maker.h"
+
+#include <gtest/gtest.h>
+
+namespace neumann::physics {
+namespace {
+
+// A floor, a wall, a slanted metal plate and a lamp that nowhere touch: the variances of all ways are finite.
+SceneMaker plates() {
+    SceneMaker maker;
+    maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.7));
+    maker.add(parallelogram({-1.5, -1, 0.5}, {0, 2, 0}, {0, 0, 1}), matte(0.5));
+    maker.add(parallelogram({1.3, -0.7, 0.4}, {0, 0, 1}, {0.4, 1.4, 0}),
+              made_of(RoughConductor<Ggx>(Ggx(0.5), ConductorFresnel{}, grey(0.8))));
+    maker.add(parallelogram({-0.5, -0.5, 2}, {0, 1, 0}, {1, 0, 0}), lamp(4.0));
+    return maker;
+}
+constexpr std::uint32_t plates_floor = 0;
+
+// The unit cube with ρ = 0.8 and a lamp that hangs free below its ceiling.
+Scene room_with_lamp() {
+    SceneMaker maker;
+    maker.add(room({0, 0, 0}, {1, 1, 1}), matte(0.8));
+    maker.add(parallelogram({0.3, 0.3, 0.8}, {0, 0.4, 0}, {0.4, 0, 0}), lamp(5.0));
+    return maker.make();
+}
+
+void expect_agreement(const Estimates& a, const Estimates& b, std::size_t last, double visible) {
+    for (std::size_t i = 1; i <= last; ++i) {
+        const double error = std::hypot(a.terms[i].standard_error.r, b.terms[i].standard_error.r);
+        EXPECT_NEAR(a.terms[i].mean.r, b.terms[i].mean.r, 4.5 * error) << "bounce " << i;
+        EXPECT_LT(error, visible * b.terms[i].mean.r) << "no power in bounce " << i;
+    }
+}
+
+// In a round furnace the kernel cosθ cosθ' / d² is 1/(4 R²) between any two points, so every weight is ρ, but for rounding.
+TEST(Continuations, SurfacesInASphereAreExact) {
+    constexpr double rho = 0.7;
+    SceneMaker maker;
+    maker.add(Sphere{{1, 2, 3}, 2.5, true}, glowing(rho, 1.0));
+    const Scene scene = maker.make();
+    const Estimates found =
+        probe(scene, at(scene, {1, 2, 5.5}, {0, 0, -1}), Way::light, {.samples = 256, .bounces = 6, .going_on = GoingOn::surfaces});
+    for (int i = 0; i <= 6; ++i)
+        EXPECT_NEAR(found.terms[static_cast<std::size_t>(i)].mean.r, std::pow(rho, i), 1e-10) << "bounce " << i;
+}
+
+// Bounces 1 to 3 of diffuse and of metal plates, with lights found by points, by what is hit, and by both, whose weights ask the
+// continuation for its density. 9 comparisons.
+TEST(ContinuationsSlow, SurfacesAgreeWithTheWalk) {
+    const Scene scene = plates().make();
+    const StartPicker start = anywhere_on(scene, plates_floor);
+    const Estimates plain = probe(scene, start, Way::mis, {.samples = 16384, .bounces = 3, .seed = fixed_seed + 1});
+    for (const DirectLight direct : {DirectLight::light, DirectLight::bsdf, DirectLight::mis})
+        expect_agreement(
+            probe(scene, start, Way::mis,
+                  {.samples = 32768, .bounces = 3, .direct = DirectLightSettings{.direct = direct}, .going_on = GoingOn::surfaces}),
+            plain, 3, direct == DirectLight::bsdf ? 0.05 : 0.02);
+}
+
+// The rest, too: walks go on beyond the last picture. 1 comparison.
+TEST(ContinuationsSlow, SurfacesHaveARest) {
+    const Scene scene = plates().make();
+    const StartPicker start = anywhere_on(scene, plates_floor);
+    const Estimates plain =
+        probe(scene, start, Way::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = fixed_seed + 1});
+    const Estimates found =
+        probe(scene, start, Way::light, {.samples = 16384, .bounces = 1, .rest_probability = 1.0, .going_on = GoingOn::surfaces});
+    const double error = std::hypot(found.rest.standard_error.r, plain.rest.standard_error.r);
+    EXPECT_NEAR(found.rest.mean.r, plain.rest.mean.r, 4.5 * error);
+    EXPECT_LT(error, 0.02 * plain.rest.mean.r);
+}
+
+// Where two walls meet, 1/d² between their points is above w with probability ~ w^−1.5, so the variance is infinite once a walk
+// goes on from anywhere to anywhere, from bounce 3 on. The alarm has to say so, and to be silent of the walk, and of plates that do
+// not touch.
+TEST(ContinuationsSlow, TheAlarmIsRaisedInCorners) {
+    const Scene closed = room_with_lamp(), open = plates().make();
+    for (std::uint64_t seed = fixed_seed; seed < fixed_seed + 3; ++seed) {
+        const auto largest = [&](const Scene& scene, const StartPicker& start, GoingOn going_on) {
+            return probe(scene, start, Way::light,
+                         {.samples = 16384, .bounces = 3, .sampler = SamplerKind::independent, .seed = seed, .going_on = going_on})
+                .largest;
+        };
+        const StartPicker on_floor = at(closed, {0.5, 0.5, 0}, {0, 0, 1});
+        const auto tail = tail_index(largest(closed, on_floor, GoingOn::surfaces)[3]);
+        ASSERT_TRUE(tail);
+        EXPECT_TRUE(tail->variance_is_infinite()) << "tail index " << tail->alpha;
+        EXPECT_NEAR(tail->alpha, 1.5, 0.25);
+        for (const std::size_t bounce : {1, 2, 3}) {
+            const auto by_material = tail_index(largest(closed, on_floor, GoingOn::material)[bounce]);
+            EXPECT_FALSE(by_material && by_material->variance_is_infinite()) << "bounce " << bounce << by_material->alpha;
+            const auto apart = tail_index(largest(open, anywhere_on(open, plates_floor), GoingOn::surfaces)[bounce]);
+            EXPECT_FALSE(apart && apart->variance_is_infinite()) << "bounce " << bounce << apart->alpha;
+        }
+    }
+}
+
+// Nothing in a diffuse furnace is specular: bounce 1 asks for its light, and there is no other.
+TEST(Continuations, SpecularEndsAtDiffuseSurfaces) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.7, 1.0));
+    const Scene scene = maker.make();
+    for (const Way way : {Way::light, Way::mis}) {
+        const Estimates found =
+            probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), way, {.samples = 64, .bounces = 3, .going_on = GoingOn::specular});
+        EXPECT_NEAR(found.terms[0].mean.r, 1.0, 1e-12);
+        EXPECT_NEAR(found.terms[1].mean.r, 0.7, 1e-12) << "lights are all that finds light: they have their whole weight";
+        for (const std::size_t i : {2, 3}) EXPECT_EQ(found.terms[i].mean.r, 0.0);
+        EXPECT_EQ(found.rays[2], 0.0) << "the walk has ended";
+    }
+}
+
+// A mirror above a diffuse floor beside a lamp: what the camera sees in the mirror is bounce 2, the same as the walk's, and so is
+// bounce 1 on the floor; bounce 2 on the floor, by way of the mirror, is missing. 2 comparisons.
+TEST(ContinuationsSlow, SpecularIsTheWalkByWayOfMirrors) {
+    SceneMaker maker;
+    maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.7));
+    const std::uint32_t mirror = maker.add(parallelogram({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), made_of(Conductor({}, grey(0.9))));
+    maker.add(parallelogram({-2, -0.5, 0.5}, {0, 1, 0}, {0, 0, 1}), lamp(4.0));
+    const Scene scene = maker.make();
+    const auto both = [&](const StartPicker& start) {
+        return std::pair(probe(scene, start, Way::light, {.bounces = 3, .going_on = GoingOn::specular}),
+                         probe(scene, start, Way::light, {.bounces = 3, .seed = fixed_seed + 1}));
+    };
+    const auto [mirrored, all_mirrored] = both(anywhere_on(scene, mirror));
+    const Statistic &a = mirrored.terms[2], &b = all_mirrored.terms[2];
+    const double error = std::hypot(a.standard_error.r, b.standard_error.r);
+    EXPECT_NEAR(a.mean.r, b.mean.r, 4.5 * error);
+    EXPECT_LT(error, 0.01 * b.mean.r);
+    EXPECT_EQ(mirrored.terms[3].mean.r, 0.0);
+    EXPECT_GT(all_mirrored.terms[3].mean.r, 0.01);
+    const auto [floor, all_floor] = both(anywhere_on(scene, 0));
+    expect_agreement(floor, all_floor, 1, 0.01);
+    EXPECT_EQ(floor.terms[2].mean.r, 0.0);
+    EXPECT_GT(all_floor.terms[2].mean.r, 0.01);
+}
+
+}  // namespace
+}  // namespace neumann::physics
