@@ -1,0 +1,136 @@
+// Every way to make paths says the same of every bounce, on scenes with all kinds of lights, cameras, filters and materials, whose
+// surfaces do not touch. That `light` agrees with `walk` is the adjoint identity ⟨We, K^i Le⟩ = ⟨K*^i We, Le⟩.
+#include "core/reader/read_scene.h"
+#include "operators/pictures/picture_sampler.h"
+#include "tests/physics/seed.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace neumann {
+namespace {
+
+constexpr int bounces = 4;
+constexpr double limit = 4.5;
+
+struct Case {
+    const char *light, *camera, *things;
+    bool light_makes_all;  // no specular thing is seen, and nothing surrounds the scene
+};
+constexpr Case cases[] = {{"area", "pinhole", "rough", true},
+                          {"points", "lens", "rough", true},
+                          {"area", "parallel", "rough", true},
+                          {"sky", "parallel", "specular", false},
+                          {"sky", "lens", "shaded", false}};
+
+Scene scene_of(const Case& c) {
+    const auto file = [](const char* name) { return fmt::format("{}.xml", name); };
+    return read_scene(TEST_DATA "/generators/room.xml", {{"light", file(c.light)}, {"camera", file(c.camera)}, {"things", file(c.things)}});
+}
+
+struct Result {
+    SeriesMoments::Result moments;
+    Tally tally;
+    bool infinite(std::size_t q) const {
+        const auto tail = tail_index(tally.largest[q]);
+        return tail && tail->variance_is_infinite();
+    }
+};
+
+Result render(const Scene& scene, SamplingSettings settings, std::uint64_t replicates) {
+    settings.replicate_size = 16;
+    const PictureSampler sampler(scene, settings);
+    Tally tally(sampler.quantities());
+    SeriesMoments moments(sampler.width(), sampler.height(), sampler.quantities());
+    moments.add(*sampler.run(0, replicates, tally));
+    return {moments.result(), std::move(tally)};
+}
+
+double z(const MeanWithError& a, const MeanWithError& b) {
+    const double error = std::hypot(a.standard_error, b.standard_error);
+    return error > 0.0 ? (a.mean - b.mean) / error : a.mean == b.mean ? 0.0 : INFINITY;
+}
+
+// Σ (a − b)² over the picture, and what the errors of both explain of it.
+double excess(const Estimate& a, const Estimate& b) {
+    double found = 0.0, expected = 0.0;
+    for (std::size_t i = 0; i < a.mean.pixels.size(); ++i) {
+        const Rgb d = a.mean.pixels[i] - b.mean.pixels[i], ea = a.standard_error.pixels[i], eb = b.standard_error.pixels[i];
+        found += glm::dot(d, d);
+        expected += glm::dot(ea, ea) + glm::dot(eb, eb);
+    }
+    return expected > 0.0 ? found / expected : found == 0.0 ? 1.0 : INFINITY;
+}
+
+// Means of whole pictures of 128 replicates: at most 5 scenes × 2 methods × 5 bounces, 50 comparisons at |z| ≤ 4.5 with 127 degrees
+// of freedom: false alarm below 0.08%. Where the samples show an infinite variance there is no z.
+TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
+    int compared = 0;
+    for (const Case& c : cases) {
+        const Scene scene = scene_of(c);
+        SamplingSettings settings{.walk = {.bounces = bounces, .rest_probability = 0.0}, .seed = physics::fixed_seed};
+        const Result walk = render(scene, settings, 128);
+        for (const Method method : {Method::light, Method::bidirectional}) {
+            if (method == Method::light && !c.light_makes_all) continue;
+            settings.method = method;
+            settings.seed = physics::fixed_seed + 1;
+            const Result other = render(scene, settings, 128);
+            for (std::size_t i = 0; i <= bounces; ++i) {
+                const bool misses = std::string(c.light) == "points" && std::string(c.things) != "rough";
+                if (misses || walk.infinite(i) || other.infinite(i)) continue;
+                ++compared;
+                EXPECT_LE(std::abs(z(other.moments.mean_of_term(i), walk.moments.mean_of_term(i))), limit)
+                    << c.light << ", " << c.camera << ", " << c.things << ", method " << static_cast<int>(method) << ", bounce " << i;
+            }
+        }
+    }
+    EXPECT_GE(compared, 20);
+}
+
+// Pixel by pixel: the differences of two methods are what their errors explain. 24 × 16 pixels of three channels that go together:
+// Σ d² / Σ SE² has a standard deviation of about √(2/384) = 0.07, more where a few pixels dominate.
+TEST(PathGeneratorsSlow, AgreeInEveryPixelWithinTheirErrors) {
+    for (const Case& c : {cases[0], cases[1]}) {
+        const Scene scene = scene_of(c);
+        SamplingSettings settings{.walk = {.bounces = 2, .rest_probability = 0.0}, .seed = physics::fixed_seed};
+        const Result walk = render(scene, settings, 128);
+        for (const Method method : {Method::light, Method::bidirectional}) {
+            settings.method = method;
+            settings.seed = physics::fixed_seed + 1;
+            const Result other = render(scene, settings, 128);
+            for (std::size_t i = 1; i <= 2; ++i) EXPECT_LT(excess(other.moments.term(i), walk.moments.term(i)), 1.5) << c.light << ", bounce " << i;
+        }
+    }
+}
+
+// Bounce 3 of area lights on things without mirrors, by each of its 5 ways without weights: what each finds is the whole. Those
+// whose variance is infinite are left out, and at least one way with two joined vertices has to remain. The weighted ones add up.
+TEST(PathGeneratorsSlow, TheWaysToMakeABounceAgreeWithoutWeights) {
+    constexpr int bounce = 3;
+    const Scene scene = read_scene(TEST_DATA "/generators/panels.xml", {});
+    SamplingSettings settings{.walk = {.bounces = bounce, .rest_probability = 0.0}, .seed = physics::fixed_seed};
+    const Result walk = render(scene, settings, 256);
+    settings.method = Method::bidirectional;
+    settings.ways_of_last_bounce = true;
+    settings.seed = physics::fixed_seed + 1;
+    const Result ways = render(scene, settings, 256);
+    const MeanWithError truth = walk.moments.mean_of_term(bounce);
+    int finite = 0;
+    double sum = 0.0, variance = 0.0;
+    for (std::size_t s = 0; s <= bounce + 1; ++s) {
+        const MeanWithError weighted = ways.moments.mean_of_term(s);
+        sum += weighted.mean;
+        variance += weighted.standard_error;
+        const std::size_t q = bounce + 2 + s;
+        if (ways.infinite(q)) continue;
+        ++finite;
+        EXPECT_LE(std::abs(z(ways.moments.mean_of_term(q), truth)), limit) << "(" << s << ", " << bounce + 2 - s << ")";
+    }
+    EXPECT_GE(finite, 4);
+    EXPECT_LE(std::abs(sum - truth.mean), limit * std::hypot(variance, truth.standard_error));
+}
+
+}  // namespace
+}  // namespace neumann
