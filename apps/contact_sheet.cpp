@@ -69,15 +69,15 @@ SheetLayout layout_sheet(int terms, int sums, int width, int height) {
 }
 
 std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<const LabelledPicture> sums, double exposure,
-                          const std::optional<std::string>& font) {
+                          const std::optional<std::string>& font, const SheetHeadings& headings) {
     if (terms.empty()) throw std::invalid_argument("contact_sheet: no pictures");
     const Image& first = *terms.front().picture;
     const SheetLayout layout =
         layout_sheet(static_cast<int>(terms.size()), static_cast<int>(sums.size()), first.width, first.height);
     const int terms_height = block_height(layout, layout.term_rows);
     DisplayImage sheet(sheet_width(layout), 2 * margin + terms_height + block_height(layout, layout.sum_rows), background);
-    paste_block(sheet, margin, layout, fmt::format("bounces, exposure x{:.3g}, sRGB", exposure), terms, exposure, font);
-    paste_block(sheet, margin + terms_height, layout, fmt::format("sums, exposure x{:.3g}, sRGB", exposure), sums, exposure, font);
+    paste_block(sheet, margin, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.terms, exposure), terms, exposure, font);
+    paste_block(sheet, margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure), sums, exposure, font);
     return encode_png(sheet);
 }
 

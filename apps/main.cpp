@@ -74,6 +74,12 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
                     .description(""))
         ->capture_default_str();
     neumann::add_light_options(*render, request.light);
+    render
+        ->add_option("--ways", request.ways,
+                     "Of bidirectional: pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
+                     "camera, weighted and by itself")
+        ->type_name("BOUNCE")
+        ->check(neumann::whole_from(1, 1000));
     render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
         ->type_name("N")
         ->check(neumann::whole_from(0, std::uint64_t{1} << 40));

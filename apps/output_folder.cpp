@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <regex>
 #include <stdexcept>
 #include <system_error>
 
@@ -27,6 +28,12 @@ bool is_numbered(std::string_view name, std::string_view prefix) {
     if (!name.starts_with(prefix) || !name.ends_with(suffix) || name.size() < prefix.size() + 3 + suffix.size()) return false;
     const std::string_view digits = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
     return digits.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// "way_s1_t3.exr", "way_s1_t3_unweighted.exr"
+bool is_way(std::string_view name) {
+    static const std::regex pattern("way_s[0-9]+_t[0-9]+(_unweighted)?\\.exr");
+    return std::regex_match(name.begin(), name.end(), pattern);
 }
 
 // 0, or the error number.
@@ -66,7 +73,7 @@ bool is_output_name(std::string_view name) {
     constexpr std::string_view names[] = {"rest.exr",        "contact-sheet.png",
                                           "bounces.gif",     "series.csv",
                                           "convergence.csv", "run.json",
-                                          "index.html",  // render
+                                          "ways.png",        "index.html",  // render
                                           "T.mtx",           "R.mtx",
                                           "R_r.mtx",         "R_g.mtx",
                                           "R_b.mtx",         "K.mtx",
@@ -78,7 +85,7 @@ bool is_output_name(std::string_view name) {
                                           "picture.exr",     "reference.exr",
                                           "p-reference.exr", "p-error.exr",
                                           "difference.exr"};  // conform
-    return is_numbered(name, "bounce_") || is_numbered(name, "sum_") ||
+    return is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name) ||
            std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 

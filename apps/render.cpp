@@ -78,6 +78,7 @@ int render_command(const RenderRequest& request) {
     for (const auto& [text, count] : result.warnings.counts()) warnings.add(text, count);
     const std::string unlabelled = write_pictures(folder, result.series);
     if (!unlabelled.empty()) warnings.add(unlabelled);
+    if (result.ways) write_ways(folder, *result.ways);
     folder.write("series.csv", series_table(result.series.report));
     folder.write("convergence.csv", convergence_table(result.series.convergence));
     const double seconds = watch.seconds();
@@ -92,6 +93,7 @@ int render_command(const RenderRequest& request) {
         fmt::print("{}\n", json.dump(2));
     else if (!request.quiet)
         print_summary(result.series, request.output);
+    if (result.ways && !request.json && !request.quiet) fmt::print("{}", ways_table(*result.ways));
     return 0;
 }
 

@@ -22,6 +22,7 @@ struct RenderRequest {
     std::optional<double> relative_error;
     std::string method = "walk";
     LightOptions light;
+    std::optional<int> ways;  // of bidirectional: the bounce of which every way is shown
     std::optional<std::size_t> patches;
     std::optional<std::uint32_t> directions;
     std::string reference;  // a folder of an earlier render, or empty

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/render.h"
+#include "apps/ways.h"
 #include "core/base/warnings.h"
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
@@ -21,6 +22,7 @@ struct RenderResult {
     Warnings warnings;
     // Parts of run.json that belong to the method.
     nlohmann::ordered_json options, samples, rest, non_finite;
+    std::optional<Ways> ways;
 };
 
 RenderResult render_by_walk(const RenderJob& job);    // walk, surface, classic and pointwise

@@ -78,6 +78,8 @@ RenderResult render_by_walk(const RenderJob& job) {
         throw InputError(
             fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
     check_light_options(request.light, request.method);
+    if (request.ways && request.method != "bidirectional")
+        throw InputError("--ways belongs to --method bidirectional, not to " + request.method);
     PictureSampler::Settings settings;
     settings.method = method_of(request.method);
     if (settings.method == Method::pointwise && scene.emitters.has_delta_lights())
@@ -167,7 +169,16 @@ RenderResult render_by_walk(const RenderJob& job) {
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
+    if (request.ways) {
+        check_memory(scene.film, 2 * *request.ways + 2);
+        ProgressLine line(*request.ways, request.quiet);
+        RenderObserver observer;
+        observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
+        observer.interrupted = interrupted;
+        result.ways = render_ways(scene, settings, *request.ways, series.samples, observer);
+    }
     result.options = {{"bounces", settings.walk.bounces}, {"method", request.method}};
+    if (request.ways) result.options["ways"] = *request.ways;
     if (request.method == "walk" || request.method == "bidirectional") result.options.update(as_json(request.light));
     result.options.update({{"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"}, {"seed", settings.seed}});
     result.samples = {

@@ -72,7 +72,7 @@ TEST(Filters, WeightPlacesOnTheFilmAsTheyDrawThem) {
 }
 
 // What sets out is what the lights give off: π A Le of surfaces, 4π I of a point, and of lights infinitely far away what crosses
-// the disc around the scene. One comparison each at |z| ≤ 4.5.
+// the disc around the scene; |z| ≤ 4.5, and the rounding of the sum. 6 comparisons.
 TEST(EmissionSlow, CarriesThePowerOfTheLights) {
     for (const char* light : {"area", "sky"}) {
         const Scene scene = scene_with(light, "pinhole", "rough");
@@ -95,13 +95,14 @@ TEST(EmissionSlow, CarriesThePowerOfTheLights) {
         }
         for (int c = 0; c < 3; ++c) {
             const double mean = sum[c] / n, error = std::sqrt(std::max(square[c] / n - mean * mean, 0.0) / n);
-            EXPECT_LE(std::abs(mean - power[c]), 4.5 * error + 1e-12 * power[c]) << light;
+            EXPECT_LE(std::abs(mean - power[c]), 4.5 * error + 1e-10 * power[c]) << light;
         }
     }
 }
 
 // R* draws with the density it tells, and its weights are those of R: E[w g(ωo)] = ∫ fs(ωi → ωo) |ωi·ns/ωi·ng| |ωo·ng| g dωo with
-// g = (1 + ωo.x + 2 ωo.z²)/4, by uniform directions. All things of two scenes, from both sides; |z| ≤ 4.5, about 90 comparisons.
+// g = (1 + ωo.x + 2 ωo.z²)/4, by uniform directions. All things of two scenes, from both sides; |z| ≤ 4.5, about 90 comparisons. Where only few directions
+// are counted, Poisson's law lets them be 5 more or less.
 TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
     for (const char* things : {"rough", "shaded"}) {
         const Scene scene = scene_with("area", "pinhole", things);
@@ -138,7 +139,7 @@ TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
                 }
                 const double error = std::sqrt((drawn2 - drawn * drawn / n) + (uniform2 - uniform * uniform / n));
                 EXPECT_LE(std::abs(drawn - uniform), 4.5 * error + 1e-9 * n) << things << ", shape " << shape;
-                EXPECT_LE(std::abs(share), 4.5 * std::sqrt(share2 - share * share / n)) << things << ", shape " << shape;
+                EXPECT_LE(std::abs(share), 4.5 * std::sqrt(share2 - share * share / n) + 5.0) << things << ", shape " << shape;
             }
     }
 }
