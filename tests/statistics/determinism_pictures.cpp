@@ -195,7 +195,12 @@ INSTANTIATE_TEST_SUITE_P(AllWays, Determinism,
                          testing::Values(Case{"WalkIndependent", Method::walk, SamplerKind::independent},
                                          Case{"WalkSobol", Method::walk, SamplerKind::sobol},
                                          Case{"PointwiseIndependent", Method::pointwise, SamplerKind::independent},
-                                         Case{"PointwiseSobol", Method::pointwise, SamplerKind::sobol}),
+                                         Case{"PointwiseSobol", Method::pointwise, SamplerKind::sobol},
+                                         Case{"SurfaceSobol", Method::surface, SamplerKind::sobol},
+                                         Case{"LightIndependent", Method::light, SamplerKind::independent},
+                                         Case{"LightSobol", Method::light, SamplerKind::sobol},
+                                         Case{"BidirectionalIndependent", Method::bidirectional, SamplerKind::independent},
+                                         Case{"BidirectionalSobol", Method::bidirectional, SamplerKind::sobol}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
