@@ -2,6 +2,7 @@
 #include "apps/compare.h"
 #include "apps/conform.h"
 #include "apps/export.h"
+#include "apps/method_options.h"
 #include "apps/options.h"
 #include "apps/render.h"
 #include "apps/solve.h"
@@ -63,21 +64,7 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
                      "power of two")
         ->type_name("REL")
         ->check(neumann::above_zero());
-    render
-        ->add_option(
-            "--method", request.method,
-            "walk: one walk for all bounces; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
-            "gather: the same with K once more at the pixel; patches: the patches as they are")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "pointwise", "matrix", "gather", "patches"}).description(""))
-        ->capture_default_str();
-    neumann::add_light_options(*render, request.light);
-    render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
-        ->type_name("N")
-        ->check(neumann::whole_from(0, std::uint64_t{1} << 40));
-    render->add_option("--directions", request.directions, "Rays of a patch, of patches, matrix and gather")
-        ->type_name("N")
-        ->check(neumann::whole_from(1, 1u << 20));
+    neumann::add_method_options(*render, request);
     render
         ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
         ->type_name("DIR");

@@ -2,6 +2,7 @@
 #include "apps/render_method.h"
 
 #include "apps/interrupt.h"
+#include "apps/method_options.h"
 #include "apps/progress_line.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -42,7 +43,7 @@ void check_memory(const Film& film, int bounces) {
 }
 
 RestVerdict rest_verdict(const RenderJob& job) {
-    if (job.request.method == "pointwise") return RestVerdict::not_sampled;
+    if (job.request.method == "pointwise" || job.request.only_pictures) return RestVerdict::not_sampled;
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
@@ -82,7 +83,7 @@ RenderResult render_by_walk(const RenderJob& job) {
     settings.walk.bounces = choose_bounces(job);
     settings.walk.direct = direct_light(request.light, scene.emitters);
     settings.walk.roulette = roulette(request.light);
-    settings.sampler = scene.sampler.value_or(SamplerKind::sobol);
+    settings.sampler = sampler_kind(request.sampler).value_or(scene.sampler.value_or(SamplerKind::sobol));
     settings.seed = request.seed;
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
@@ -102,6 +103,7 @@ RenderResult render_by_walk(const RenderJob& job) {
         RenderObserver observer;
         observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
         observer.interrupted = interrupted;
+        observer.checkpoints = !request.only_pictures;
         std::optional<Reference> reference;
         if (!request.reference.empty()) {
             reference.emplace(request.reference, N, scene.film);
