@@ -7,6 +7,7 @@
 #include "apps/render.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
+#include "apps/study.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -106,6 +107,8 @@ int main(int argc, char** argv) try {
     auto* export_matrices = neumann::add_export(app, export_request);
     neumann::ConformRequest conform_request;
     auto* conform = neumann::add_conform(app, conform_request);
+    neumann::StudyRequest study_request;
+    auto* study = neumann::add_study(app, study_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -132,6 +135,10 @@ int main(int argc, char** argv) try {
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);
+    if (*study) {
+        study_request.command_line = command_line;
+        return finish(neumann::study_command(study_request));
+    }
     if (*spectrum) {
         spectrum_request.patches.command_line = command_line;
         return finish(neumann::spectrum_command(spectrum_request));

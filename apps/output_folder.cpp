@@ -66,7 +66,8 @@ bool is_output_name(std::string_view name) {
     constexpr std::string_view names[] = {"rest.exr",        "contact-sheet.png",
                                           "bounces.gif",     "series.csv",
                                           "convergence.csv", "run.json",
-                                          "index.html",  // render
+                                          "study.csv",       "study.json",
+                                          "index.html",  // study
                                           "T.mtx",           "R.mtx",
                                           "R_r.mtx",         "R_g.mtx",
                                           "R_b.mtx",         "K.mtx",

@@ -40,20 +40,21 @@ RenderResult render_by_method(const RenderJob& job) {
     return is_field_method(job.request.method) ? render_by_fields(job) : render_by_walk(job);
 }
 
-Estimate read_reference(const std::string& folder, const std::string& file, const Film& film, Attributes* attributes) {
+RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film) {
     const std::string path = (std::filesystem::path(folder) / file).string();
-    Estimate picture = read_exr(path, attributes);
-    if (picture.mean.width != film.crop_width || picture.mean.height != film.crop_height)
-        throw InputError(fmt::format("{}: is {}×{} pixels, expected {}×{} as the scene's film", path, picture.mean.width,
-                                     picture.mean.height, film.crop_width, film.crop_height));
-    return picture;
+    RenderedPicture rendered = read_rendered_picture(path);
+    const Image& image = rendered.picture.mean;
+    if (image.width != film.crop_width || image.height != film.crop_height)
+        throw InputError(fmt::format("{}: is {}×{} pixels, expected {}×{} as the scene's film", path, image.width, image.height,
+                                     film.crop_width, film.crop_height));
+    return rendered;
 }
 
 Reference::Reference(const std::string& folder, int bounces, const Film& film) {
     if (!std::filesystem::is_directory(folder))
         throw InputError(folder + ": is not a folder; --reference takes the folder of an earlier render");
-    for (int i = 0; i <= bounces; ++i) terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film).mean);
-    sum_ = read_reference(folder, sum_file(static_cast<std::size_t>(bounces)), film).mean;
+    for (int i = 0; i <= bounces; ++i) terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film).picture.mean);
+    sum_ = read_reference(folder, sum_file(static_cast<std::size_t>(bounces)), film).picture.mean;
 }
 
 void Reference::judge(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint& checkpoint) const {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/render.h"
+#include "apps/rendered_picture.h"
 #include "core/base/warnings.h"
-#include "core/image/image_io.h"
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
 
@@ -34,7 +34,7 @@ RenderResult render_by_method(const RenderJob& job);
 int choose_bounces(const RenderJob& job);
 
 // A picture of an earlier render, of the size of this film. Throws InputError.
-Estimate read_reference(const std::string& folder, const std::string& file, const Film& film, Attributes* attributes = nullptr);
+RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film);
 
 // The pictures of an earlier render, to judge this one by.
 class Reference {
