@@ -1,8 +1,8 @@
 #include "apps/compare.h"
 
 #include "apps/output_folder.h"
+#include "apps/rendered_picture.h"
 #include "core/base/error.h"
-#include "core/image/image_io.h"
 #include "operators/statistics/metrics.h"
 
 #include <fmt/format.h>
@@ -26,14 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr double confidence = 0.95;
 
-struct Side {
-    Estimate picture;
-    std::optional<double> degrees_of_freedom;
-    bool infinite_variance = false;  // so that its standard errors give no interval
-
-    bool has_error() const { return !picture.standard_error.pixels.empty(); }
-};
-
 struct Row {
     std::string name;
     Metrics metrics;
@@ -50,25 +42,8 @@ struct Comparison {
     std::vector<std::string> only_in_a, only_in_b;
 };
 
-Side read_side(const std::string& path) {
-    Side side;
-    Attributes attributes;
-    side.picture = read_exr(path, &attributes);
-    side.picture.pixels_are_independent = !attributes.contains("neumann:pixels");
-    const auto variance = attributes.find("neumann:variance");
-    if (variance != attributes.end()) {
-        const auto* text = std::get_if<std::string>(&variance->second);
-        side.infinite_variance = text != nullptr && text->starts_with("infinite");
-    }
-    const auto found = attributes.find("neumann:degrees_of_freedom");
-    if (found == attributes.end()) return side;
-    if (const auto* whole = std::get_if<std::int64_t>(&found->second)) side.degrees_of_freedom = static_cast<double>(*whole);
-    if (const auto* real = std::get_if<double>(&found->second)) side.degrees_of_freedom = *real;
-    return side;
-}
-
 Row compare_pictures(const std::string& name, const std::string& path_a, const std::string& path_b) {
-    const Side a = read_side(path_a), b = read_side(path_b);
+    const RenderedPicture a = read_rendered_picture(path_a), b = read_rendered_picture(path_b);
     try {
         Row row{
             name, compare(a.picture.mean, b.picture.mean), {}, expected_rmse(a.picture, b.picture), a.has_error(), b.has_error(),

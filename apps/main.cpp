@@ -2,10 +2,12 @@
 #include "apps/compare.h"
 #include "apps/conform.h"
 #include "apps/export.h"
+#include "apps/method_options.h"
 #include "apps/options.h"
 #include "apps/render.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
+#include "apps/study.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -63,29 +65,13 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
                      "power of two")
         ->type_name("REL")
         ->check(neumann::above_zero());
-    render
-        ->add_option(
-            "--method", request.method,
-            "walk: one walk for all bounces; surface: the same by points on all surfaces; classic: the same by mirrors and glass "
-            "alone, some of all paths; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
-            "gather: the same with K once more at the pixel; patches: the patches as they are")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "surface", "light", "bidirectional", "classic", "pointwise", "matrix", "gather", "patches"})
-                    .description(""))
-        ->capture_default_str();
-    neumann::add_light_options(*render, request.light);
+    neumann::add_method_options(*render, request);
     render
         ->add_option("--ways", request.ways,
                      "Of bidirectional: pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
                      "camera, weighted and by itself")
         ->type_name("BOUNCE")
         ->check(neumann::whole_from(1, 1000));
-    render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
-        ->type_name("N")
-        ->check(neumann::whole_from(0, std::uint64_t{1} << 40));
-    render->add_option("--directions", request.directions, "Rays of a patch, of patches, matrix and gather")
-        ->type_name("N")
-        ->check(neumann::whole_from(1, 1u << 20));
     render
         ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
         ->type_name("DIR");
@@ -127,6 +113,8 @@ int main(int argc, char** argv) try {
     auto* export_matrices = neumann::add_export(app, export_request);
     neumann::ConformRequest conform_request;
     auto* conform = neumann::add_conform(app, conform_request);
+    neumann::StudyRequest study_request;
+    auto* study = neumann::add_study(app, study_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -153,6 +141,10 @@ int main(int argc, char** argv) try {
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);
+    if (*study) {
+        study_request.command_line = command_line;
+        return finish(neumann::study_command(study_request));
+    }
     if (*spectrum) {
         spectrum_request.patches.command_line = command_line;
         return finish(neumann::spectrum_command(spectrum_request));

@@ -74,6 +74,7 @@ bool is_output_name(std::string_view name) {
                                           "bounces.gif",     "series.csv",
                                           "convergence.csv", "run.json",
                                           "ways.png",        "index.html",  // render
+                                          "study.csv",       "study.json",  // study
                                           "T.mtx",           "R.mtx",
                                           "R_r.mtx",         "R_g.mtx",
                                           "R_b.mtx",         "K.mtx",

@@ -72,7 +72,7 @@ int render_command(const RenderRequest& request) {
     OutputFolder folder(request.output);
     const Pilot pilot(scene, direct_light(request.light, scene.emitters), request.seed);
     const RenderJob job{request, scene, pilot};
-    const RenderResult result = is_field_method(request.method) ? render_by_fields(job) : render_by_walk(job);
+    const RenderResult result = render_by_method(job);
 
     Warnings warnings = scene.warnings;
     for (const auto& [text, count] : result.warnings.counts()) warnings.add(text, count);

@@ -33,6 +33,8 @@ std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
 FieldSettings choose_settings(const RenderJob& job) {
     const RenderRequest& request = job.request;
     check_light_options(request.light, request.method);
+    if (!request.sampler.empty())
+        throw InputError("--sampler belongs to the methods that make paths, not to " + request.method);
     if (request.seconds)
         throw InputError("--time belongs to --method walk, surface, classic and pointwise; " + request.method +
                          " takes --error, or --spp, --patches and --directions");
@@ -40,6 +42,7 @@ FieldSettings choose_settings(const RenderJob& job) {
     settings.method = field_method(request.method);
     settings.bounces = choose_bounces(job);
     settings.seed = request.seed;
+    settings.rest = !request.only_pictures;
     if (settings.method == FieldMethod::gather) settings.gather_rays = 16;
     if (request.samples) {
         while (settings.replicates > 2 && *request.samples < settings.replicates) settings.replicates /= 2;
@@ -88,6 +91,7 @@ RenderResult render_by_fields(const RenderJob& job) {
     result.series.samples = run.pictures.samples;
     result.series.rays = run.convergence.back().rays;
     result.series.seconds = run.seconds;
+    result.series.setup_seconds = run.pictures.field_seconds;
     result.series.degrees_of_freedom = run.settings.replicates - 1.0;
     if (run.pictures.rest_converges) result.series.rest = run.pictures.rest();
     const auto& errors = run.convergence.back().term_error;

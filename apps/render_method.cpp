@@ -2,7 +2,6 @@
 
 #include "apps/series_files.h"
 #include "core/base/error.h"
-#include "core/image/image_io.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,15 +14,6 @@ namespace {
 // Bounces without any request: until the rest is below this part of the sum.
 constexpr double default_tail = 0.01;
 constexpr int default_most_bounces = 64, default_bounces_without_end = 16;
-
-Image read_reference(const std::string& folder, const std::string& file, const Film& film) {
-    const std::string path = (std::filesystem::path(folder) / file).string();
-    Image image = read_exr(path).mean;
-    if (image.width != film.crop_width || image.height != film.crop_height)
-        throw InputError(fmt::format("{}: is {}×{} pixels, expected {}×{} as the scene's film", path, image.width, image.height,
-                                     film.crop_width, film.crop_height));
-    return image;
-}
 
 }  // namespace
 
@@ -46,11 +36,25 @@ int choose_bounces(const RenderJob& job) {
     return n < 0 || !pilot.converges() ? default_bounces_without_end : std::min(n, default_most_bounces);
 }
 
+RenderResult render_by_method(const RenderJob& job) {
+    return is_field_method(job.request.method) ? render_by_fields(job) : render_by_walk(job);
+}
+
+RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film) {
+    const std::string path = (std::filesystem::path(folder) / file).string();
+    RenderedPicture rendered = read_rendered_picture(path);
+    const Image& image = rendered.picture.mean;
+    if (image.width != film.crop_width || image.height != film.crop_height)
+        throw InputError(fmt::format("{}: is {}×{} pixels, expected {}×{} as the scene's film", path, image.width, image.height,
+                                     film.crop_width, film.crop_height));
+    return rendered;
+}
+
 Reference::Reference(const std::string& folder, int bounces, const Film& film) {
     if (!std::filesystem::is_directory(folder))
         throw InputError(folder + ": is not a folder; --reference takes the folder of an earlier render");
-    for (int i = 0; i <= bounces; ++i) terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film));
-    sum_ = read_reference(folder, sum_file(static_cast<std::size_t>(bounces)), film);
+    for (int i = 0; i <= bounces; ++i) terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film).picture.mean);
+    sum_ = read_reference(folder, sum_file(static_cast<std::size_t>(bounces)), film).picture.mean;
 }
 
 void Reference::judge(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint& checkpoint) const {

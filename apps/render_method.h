@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/render.h"
+#include "apps/rendered_picture.h"
 #include "apps/ways.h"
 #include "core/base/warnings.h"
 #include "operators/pictures/bounce_series.h"
@@ -28,9 +29,14 @@ struct RenderResult {
 RenderResult render_by_walk(const RenderJob& job);    // walk, surface, classic and pointwise
 RenderResult render_by_fields(const RenderJob& job);  // patches, matrix and gather
 inline bool is_field_method(const std::string& method) { return method == "patches" || method == "matrix" || method == "gather"; }
+// By request.method.
+RenderResult render_by_method(const RenderJob& job);
 
 // The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
 int choose_bounces(const RenderJob& job);
+
+// A picture of an earlier render, of the size of this film. Throws InputError.
+RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film);
 
 // The pictures of an earlier render, to judge this one by.
 class Reference {

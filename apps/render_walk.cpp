@@ -2,6 +2,7 @@
 #include "apps/render_method.h"
 
 #include "apps/interrupt.h"
+#include "apps/method_options.h"
 #include "apps/progress_line.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -50,7 +51,7 @@ Method method_of(const std::string& name) {
 }
 
 RestVerdict rest_verdict(const RenderJob& job) {
-    if (job.request.method == "pointwise") return RestVerdict::not_sampled;
+    if (job.request.method == "pointwise" || job.request.only_pictures) return RestVerdict::not_sampled;
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
@@ -96,7 +97,7 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (settings.method == Method::surface || settings.method == Method::classic)
         settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
-    settings.sampler = scene.sampler.value_or(SamplerKind::sobol);
+    settings.sampler = sampler_kind(request.sampler).value_or(scene.sampler.value_or(SamplerKind::sobol));
     settings.seed = request.seed;
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
@@ -116,6 +117,7 @@ RenderResult render_by_walk(const RenderJob& job) {
         RenderObserver observer;
         observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
         observer.interrupted = interrupted;
+        observer.checkpoints = !request.only_pictures;
         std::optional<Reference> reference;
         if (!request.reference.empty()) {
             reference.emplace(request.reference, N, scene.film);
@@ -164,7 +166,7 @@ RenderResult render_by_walk(const RenderJob& job) {
             fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
                         "largest here is {:.3g}",
                         request.light.roulette, std::sqrt(settings.walk.roulette.survival), albedo));
-    if (series.moments.replicates() < 2) warnings.add("a single replicate was sampled: the standard errors are unknown");
+    if (series.moments.replicates() < 2 && !request.only_pictures) warnings.add("a single replicate was sampled: the standard errors are unknown");
     warnings.add("sample was not a finite number and was left out", series.tally.non_finite_count);
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())

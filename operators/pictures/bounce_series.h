@@ -19,6 +19,7 @@ struct BounceSeries {
     std::uint64_t samples = 0;  // a pixel
     std::uint64_t rays = 0;
     double seconds = 0.0;
+    double setup_seconds = 0.0;  // of these, before the first sample
     double degrees_of_freedom = 0.0;
 };
 

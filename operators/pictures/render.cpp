@@ -99,7 +99,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
 
         const bool last = goal.samples && series.samples >= *goal.samples;
         const bool stop = observer.interrupted() && (repeatable(done) || series.seconds > patience);
-        if (std::has_single_bit(series.samples) && !last) {
+        if (std::has_single_bit(series.samples) && !last && (observer.checkpoints || goal.relative_error)) {
             series.convergence.push_back(make_checkpoint(series, observer));
             const auto& errors = series.convergence.back().term_error;
             if (goal.relative_error && done > 1 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error)

@@ -40,6 +40,7 @@ struct RenderProgress {
 struct RenderObserver {
     std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {};  // from time to time, from any thread
     std::function<bool()> interrupted = [] { return false; };
+    bool checkpoints = true;  // before the last one: they take time of their own
     // Fills in the true errors of a checkpoint, given the series so far.
     std::function<void(const SeriesMoments::Result&, Checkpoint&)> judge = [](const SeriesMoments::Result&, Checkpoint&) {};
 };

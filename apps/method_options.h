@@ -1,0 +1,17 @@
+// How a series is rendered: --method, and the options that belong to methods.
+#pragma once
+
+#include "apps/render.h"
+
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+void add_method_options(CLI::App& command, RenderRequest& request);
+std::optional<SamplerKind> sampler_kind(const std::string& name);
+
+// The same in one word: "walk:direct=bsdf:lights=power" for --method walk --direct bsdf --lights power. Throws InputError.
+RenderRequest parse_method(const std::string& text);
+
+}  // namespace neumann

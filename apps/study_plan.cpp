@@ -1,0 +1,125 @@
+#include "apps/study_plan.h"
+
+#include "apps/interrupt.h"
+#include "apps/method_options.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace neumann {
+
+namespace {
+
+// Of the runs that measure speed: shorter ones are too uncertain.
+constexpr double shortest_measurement = 0.05;
+// Without --budgets: so many, each twice the one before; the first one, seconds, at least, and what gives every method 4 samples.
+constexpr int default_budgets = 4;
+constexpr double least_default_budget = 0.1;
+// A reference has so many times the samples of the largest budget.
+constexpr std::uint64_t reference_factor = 16, least_reference_samples = 256;
+
+Effort effort_of(const StudyMethod& method, int level) {
+    return is_field_method(method.request.method) ? field_effort(level) : sampling_effort(level);
+}
+
+// The seconds of a run at the first levels, until they are `enough`.
+std::optional<std::vector<double>> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed,
+                                           const Scene& scene, const Pilot& pilot) {
+    std::vector<double> seconds;
+    do {
+        const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot);
+        if (!run) return std::nullopt;
+        seconds.push_back(run->series.seconds);
+    } while (seconds.back() < enough && static_cast<int>(seconds.size()) < largest_effort);
+    return seconds;
+}
+
+}  // namespace
+
+std::vector<StudyMethod> study_methods(const StudyRequest& request) {
+    std::vector<StudyMethod> methods;
+    for (const std::string& name : request.methods) {
+        if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
+            throw InputError(fmt::format("--methods: '{}' is given twice", name));
+        try {
+            methods.push_back({name, parse_method(name)});
+        } catch (const InputError& e) {
+            throw InputError(fmt::format("--methods {}", e.what()));
+        }
+    }
+    return methods;
+}
+
+RenderRequest run_request(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed) {
+    RenderRequest request = method.request;
+    request.bounces = bounces;
+    request.samples = effort.samples;
+    if (!request.patches) request.patches = effort.patches;
+    if (!request.directions) request.directions = effort.directions;
+    request.seed = seed;
+    request.only_pictures = request.quiet = true;
+    return request;
+}
+
+std::optional<RenderResult> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
+                                       const Scene& scene, const Pilot& pilot) {
+    try {
+        const RenderRequest request = run_request(method, effort, bounces, seed);
+        RenderResult result = render_by_method({request, scene, pilot});
+        if (result.series.outcome == Outcome::interrupted) return std::nullopt;
+        return result;
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", method.name, e.what()));
+    } catch (const RunError& e) {
+        if (interrupted()) return std::nullopt;
+        throw RunError(fmt::format("{}: {}", method.name, e.what()));
+    }
+}
+
+std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vector<StudyMethod>& methods, const Scene& scene,
+                                    const Pilot& pilot, int bounces) {
+    StudyPlan plan;
+    plan.budgets_are_samples = !request.samples.empty();
+    std::uint64_t most_samples = 0;
+    if (plan.budgets_are_samples) {
+        plan.budgets.assign(request.samples.begin(), request.samples.end());
+        for (const StudyMethod& method : methods) {
+            std::vector<Effort>& efforts = plan.efforts.emplace_back();
+            for (const std::uint64_t n : request.samples)
+                efforts.push_back(is_field_method(method.request.method) ? field_effort_of_samples(n) : Effort{n});
+            if (!run_method(method, effort_of(method, 0), bounces, request.seed, scene, pilot)) return std::nullopt;
+        }
+        most_samples = request.samples.back();
+    } else {
+        const double largest = request.budgets.empty() ? 0.0 : request.budgets.back();
+        std::vector<std::vector<double>> measured;
+        double least = least_default_budget;
+        for (const StudyMethod& method : methods) {
+            // Levels of fields do not double exactly, so that more of them are measured.
+            const double enough = is_field_method(method.request.method) ? std::max(shortest_measurement, 0.25 * largest) : shortest_measurement;
+            auto seconds = measure(method, enough, bounces, request.seed, scene, pilot);
+            if (!seconds) return std::nullopt;
+            least = std::max(least, is_field_method(method.request.method) ? seconds->front() : 4.0 * seconds->front());
+            measured.push_back(std::move(*seconds));
+        }
+        plan.budgets = request.budgets;
+        if (plan.budgets.empty())
+            for (int b = 0; b < default_budgets; ++b) plan.budgets.push_back(std::ldexp(least, b));
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+            std::vector<Effort>& efforts = plan.efforts.emplace_back();
+            for (const int level : choose_levels(measured[m], plan.budgets)) efforts.push_back(effort_of(methods[m], level));
+        }
+        const StudyMethod walk{"walk", {}};
+        const auto seconds = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
+        if (!seconds) return std::nullopt;
+        most_samples = sampling_effort(choose_levels(*seconds, std::vector{plan.budgets.back()}).back()).samples;
+    }
+    plan.reference_samples = request.reference_samples.value_or(
+        std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
+    return plan;
+}
+
+}  // namespace neumann
