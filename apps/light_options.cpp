@@ -46,6 +46,18 @@ std::optional<Roulette> ending(const std::string& text) {
     return Roulette{Roulette::Kind::fixed, survival};
 }
 
+std::optional<Split> branches(const std::string& text) {
+    constexpr int most = 4096;
+    Split split;
+    const char* const end = text.data() + text.size();
+    const auto lights = std::from_chars(text.data(), end, split.lights);
+    if (lights.ec != std::errc() || lights.ptr == end || *lights.ptr != ',') return std::nullopt;
+    const auto walks = std::from_chars(lights.ptr + 1, end, split.walks);
+    if (walks.ec != std::errc() || walks.ptr != end) return std::nullopt;
+    const auto in_range = [](int n) { return n >= 1 && n <= most; };
+    return in_range(split.lights) && in_range(split.walks) ? std::optional(split) : std::nullopt;
+}
+
 bool asks_lights(const Settings& settings) { return settings.direct == DirectLight::light || settings.direct == DirectLight::mis; }
 
 }  // namespace
@@ -75,11 +87,18 @@ void add_light_options(CLI::App& command, LightOptions& options) {
         ->check([](const std::string& text) {
             return ending(text) ? "" : "'" + text + "' is not none, albedo, throughput or a number above 0 and at most 1";
         });
+    command
+        .add_option("--split", options.split,
+                    "At the first surface point of each camera ray, ask L times for light and let C walks go on; 1,1 without it")
+        ->type_name("L,C")
+        ->check([](const std::string& text) {
+            return branches(text) ? "" : "'" + text + "' is not two whole numbers from 1 to 4096 with a comma between, such as 8,8";
+        });
 }
 
 void check_light_options(const LightOptions& options, const std::string& method) {
     if (method == "bidirectional") {
-        if (!options.roulette.empty()) throw InputError("--roulette belongs to --method walk, not to bidirectional");
+        if (!options.split.empty()) throw InputError("--split belongs to --method walk, not to bidirectional");
         if (!options.direct.empty() && strategies().at(options.direct).direct != DirectLight::mis)
             throw InputError(fmt::format(
                 "--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or mis-solid-angle, not {}",
@@ -88,11 +107,14 @@ void check_light_options(const LightOptions& options, const std::string& method)
             throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
         return;
     }
+    if (method == "light" && options.direct.empty() && options.lights.empty() && options.split.empty()) return;
     if (options.given() && method != "walk")
-        throw InputError("--direct, --lights and --roulette belong to --method walk, not to " + method);
+        throw InputError("--direct, --lights, --roulette and --split belong to --method walk, not to " + method);
 }
 
 Roulette roulette(const LightOptions& options) { return options.roulette.empty() ? Roulette{} : *ending(options.roulette); }
+
+Split split(const LightOptions& options) { return options.split.empty() ? Split{} : *branches(options.split); }
 
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters) {
     Settings settings = options.direct.empty() ? Settings{} : strategies().at(options.direct);
@@ -115,6 +137,7 @@ nlohmann::ordered_json as_json(const LightOptions& options) {
     json["direct"] = options.direct.empty() ? "mis" : options.direct;
     if (asks_lights(strategies().at(json["direct"]))) json["lights"] = options.lights.empty() ? "mixed" : options.lights;
     json["roulette"] = options.roulette.empty() ? "none" : options.roulette;
+    json["split"] = options.split.empty() ? "1,1" : options.split;
     return json;
 }
 

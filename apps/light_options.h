@@ -1,8 +1,7 @@
-// --direct, --lights and --roulette: how walks find light, and how they end.
+// --direct, --lights, --roulette and --split: how walks find light, how they end, and where they branch.
 #pragma once
 
-#include "operators/walk/direct_light.h"
-#include "operators/walk/roulette.h"
+#include "operators/walk/walk.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -13,9 +12,9 @@
 namespace neumann {
 
 struct LightOptions {
-    std::string direct, lights, roulette;  // as given; empty where they are not
+    std::string direct, lights, roulette, split;  // as given; empty where they are not
 
-    bool given() const { return !direct.empty() || !lights.empty() || !roulette.empty(); }
+    bool given() const { return !direct.empty() || !lights.empty() || !roulette.empty() || !split.empty(); }
 };
 
 void add_light_options(CLI::App& command, LightOptions& options);
@@ -24,6 +23,7 @@ void check_light_options(const LightOptions& options, const std::string& method)
 // Throws InputError where lights are chosen that are not asked for, or are out of reach.
 DirectLightSettings direct_light(const LightOptions& options, const Emitters& emitters);
 Roulette roulette(const LightOptions& options);
+Split split(const LightOptions& options);
 // What is given and what is not, as options that say the same.
 nlohmann::ordered_json as_json(const LightOptions& options);
 

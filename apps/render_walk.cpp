@@ -23,11 +23,12 @@ using Json = nlohmann::ordered_json;
 constexpr double default_seconds = 20.0, default_error = 0.02;
 
 // Samples a pixel in one replicate: as many as still give several replicates.
-std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const Pilot& pilot) {
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const Pilot& pilot, const Split& split) {
     if (goal.samples) return replicate_size(*goal.samples);
     if (!goal.seconds) return largest_replicate;
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
-                 affordable = *goal.seconds / (pixels * pilot.seconds_per_walk());
+                 seconds = pilot.seconds_per_walk() * std::max(split.lights, split.walks),
+                 affordable = *goal.seconds / (pixels * seconds);
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 4.0, 1.0, static_cast<double>(largest_replicate))));
 }
 
@@ -97,12 +98,13 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (settings.method == Method::surface || settings.method == Method::classic)
         settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
+    settings.walk.split = split(request.light);
     settings.sampler = sampler_kind(request.sampler).value_or(scene.sampler.value_or(SamplerKind::sobol));
     settings.seed = request.seed;
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
     if (!goal.samples && !goal.seconds && !goal.relative_error) goal = {std::nullopt, default_seconds, default_error};
-    settings.replicate_size = choose_replicate_size(goal, scene.film, pilot);
+    settings.replicate_size = choose_replicate_size(goal, scene.film, pilot, settings.walk.split);
 
     RenderedSeries series{SeriesMoments(0, 0, 0), Tally(0), {}};
     SeriesReport report;
@@ -160,6 +162,9 @@ RenderResult render_by_walk(const RenderJob& job) {
         warnings.add(
             "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
             "direction: what these reflect and let through is missing");
+    if (settings.method == Method::surface)
+        warnings.add(
+            "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
     const double albedo = max_component(scene.materials.largest_basic_albedo());
     if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
         warnings.add(
@@ -182,6 +187,7 @@ RenderResult render_by_walk(const RenderJob& job) {
     result.options = {{"bounces", settings.walk.bounces}, {"method", request.method}};
     if (request.ways) result.options["ways"] = *request.ways;
     if (request.method == "walk" || request.method == "bidirectional") result.options.update(as_json(request.light));
+    if (request.method == "light") result.options["roulette"] = request.light.roulette.empty() ? "none" : request.light.roulette;
     result.options.update({{"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"}, {"seed", settings.seed}});
     result.samples = {
         {"per_pixel", series.samples}, {"replicate_size", series.replicate_size}, {"replicates", series.moments.replicates()}};

@@ -17,6 +17,7 @@ struct BidirectionalSettings {
     LightChoice lights = LightChoice::mixed;
     LightPlace place = LightPlace::area;
     Heuristic heuristic = Heuristic::power;
+    Roulette roulette = {};  // of both halves
     // Camera samples a pixel go with as many paths from the light, which all pixels share: so many see each vertex.
     double pixels = 1.0;
     double rest_probability = 0.0;  // beyond, of the ways (0, t) and (1, t) alone
@@ -85,6 +86,7 @@ private:
         LightWalkSettings walk;
         walk.vertices = settings_.bounces;
         walk.heuristic = h;
+        walk.roulette = settings_.roulette;
         walk.weighted = true;
         const auto visit = [&](int j, const LightWalkers& walkers) {
             if (j == 0) return;
@@ -271,8 +273,9 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(z.wo), samplers[i].next2());
             z.beta *= sampled.weight;
             if (sampled.pdf == 0.0 || is_black(z.beta)) return false;
-            if (rest) {
-                const double survival = Roulette{}.probability(true, 1.0, max_component(z.beta), z.kept_weight);
+            if (rest || settings_.roulette.kind != Roulette::Kind::none) {
+                const double survival =
+                    settings_.roulette.probability(rest, max_component(sampled.weight), max_component(z.beta), z.kept_weight);
                 if (survival < 1.0 && samplers[i].next() >= survival) return false;
                 z.beta /= survival;
                 z.kept_weight = max_component(z.beta);

@@ -32,7 +32,7 @@ struct LightWalker {
     LightVertex vertex;
     SurfacePoint from;  // where the edge began
     Vec3 w;
-    double kept_weight = 0.0;
+    double first_weight = 0.0, kept_weight = 0.0;  // largest channel of β, at the light and when roulette last let it live
     Emission emission;
 };
 struct LightWalkers {
@@ -46,6 +46,7 @@ struct LightWalkSettings {
     // Beyond them, by roulette: with this probability at all, and for so many bounces more.
     double rest_probability = 0.0;
     int give_up = 1'000'000;
+    Roulette roulette = {};  // β counts as a part of what set out
     Heuristic heuristic = Heuristic::power;
     bool weighted = false;  // LightVertex::weights are wanted
 };
@@ -73,6 +74,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
         w.w = w.emission.w;
         w.vertex.x = w.emission.from;
         w.vertex.beta = w.emission.weight;
+        w.first_weight = w.kept_weight = max_component(w.vertex.beta);
         return true;
     });
     visit(0, walkers);
@@ -139,8 +141,9 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
             const AdjointReflection::Sample s = AdjointReflection::sample(scene.materials, side, v.wi, u);
             v.beta *= s.weight;
             if (s.pdf == 0.0 || is_black(v.beta)) return false;
-            if (rest) {
-                const double survival = Roulette{}.probability(true, 1.0, max_component(v.beta), w.kept_weight);
+            if (rest || settings.roulette.kind != Roulette::Kind::none) {
+                const double survival = settings.roulette.probability(rest, max_component(s.weight), max_component(v.beta) / w.first_weight,
+                                                                      w.kept_weight / w.first_weight);
                 if (survival < 1.0 && sampler.next() >= survival) return false;
                 v.beta /= survival;
                 w.kept_weight = max_component(v.beta);

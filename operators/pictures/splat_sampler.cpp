@@ -28,6 +28,7 @@ BidirectionalSettings bidirectional_settings(const Scene& scene, const SamplingS
     result.lights = settings.walk.direct.lights;
     result.place = settings.walk.direct.place;
     result.heuristic = settings.walk.direct.heuristic;
+    result.roulette = settings.walk.roulette;
     result.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
     result.rest_probability = settings.walk.rest_probability;
     result.give_up = settings.walk.give_up;
@@ -117,6 +118,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
         LightWalkSettings walk;
         walk.vertices = settings_.walk.bounces;
         walk.rest_probability = settings_.walk.rest_probability;
+        walk.roulette = settings_.walk.roulette;
         walk.give_up = settings_.walk.give_up;
         work.tally.given_up += trace_light(
             *scene_, scene_->geometry, emission_, lights_, walk, std::span(light), work.light,

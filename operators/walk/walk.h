@@ -24,10 +24,18 @@
 
 namespace neumann {
 
+// What is done at the first vertex of each camera ray, where one sample does the most: light is asked for `lights` times, and
+// `walks` go on from it, both averaged. After that walks are single. One of each makes paths, several make trees (Arvo and Kirk
+// 1990).
+struct Split {
+    int lights = 1, walks = 1;
+};
+
 struct WalkSettings {
     int bounces = 8;  // N: the last term with a picture of its own
     DirectLightSettings direct = {};
     Roulette roulette = {};
+    Split split = {};
     // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le, at reciprocal weight; 0: no rest.
     double rest_probability = 1.0;
     // Bounces beyond N after which a walk is given up and counted.
@@ -63,6 +71,8 @@ struct Walkers {
     std::vector<std::uint32_t> alive;   // those that go on, in order
     std::vector<std::uint32_t> asking;  // of them, those that ask for their light
     std::vector<SurfacePoint> next;     // of a continuation that joins points: the next vertex of each
+    std::vector<Walker> first;          // where several walks go on from each first vertex: these, and which of them go on
+    std::vector<std::uint32_t> first_alive;
 };
 
 // Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so
@@ -76,7 +86,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     const std::size_t stride = static_cast<std::size_t>(N) + 2;
     const Emitters& emitters = scene.emitters;
 
-    auto& [walker, alive, asking, next] = walkers;
+    auto& [walker, alive, asking, next, first, first_alive] = walkers;
     walker.resize(rays.size());
     alive.resize(rays.size());
     if constexpr (Continuation::joins_points) next.resize(rays.size());
@@ -113,7 +123,10 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         else
             return continuation.sample(side, wo, samplers[i]);
     };
-    const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x; };
+    double share = 1.0;  // of a walk, among those that go on from its first vertex
+    const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x * share; };
+    // At the first vertex, where a walk asks for light more or less often than it goes on.
+    double directions_per_question = 1.0;
 
     // R of the last reflection: a question for light.
     const auto ask = [&](Walker& w, std::uint32_t i, const SurfaceSide& side, const Vec3& wo, std::size_t question) {
@@ -121,9 +134,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         const LightQuestion q = direct.ask(side, samplers[i], question);
         if (!(q.pdf > 0.0)) return;
         const Vec3 wi = side.p.frame.to_local(q.w);
-        const double pdf_other = direct.is_weighted() ? continuation.pdf(side, wo, wi, q.point) : 0.0;
-        w.found =
-            w.beta * eval(*side.bsdf, side.p, wo, wi) * q.weight * (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_other));
+        const double pdf_other = direct.is_weighted() ? continuation.pdf(side, wo, wi, q.point) * directions_per_question : 0.0;
+        w.found = w.beta * eval(*side.bsdf, side.p, wo, wi) * q.weight *
+                  (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_other) * directions_per_question);
         w.light = q.point;
         w.asked = q.w;
     };
@@ -169,99 +182,117 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 return !w.x.is_infinite();
             });
 
-    for (int bounce = 1; !alive.empty(); ++bounce) {
-        const bool rest = bounce > N;
-        const std::size_t q = static_cast<std::size_t>(std::min(bounce, N + 1));
-        if (rest) {
-            if (settings.rest_probability == 0.0) return;
-            if (bounce - N > settings.give_up) {
-                out.given_up += alive.size();
-                return;
+    if (settings.split.walks > 1) {
+        first = walker;
+        first_alive = alive;
+        share = 1.0 / settings.split.walks;
+    }
+    for (int copy = 0; copy < settings.split.walks; ++copy) {
+        if (copy > 0) {
+            walker = first;
+            alive = first_alive;
+        }
+        for (int bounce = 1; !alive.empty(); ++bounce) {
+            const bool rest = bounce > N;
+            const std::size_t q = static_cast<std::size_t>(std::min(bounce, N + 1));
+            if (rest) {
+                if (settings.rest_probability == 0.0) break;
+                if (bounce - N > settings.give_up) {
+                    out.given_up += alive.size();
+                    break;
+                }
+                if (bounce == N + 1)
+                    filter([&](Walker& w, std::uint32_t i) {
+                        if (settings.rest_probability < 1.0 && samplers[i].next() >= settings.rest_probability) return false;
+                        w.beta /= settings.rest_probability;
+                        w.kept_weight = max_component(w.beta);
+                        return true;
+                    });
             }
-            if (bounce == N + 1)
+
+            std::size_t questions = direct.questions();
+            directions_per_question = 1.0;
+            if (bounce == 1) {
+                questions = copy == 0 ? questions * static_cast<std::size_t>(settings.split.lights) : 0;
+                directions_per_question = static_cast<double>(settings.split.walks) / settings.split.lights;
+            }
+            for (std::size_t question = 1; question < questions; ++question) {
                 filter([&](Walker& w, std::uint32_t i) {
-                    if (settings.rest_probability < 1.0 && samplers[i].next() >= settings.rest_probability) return false;
-                    w.beta /= settings.rest_probability;
-                    w.kept_weight = max_component(w.beta);
+                    const SurfaceSide side = scene.materials.side(w.x, w.wo);
+                    if (!side.bsdf) return false;
+                    ask(w, i, side, side.p.frame.to_local(w.wo), question % direct.questions());
                     return true;
                 });
-        }
+                look(q, bounce == 1);
+            }
 
-        for (std::size_t question = 1; question < direct.questions(); ++question) {
+            // R: a direction for the next reflection, and the first question.
             filter([&](Walker& w, std::uint32_t i) {
                 const SurfaceSide side = scene.materials.side(w.x, w.wo);
                 if (!side.bsdf) return false;
-                ask(w, i, side, side.p.frame.to_local(w.wo), question);
+                const Frame& frame = side.p.frame;
+                const Vec3 wo = frame.to_local(w.wo);
+                w.found = Rgb(0.0);
+                if (questions > 0) ask(w, i, side, wo, 0);
+                const BsdfSample sampled = draw_direction(side, wo, i);
+                w.beta *= sampled.weight;
+                w.reflected = max_component(sampled.weight);
+                w.pdf = sampled.pdf;
+                w.wi = frame.to_world(sampled.wi);
+                w.from = w.x.position;
                 return true;
             });
+
             look(q, bounce == 1);
-        }
 
-        // R: a direction for the next reflection, and the first question.
-        filter([&](Walker& w, std::uint32_t i) {
-            const SurfaceSide side = scene.materials.side(w.x, w.wo);
-            if (!side.bsdf) return false;
-            const Frame& frame = side.p.frame;
-            const Vec3 wo = frame.to_local(w.wo);
-            w.found = Rgb(0.0);
-            if (direct.questions() > 0) ask(w, i, side, wo, 0);
-            const BsdfSample sampled = draw_direction(side, wo, i);
-            w.beta *= sampled.weight;
-            w.reflected = max_component(sampled.weight);
-            w.pdf = sampled.pdf;
-            w.wi = frame.to_world(sampled.wi);
-            w.from = w.x.position;
-            return true;
-        });
-
-        look(q, bounce == 1);
-
-        // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
-        const bool only_mirrors = !direct.counts_what_is_hit() && bounce == N && settings.rest_probability == 0.0;
-        filter([&](Walker& w, std::uint32_t i) {
-            if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
-            if (rest || settings.roulette.kind != Roulette::Kind::none) {
-                const double survival = settings.roulette.probability(rest, w.reflected, max_component(w.beta), w.kept_weight);
-                if (survival < 1.0) {
-                    if (samplers[i].next() >= survival) return false;
-                    w.beta /= survival;
+            // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
+            const bool only_mirrors = !direct.counts_what_is_hit() && bounce == N && settings.rest_probability == 0.0;
+            filter([&](Walker& w, std::uint32_t i) {
+                if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
+                if (rest || settings.roulette.kind != Roulette::Kind::none) {
+                    const double survival = settings.roulette.probability(rest, w.reflected, max_component(w.beta), w.kept_weight);
+                    if (survival < 1.0) {
+                        if (samplers[i].next() >= survival) return false;
+                        w.beta /= survival;
+                    }
+                    w.kept_weight = max_component(w.beta);
                 }
-                w.kept_weight = max_component(w.beta);
-            }
-            return true;
-        });
+                return true;
+            });
 
-        // T: the next vertices.
-        out.rays[q] += alive.size();
-        const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
-            if constexpr (Continuation::joins_points) {
-                const std::uint32_t seen = T.visible(
-                    n,
-                    [&](std::size_t j) {
-                        const std::uint32_t i = alive[k + j];
-                        return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[i].x, next[i]);
-                    },
-                    RayCaster::Rays::any);
-                for (std::size_t j = 0; j < n; ++j)
-                    if (seen >> j & 1u) hit(j) = next[alive[k + j]];
-                return seen;
-            } else
-                return T.first_hits(
-                    n,
-                    [&](std::size_t j) {
-                        const Walker& w = walker[alive[k + j]];
-                        return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
-                    },
-                    hit);
-        };
-        advance(next_points, !Continuation::joins_points && emitters.has_environment(), [&](Walker& w, std::uint32_t i) {
-            w.wo = -w.wi;
-            if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
-                const Rgb emitted = emitters.emitted(w.x, w.wo);
-                if (!is_black(emitted)) add(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf, w.from, w.wi, w.x));
-            }
-            return !w.x.is_infinite();
-        });
+            // T: the next vertices.
+            out.rays[q] += alive.size();
+            const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
+                if constexpr (Continuation::joins_points) {
+                    const std::uint32_t seen = T.visible(
+                        n,
+                        [&](std::size_t j) {
+                            const std::uint32_t i = alive[k + j];
+                            return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[i].x, next[i]);
+                        },
+                        RayCaster::Rays::any);
+                    for (std::size_t j = 0; j < n; ++j)
+                        if (seen >> j & 1u) hit(j) = next[alive[k + j]];
+                    return seen;
+                } else
+                    return T.first_hits(
+                        n,
+                        [&](std::size_t j) {
+                            const Walker& w = walker[alive[k + j]];
+                            return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.wi);
+                        },
+                        hit);
+            };
+            advance(next_points, !Continuation::joins_points && emitters.has_environment(), [&](Walker& w, std::uint32_t i) {
+                w.wo = -w.wi;
+                if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
+                    const Rgb emitted = emitters.emitted(w.x, w.wo);
+                    if (!is_black(emitted))
+                        add(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf * directions_per_question, w.from, w.wi, w.x));
+                }
+                return !w.x.is_infinite();
+            });
+        }
     }
 }
 

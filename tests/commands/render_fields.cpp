@@ -95,9 +95,9 @@ TEST_F(RenderFields, Refusals) {
                    "--time belongs to --method walk, surface, classic and pointwise; matrix takes --error, or --spp, --patches and "
                    "--directions");
     expect_refused({"--method", "gather", "--direct", "light"},
-                   "--direct, --lights and --roulette belong to --method walk, not to gather");
+                   "--direct, --lights, --roulette and --split belong to --method walk, not to gather");
     expect_refused({"--method", "pointwise", "--lights", "all"},
-                   "--direct, --lights and --roulette belong to --method walk, not to pointwise");
+                   "--direct, --lights, --roulette and --split belong to --method walk, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
                    "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
     expect_refused({"--patches", "100"}, "--patches and --directions belong to --method patches, matrix and gather, not to walk");

@@ -154,7 +154,7 @@ protected:
         std::vector<std::string> options{"-n",     run.at("options").at("bounces").dump(),
                                          "--spp",  run.at("samples").at("per_pixel").dump(),
                                          "--seed", run.at("options").at("seed").dump()};
-        for (const char* name : {"method", "direct", "lights", "roulette"})
+        for (const char* name : {"method", "direct", "lights", "roulette", "split"})
             if (run.at("options").contains(name))
                 options.insert(options.end(), {std::string("--") + name, run.at("options").at(name)});
         for (const auto& [name, value] : run.at("scene").at("definitions").items())

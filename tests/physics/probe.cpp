@@ -104,6 +104,7 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
     const WalkSettings settings{.bounces = effort.bounces,
                                 .direct = effort.direct.value_or(DirectLightSettings{direct_light(way)}),
                                 .roulette = effort.roulette,
+                                .split = effort.split,
                                 .rest_probability = effort.rest_probability,
                                 .give_up = effort.give_up};
     const DirectLightSampler direct(scene, settings.direct);

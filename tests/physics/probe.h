@@ -9,8 +9,7 @@
 #include "core/scene/scene.h"
 #include "operators/pointwise/field.h"
 #include "operators/statistics/tail_index.h"
-#include "operators/walk/direct_light.h"
-#include "operators/walk/roulette.h"
+#include "operators/walk/walk.h"
 #include "tests/physics/seed.h"
 
 #include <functional>
@@ -60,6 +59,7 @@ struct Effort {
     std::optional<DirectLightSettings> direct = {};  // of a walk, in place of its way's
     Roulette roulette = {};
     GoingOn going_on = GoingOn::material;  // of a walk
+    Split split = {};                      // likewise
 };
 
 struct Statistic {
