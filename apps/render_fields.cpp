@@ -36,7 +36,7 @@ FieldSettings choose_settings(const RenderJob& job) {
     if (!request.sampler.empty())
         throw InputError("--sampler belongs to the methods that make paths, not to " + request.method);
     if (request.seconds)
-        throw InputError("--time belongs to --method walk, surface, classic and pointwise; " + request.method +
+        throw InputError("--time belongs to the methods that make paths; " + request.method +
                          " takes --error, or --spp, --patches and --directions");
     FieldSettings settings;
     settings.method = field_method(request.method);
