@@ -77,7 +77,8 @@ std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<cons
     const int terms_height = block_height(layout, layout.term_rows);
     DisplayImage sheet(sheet_width(layout), 2 * margin + terms_height + block_height(layout, layout.sum_rows), background);
     paste_block(sheet, margin, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.terms, exposure), terms, exposure, font);
-    paste_block(sheet, margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure), sums, exposure, font);
+    paste_block(sheet, margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure), sums,
+                exposure, font);
     return encode_png(sheet);
 }
 

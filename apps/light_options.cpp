@@ -100,9 +100,10 @@ void check_light_options(const LightOptions& options, const std::string& method)
     if (method == "bidirectional") {
         if (!options.split.empty()) throw InputError("--split belongs to --method walk, not to bidirectional");
         if (!options.direct.empty() && strategies().at(options.direct).direct != DirectLight::mis)
-            throw InputError(fmt::format(
-                "--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or mis-solid-angle, not {}",
-                options.direct));
+            throw InputError(
+                fmt::format("--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or "
+                            "mis-solid-angle, not {}",
+                            options.direct));
         if (options.lights == "all")
             throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
         return;

@@ -24,8 +24,9 @@ void add_method_options(CLI::App& command, RenderRequest& request) {
         ->capture_default_str();
     add_light_options(command, request.light);
     command
-        .add_option("--sampler", request.sampler,
-                    "Random numbers of the methods that make paths: sobol (scrambled Sobol' points) or independent; the scene's without it")
+        .add_option(
+            "--sampler", request.sampler,
+            "Random numbers of the methods that make paths: sobol (scrambled Sobol' points) or independent; the scene's without it")
         ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}).description(""));
     command.add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
@@ -54,7 +55,8 @@ RenderRequest parse_method(const std::string& text) {
         const std::size_t equals = part.find('=');
         const CLI::Option* option = command.get_option_no_throw("--" + part.substr(0, equals));
         if (equals == std::string::npos || option == nullptr || part.starts_with("method="))
-            throw InputError(fmt::format("{}: '{}' is not an option of a method, expected NAME=VALUE as in direct=bsdf", text, part));
+            throw InputError(
+                fmt::format("{}: '{}' is not an option of a method, expected NAME=VALUE as in direct=bsdf", text, part));
         arguments.insert(arguments.end(), {"--" + part.substr(0, equals), part.substr(equals + 1)});
     }
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them

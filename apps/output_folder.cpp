@@ -82,10 +82,9 @@ bool is_output_name(std::string_view name) {
                                           "K_g.mtx",         "K_b.mtx",
                                           "Le.mtx",          "b.mtx",
                                           "measure.mtx",     "ray_measure.mtx",
-                                          "patches.csv",
-                                          "picture.exr",     "reference.exr",
-                                          "p-reference.exr", "p-error.exr",
-                                          "difference.exr"};  // conform
+                                          "patches.csv",     "picture.exr",
+                                          "reference.exr",   "p-reference.exr",
+                                          "p-error.exr",     "difference.exr"};  // conform
     return is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name) ||
            std::find(std::begin(names), std::end(names), name) != std::end(names);
 }

@@ -23,13 +23,13 @@ struct RenderRequest {
     std::string method = "walk";
     LightOptions light;
     std::optional<int> ways;  // of bidirectional: the bounce of which every way is shown
-    std::string sampler;  // sobol or independent; empty: the scene's
+    std::string sampler;      // sobol or independent; empty: the scene's
     std::optional<std::size_t> patches;
     std::optional<std::uint32_t> directions;
     std::string reference;  // a folder of an earlier render, or empty
     std::uint64_t seed = 0;
     bool only_pictures = false;  // neither the rest nor the errors at fewer samples are wanted
-    int threads = 0;  // 0: all
+    int threads = 0;             // 0: all
     bool quiet = false;
     bool json = false;
     std::string command_line;  // as typed, for run.json

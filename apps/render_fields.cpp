@@ -33,8 +33,7 @@ std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
 FieldSettings choose_settings(const RenderJob& job) {
     const RenderRequest& request = job.request;
     check_light_options(request.light, request.method);
-    if (!request.sampler.empty())
-        throw InputError("--sampler belongs to the methods that make paths, not to " + request.method);
+    if (!request.sampler.empty()) throw InputError("--sampler belongs to the methods that make paths, not to " + request.method);
     if (request.seconds)
         throw InputError("--time belongs to the methods that make paths; " + request.method +
                          " takes --error, or --spp, --patches and --directions");

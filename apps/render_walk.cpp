@@ -45,9 +45,9 @@ void check_memory(const Film& film, int bounces) {
 }
 
 Method method_of(const std::string& name) {
-    static const std::map<std::string, Method> methods = {
-        {"walk", Method::walk},       {"surface", Method::surface}, {"light", Method::light}, {"bidirectional", Method::bidirectional},
-        {"classic", Method::classic}, {"pointwise", Method::pointwise}};
+    static const std::map<std::string, Method> methods = {{"walk", Method::walk},       {"surface", Method::surface},
+                                                          {"light", Method::light},     {"bidirectional", Method::bidirectional},
+                                                          {"classic", Method::classic}, {"pointwise", Method::pointwise}};
     return methods.at(name);
 }
 
@@ -152,7 +152,8 @@ RenderResult render_by_walk(const RenderJob& job) {
                          : "what a mirror throws on from a light without extent is not found by the walk and is missing");
     if (paths == Paths::seen_directly)
         warnings.add(
-            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else that "
+            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else "
+            "that "
             "sends light in a single direction, and does not see what surrounds the scene: these are missing");
     if (paths == Paths::specular)
         warnings.add(
@@ -171,7 +172,8 @@ RenderResult render_by_walk(const RenderJob& job) {
             fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
                         "largest here is {:.3g}",
                         request.light.roulette, std::sqrt(settings.walk.roulette.survival), albedo));
-    if (series.moments.replicates() < 2 && !request.only_pictures) warnings.add("a single replicate was sampled: the standard errors are unknown");
+    if (series.moments.replicates() < 2 && !request.only_pictures)
+        warnings.add("a single replicate was sampled: the standard errors are unknown");
     warnings.add("sample was not a finite number and was left out", series.tally.non_finite_count);
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())

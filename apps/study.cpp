@@ -175,7 +175,9 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
                      "method that makes a reference with a seed of its own, which is kept in the cache")
         ->type_name("R")
         ->capture_default_str();
-    study->add_option("--reference-spp", request.reference_samples, "Samples a pixel of a reference that is made; 16 times those of walk at the largest budget without it")
+    study
+        ->add_option("--reference-spp", request.reference_samples,
+                     "Samples a pixel of a reference that is made; 16 times those of walk at the largest budget without it")
         ->type_name("N")
         ->check(whole_from(4, std::uint64_t{1} << 40));
     study->add_option("--budgets", request.budgets, "Seconds of a run, growing; chosen without it")
@@ -190,8 +192,12 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
         ->type_name("N")
         ->check(whole_from(1, 100000))
         ->capture_default_str();
-    study->add_option("-n", request.bounces, "The last bounce that is looked at")->type_name("BOUNCES")->check(whole_from(0, 100000));
-    study->add_option("--error", request.error, "Relative RMSE for the time to a given error; without it the smallest that all methods reach")
+    study->add_option("-n", request.bounces, "The last bounce that is looked at")
+        ->type_name("BOUNCES")
+        ->check(whole_from(0, 100000));
+    study
+        ->add_option("--error", request.error,
+                     "Relative RMSE for the time to a given error; without it the smallest that all methods reach")
         ->type_name("REL")
         ->check(above_zero());
     study->add_flag("--resume", request.resume, "Go on with a study that was cut off");
@@ -210,7 +216,8 @@ int study_command(const StudyRequest& given) {
     StudyRequest request = given;
     request.definitions = parse_definitions(request.definition_texts);
     if (request.output.empty())
-        request.output = (std::filesystem::path("out") / (std::filesystem::path(request.scene).stem().string() + "-study")).string();
+        request.output =
+            (std::filesystem::path("out") / (std::filesystem::path(request.scene).stem().string() + "-study")).string();
     expect_sense(request);
     const std::vector<StudyMethod> methods = study_methods(request);
     catch_interrupts();
@@ -277,8 +284,8 @@ int study_command(const StudyRequest& given) {
     if (data.complete())
         journal.remove();
     else if (!request.quiet)
-        fmt::print(stderr, "Interrupted: {} of {} points are finished; the same command with --resume goes on.\n", data.points.size(),
-                   methods.size() * data.plan.budgets.size());
+        fmt::print(stderr, "Interrupted: {} of {} points are finished; the same command with --resume goes on.\n",
+                   data.points.size(), methods.size() * data.plan.budgets.size());
     return 0;
 }
 

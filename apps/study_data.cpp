@@ -54,8 +54,9 @@ std::vector<std::string> StudyData::warnings() const {
                 bounces += (bounces.empty() ? "" : ", ") + picture_name(i);
         }
         if (!bounces.empty())
-            all.push_back(fmt::format("{}: the variance of bounces {} is infinite: intervals and slopes do not hold there, nor for the sum",
-                                      methods[m].name, bounces));
+            all.push_back(
+                fmt::format("{}: the variance of bounces {} is infinite: intervals and slopes do not hold there, nor for the sum",
+                            methods[m].name, bounces));
     }
     return all;
 }
@@ -119,8 +120,8 @@ std::string study_csv(const StudyData& data) {
                                    run.samples, number(run.patches), number(run.directions), run.seed, run.setup_seconds,
                                    run.seconds - run.setup_seconds, is_sum ? all_rays : run.rays[q], run.peak_memory, errors.mse[j],
                                    errors.mse[j] >= 0.0 ? fmt::format("{:.6g}", std::sqrt(errors.mse[j])) : "", errors.rel_mse[j],
-                                   run.mean[q],
-                                   run.discretisation.empty() ? "" : fmt::format("{:.6g}", run.discretisation[q]), variance);
+                                   run.mean[q], run.discretisation.empty() ? "" : fmt::format("{:.6g}", run.discretisation[q]),
+                                   variance);
             }
         }
     return csv;

@@ -11,7 +11,8 @@ namespace neumann {
 // A render: one method, one budget, one repeat. `method` and `budget` are numbers in the plan.
 struct StudyRun {
     std::size_t method = 0, budget = 0, repeat = 0;
-    std::uint64_t seed = 0, samples = 0, patches = 0, directions = 0;  // patches and directions as asked for; 0 where there are none
+    std::uint64_t seed = 0, samples = 0, patches = 0,
+                  directions = 0;  // patches and directions as asked for; 0 where there are none
     double setup_seconds = 0.0, seconds = 0.0, peak_memory = 0.0;
     std::vector<std::uint64_t> rays;     // of each bounce 0 … N
     std::vector<double> mean;            // of each bounce, and of their sum
@@ -57,9 +58,9 @@ struct StudiedMethod {
     PictureSummary summary;
 };
 struct StudiedPicture {
-    double reference_size = 0.0;   // √⟨r̂²⟩
-    double reference_noise = 0.0;  // √⟨v⟩, which is subtracted
-    double error = 0.0;            // RMSE, of the seconds to a given error
+    double reference_size = 0.0;         // √⟨r̂²⟩
+    double reference_noise = 0.0;        // √⟨v⟩, which is subtracted
+    double error = 0.0;                  // RMSE, of the seconds to a given error
     std::vector<StudiedMethod> methods;  // best first
 };
 std::vector<StudiedPicture> summarise(const StudyData& data);

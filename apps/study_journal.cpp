@@ -25,9 +25,19 @@ Json as_json(const WithError& x) { return {number(x.value), number(x.standard_er
 WithError with_error(const Json& json) { return {number(json.at(0)), number(json.at(1))}; }
 
 Json as_json(const StudyRun& r) {
-    return {{"method", r.method}, {"budget", r.budget}, {"repeat", r.repeat}, {"seed", r.seed}, {"samples", r.samples},
-            {"patches", r.patches}, {"directions", r.directions}, {"setup_seconds", r.setup_seconds}, {"seconds", r.seconds},
-            {"peak_memory", r.peak_memory}, {"rays", r.rays}, {"mean", r.mean}, {"discretisation", r.discretisation},
+    return {{"method", r.method},
+            {"budget", r.budget},
+            {"repeat", r.repeat},
+            {"seed", r.seed},
+            {"samples", r.samples},
+            {"patches", r.patches},
+            {"directions", r.directions},
+            {"setup_seconds", r.setup_seconds},
+            {"seconds", r.seconds},
+            {"peak_memory", r.peak_memory},
+            {"rays", r.rays},
+            {"mean", r.mean},
+            {"discretisation", r.discretisation},
             {"variance", r.variance}};
 }
 
@@ -94,9 +104,10 @@ StudyJournal::StudyJournal(const fs::path& folder, bool resume)
     : lines_path_(folder / "study.journal"), pictures_path_(folder / "study.pictures") {
     const bool exists = fs::exists(lines_path_);
     if (exists && !resume)
-        throw InputError(fmt::format("{}: holds a study that was not finished; --resume goes on with it, and to begin another one "
-                                     "there, remove study.journal",
-                                     folder.string()));
+        throw InputError(
+            fmt::format("{}: holds a study that was not finished; --resume goes on with it, and to begin another one "
+                        "there, remove study.journal",
+                        folder.string()));
     if (!exists && resume) throw InputError(fmt::format("{}: holds no study that could be resumed", folder.string()));
     if (exists) read();
 }
@@ -138,7 +149,8 @@ void StudyJournal::read() {
 void StudyJournal::expect_same(const Json& now) const {
     for (const auto& [name, value] : study.items())
         if (now.at(name) != value)
-            throw InputError(fmt::format("--resume: {} is {}, and the study that was cut off has {}", name, now.at(name).dump(), value.dump()));
+            throw InputError(
+                fmt::format("--resume: {} is {}, and the study that was cut off has {}", name, now.at(name).dump(), value.dump()));
 }
 
 void StudyJournal::begin(const Json& new_study, const Json& new_plan) {
@@ -171,9 +183,11 @@ Image StudyJournal::picture(std::size_t run, std::size_t picture, int width, int
     Image image(width, height);
     std::vector<float> values(3 * image.pixels.size());
     const std::size_t size = values.size() * sizeof(float);
-    if (::pread(pictures_, values.data(), size, static_cast<off_t>((run * pictures + picture) * size)) != static_cast<ssize_t>(size))
+    if (::pread(pictures_, values.data(), size, static_cast<off_t>((run * pictures + picture) * size)) !=
+        static_cast<ssize_t>(size))
         throw RunError(fmt::format("{}: cannot be read", pictures_path_.string()));
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Rgb(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = Rgb(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     return image;
 }
 

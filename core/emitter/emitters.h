@@ -33,8 +33,8 @@ struct DistantEmission {
     Vec3 from;         // of a light infinitely far away, before the scene
     Vec3 w;            // in which it travels
     Rgb light{0.0};    // power over pdf
-    double pdf = 0.0;  // of w per solid angle, where the light has several, times that per area across w, where it is infinitely far
-                       // away
+    double pdf = 0.0;  // of w per solid angle, where the light has several, times that per area across w, where it is infinitely
+                       // far away
     bool is_point = false, is_delta = false;  // it stands somewhere; no ray meets it
 };
 

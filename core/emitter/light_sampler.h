@@ -26,7 +26,7 @@ enum class LightChoice {
     power,         // by the power it gives off, of its largest radiance
     contribution,  // by what it would bring to the point if nothing stood between: radiance times solid angle, of each of its
                    // parts, all of which are looked at for that
-    all  // each once
+    all            // each once
 };
 
 // Where on it: uniform on its surface, or in the directions in which it is seen.

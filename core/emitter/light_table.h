@@ -47,7 +47,8 @@ public:
 private:
     Choice choose(double u, std::size_t first, std::size_t end) const {
         const auto begin = cumulative_.begin();
-        const auto found = std::upper_bound(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end) - 1, u);
+        const auto found =
+            std::upper_bound(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end) - 1, u);
         const double below = found == begin ? 0.0 : found[-1], share = *found - below;
         return {static_cast<std::size_t>(found - begin), share, std::clamp((u - below) / share, 0.0, 0x1.fffffffffffffp-1)};
     }

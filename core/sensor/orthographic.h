@@ -10,9 +10,7 @@ class Orthographic {
 public:
     Orthographic(const SensorOptions& options, const Film& film);
 
-    CameraRay ray(const Vec2& position, const Vec2&) const {
-        return {plane_.at(position), direction_, length_};
-    }
+    CameraRay ray(const Vec2& position, const Vec2&) const { return {plane_.at(position), direction_, length_}; }
     std::optional<FilmPoint> see(const Vec3& p, const Vec2&) const;
     double pixels_per_area(const CameraRay&, const Vec3&) const {
         return 1.0 / (plane_.area() * std::abs(glm::dot(direction_, plane_.normal())));

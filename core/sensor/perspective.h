@@ -6,7 +6,8 @@
 namespace neumann {
 
 // What a pinhole sees of p through a plane, whose places are given from the pinhole; between two depths along an axis.
-std::optional<FilmPoint> see_through(const Vec3& pinhole, const FilmPlane& plane, const Vec3& axis, double near, double far, const Vec3& p);
+std::optional<FilmPoint> see_through(const Vec3& pinhole, const FilmPlane& plane, const Vec3& axis, double near, double far,
+                                     const Vec3& p);
 
 class Perspective {
 public:

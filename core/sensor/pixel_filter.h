@@ -4,8 +4,9 @@
 //
 //     ∫ f(x − centre) L(x) dx / ∫ f(x − centre) dx,
 //
-// over the film. Where samples come from elsewhere, weight() is the normalised filter itself. A filter that is nowhere negative is drawn exactly, and all samples weigh 1. One with negative lobes is drawn in
-// proportion to |f|, and a sample weighs f / pdf, over ∫ f.
+// over the film. Where samples come from elsewhere, weight() is the normalised filter itself. A filter that is nowhere negative is
+// drawn exactly, and all samples weigh 1. One with negative lobes is drawn in proportion to |f|, and a sample weighs f / pdf, over
+// ∫ f.
 #pragma once
 
 #include "core/base/vec.h"

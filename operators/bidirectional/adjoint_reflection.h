@@ -85,4 +85,10 @@ private:
     }
 };
 
+// The density with which R* draws ωo for what has arrived at x from ωi.
+inline double light_pdf(const Materials& materials, const SurfacePoint& x, const Vec3& wi, const Vec3& wo) {
+    const SurfaceSide side = materials.side(x, wi);
+    return side.bsdf ? AdjointReflection::pdf(side, wi, wo) : 0.0;
+}
+
 }  // namespace neumann

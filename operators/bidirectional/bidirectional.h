@@ -9,6 +9,7 @@
 #pragma once
 
 #include "operators/bidirectional/film_splats.h"
+#include "operators/bidirectional/joining_edges.h"
 
 namespace neumann {
 
@@ -24,38 +25,18 @@ struct BidirectionalSettings {
     int give_up = 1'000'000;
 };
 
-// What a way has found.
-struct Found {
-    int bounce, s;
-    Rgb value;  // weighted
-    double weight;
-};
-
-struct CameraVertexWalker {
-    SurfacePoint x;
-    Vec3 wo;
-    Rgb beta{1.0};
-    PathWeights weights;
-    double kept_weight = 0.0;
-    Vec3 from, wi;
-    double pdf = 0.0;
-};
-
-// An edge between the halves.
-struct JoiningEdge {
-    std::uint32_t walker;
-    SurfacePoint y;
-    Found found;
-};
-
 struct BidirectionalWork {
     LightWalkers light;
     std::vector<std::vector<LightVertex>> light_path;  // vertices 1 …, one path for each walker
     std::vector<CameraEdge> camera_edges;
     std::vector<double> camera_weights;  // of these
-    std::vector<CameraVertexWalker> walker;
+    std::vector<CameraWalker> walker;
     std::vector<std::uint32_t> alive;
-    std::vector<JoiningEdge> edges;
+    struct Edge {
+        std::uint32_t walker;
+        JoiningEdge edge;
+    };
+    std::vector<Edge> edges;
 };
 
 class Bidirectional {
@@ -67,7 +48,8 @@ public:
           lights_(scene.geometry, scene.emitters, settings.lights, settings.place) {}
 
     // A path for each ray, `camera` and `light` draw its halves. `found(i, Found)` is told what the i-th brings to its own pixel,
-    // `splatted(position, Found)` what its light half brings to a place on the film, times pixels. `rays`: N + 2 entries. Returns the walks that were given up.
+    // `splatted(position, Found)` what its light half brings to a place on the film, times pixels. `rays`: N + 2
+    // entries. Returns the walks that were given up.
     template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
                                     std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,
@@ -97,16 +79,14 @@ private:
                 work.light_path[i].push_back(v);
                 const CameraEdge edge = camera_edge(*scene_, i, v, samplers[i]);
                 if (is_black(edge.value)) continue;
-                const double density =
-                    std::abs(glm::dot(v.x.normal, edge.seen.w)) * edge.seen.pixels_per_area / settings_.pixels;
+                const double density = std::abs(glm::dot(v.x.normal, edge.seen.w)) * edge.seen.pixels_per_area / settings_.pixels;
                 const double others = v.weights.sum(h, density, camera_pdf(scene_->materials, v.x, edge.seen.w, v.wi));
                 work.camera_edges.push_back(edge);
                 work.camera_weights.push_back(1.0 / (1.0 + others));
             }
             counts[static_cast<std::size_t>(j)] += work.camera_edges.size();
             splat_what_is_seen(T, walkers, work.camera_edges, [&](std::size_t k, const Vec2& position, const Rgb& value) {
-                const double weight = work.camera_weights[k];
-                splatted(position, Found{j, j + 1, value * weight, weight});
+                splatted(position, Found{j, j + 1, value, work.camera_weights[k]});
             });
         };
         walk_from_lights(*scene_, T, emission_, lights_, walk, samplers, work.light, visit,
@@ -117,70 +97,11 @@ private:
     std::uint64_t trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
                                     BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts) const;
 
-    // (1, t).
-    template <class Sampler>
-    void ask_for_light(const SurfaceSide& side, std::uint32_t i, int bounce, Sampler& sampler, BidirectionalWork& work) const;
-    // (s, t), s ≥ 2.
-    void join(const SurfaceSide& side, std::uint32_t i, int s, int bounce, BidirectionalWork& work) const;
-
     const Scene* scene_;
     BidirectionalSettings settings_;
     EmissionSampler emission_;
     LightSampler lights_;
 };
-
-template <class Sampler>
-void Bidirectional::ask_for_light(const SurfaceSide& side, std::uint32_t i, int bounce, Sampler& sampler,
-                                  BidirectionalWork& work) const {
-    const Heuristic h = settings_.heuristic;
-    const CameraVertexWalker& z = work.walker[i];
-    const LightSample light = lights_.sample(z.x.position, sampler.next2());
-    if (!(light.pdf > 0.0) || is_black(light.weight)) return;
-    const ShadingPoint& p = side.p;
-    const Vec3 wo = p.frame.to_local(z.wo), wi = p.frame.to_local(light.w);
-    const Rgb value = z.beta * eval(*side.bsdf, p, wo, wi) * light.weight * std::abs(wi.z);
-    if (is_black(value)) return;
-    const bool delta = light.pdf == delta_pdf;
-    const double asked = delta ? light.probability : light.pdf;
-    double others = 0.0;
-    if (!delta) others += counted(h, neumann::pdf(*side.bsdf, p, wo, wi) / asked);
-    if (bounce <= settings_.bounces) {
-        const double density = delta ? emission_.density_of_delta(light.distant, z.x.position, light.w)
-                                     : emission_.density(light.point, light.w);
-        const SurfaceSide lit = scene_->materials.side(z.x, light.w);
-        const double reverse = lit.bsdf ? AdjointReflection::pdf(lit, light.w, z.wo) : 0.0;
-        others += z.weights.sum(h, density * std::abs(glm::dot(z.x.normal, light.w)) / asked, reverse);
-    }
-    const double weight = 1.0 / (1.0 + others);
-    work.edges.push_back({i, light.point, {bounce, 1, value * weight, weight}});
-}
-
-inline void Bidirectional::join(const SurfaceSide& side, std::uint32_t i, int s, int bounce, BidirectionalWork& work) const {
-    const Heuristic h = settings_.heuristic;
-    const CameraVertexWalker& z = work.walker[i];
-    const LightVertex& y = work.light_path[i][static_cast<std::size_t>(s - 2)];
-    const Vec3 d = y.x.position - z.x.position;
-    const double distance2 = glm::dot(d, d);
-    if (!(distance2 > 0.0)) return;
-    const Vec3 w = d / std::sqrt(distance2);
-    const Vec3 wo = side.p.frame.to_local(z.wo), wi = side.p.frame.to_local(w);
-    const Rgb f = eval(*side.bsdf, side.p, wo, wi);
-    if (is_black(f)) return;
-    const SurfaceSide at_y = scene_->materials.side(y.x, -w);
-    if (!at_y.bsdf) return;
-    const Rgb g = geometric_bsdf(at_y, -w, y.wi);
-    if (is_black(g)) return;
-    const double cosine_y = std::abs(glm::dot(y.x.normal, w)), cosine_z = std::abs(glm::dot(z.x.normal, w));
-    const Rgb value = z.beta * f * g * y.beta * (std::abs(wi.z) * cosine_y / distance2);
-    // From the camera to y, and from the light to z, each with the way back beyond.
-    const double to_y = neumann::pdf(*side.bsdf, side.p, wo, wi) * cosine_y / distance2;
-    const double back_y = neumann::pdf(*at_y.bsdf, at_y.p, at_y.p.frame.to_local(-w), at_y.p.frame.to_local(y.wi));
-    const SurfaceSide lit_y = scene_->materials.side(y.x, y.wi), lit_z = scene_->materials.side(z.x, w);
-    const double to_z = lit_y.bsdf ? AdjointReflection::pdf(lit_y, y.wi, -w) * cosine_z / distance2 : 0.0;
-    const double back_z = lit_z.bsdf ? AdjointReflection::pdf(lit_z, w, z.wo) : 0.0;
-    const double weight = 1.0 / (1.0 + y.weights.sum(h, to_y, back_y) + z.weights.sum(h, to_z, back_z));
-    work.edges.push_back({i, y.x, {bounce, s, value * weight, weight}});
-}
 
 template <class Transport, class Sampler, class OnFound>
 std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
@@ -219,7 +140,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
     // T: the first vertices, and (0, 2).
     counts[0] += rays.size();
     advance([&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); },
-            [&](CameraVertexWalker& z, std::uint32_t i) {
+            [&](CameraWalker& z, std::uint32_t i) {
                 z.wo = -rays[i].direction;
                 found(i, Found{0, 0, emitters.emitted(z.x, z.wo), 1.0});
                 if (z.x.is_infinite()) return false;
@@ -234,7 +155,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             if (settings_.rest_probability == 0.0) return 0;
             if (bounce - N > settings_.give_up) return alive.size();
             if (bounce == N + 1)
-                filter([&](CameraVertexWalker& z, std::uint32_t i) {
+                filter([&](CameraWalker& z, std::uint32_t i) {
                     if (settings_.rest_probability < 1.0 && samplers[i].next() >= settings_.rest_probability) return false;
                     z.beta /= settings_.rest_probability;
                     z.kept_weight = max_component(z.beta);
@@ -244,12 +165,16 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
 
         // R: the edges to the light's half, and a direction for the next vertex.
         work.edges.clear();
-        filter([&](CameraVertexWalker& z, std::uint32_t i) {
+        filter([&](CameraWalker& z, std::uint32_t i) {
             const SurfaceSide side = scene_->materials.side(z.x, z.wo);
             if (!side.bsdf) return false;
-            if (!lights_.empty()) ask_for_light(side, i, bounce, samplers[i], work);
-            for (int s = 2; s <= N - bounce + 1 && s - 2 < static_cast<int>(work.light_path[i].size()); ++s)
-                join(side, i, s, bounce + s - 1, work);
+            const auto take = [&](const JoiningEdge& edge) {
+                if (!is_black(edge.found.value)) work.edges.push_back({i, edge});
+            };
+            if (!lights_.empty()) take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, samplers[i].next2()));
+            const std::vector<LightVertex>& light_path = work.light_path[i];
+            for (int s = 2; s <= N - bounce + 1 && s - 2 < static_cast<int>(light_path.size()); ++s)
+                take(edge_to_vertex(*scene_, h, z, side, light_path[static_cast<std::size_t>(s - 2)], bounce, s));
             return true;
         });
         for (std::size_t k = 0; k < work.edges.size(); k += packet) {
@@ -257,17 +182,17 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             const std::uint32_t visible = T.visible(
                 n,
                 [&](std::size_t j) {
-                    const JoiningEdge& e = work.edges[k + j];
-                    return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[e.walker].x, e.y);
+                    const auto& [i, edge] = work.edges[k + j];
+                    return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[i].x, edge.y);
                 },
                 RayCaster::Rays::any);
             for (std::size_t j = 0; j < n; ++j) {
-                const JoiningEdge& e = work.edges[k + j];
-                ++count(e.found.bounce);
-                if (visible >> j & 1u) found(e.walker, e.found);
+                const auto& [i, edge] = work.edges[k + j];
+                ++count(edge.found.bounce);
+                if (visible >> j & 1u) found(i, edge.found);
             }
         }
-        filter([&](CameraVertexWalker& z, std::uint32_t i) {
+        filter([&](CameraWalker& z, std::uint32_t i) {
             const SurfaceSide side = scene_->materials.side(z.x, z.wo);
             const Frame& frame = side.p.frame;
             const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(z.wo), samplers[i].next2());
@@ -287,8 +212,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             if (sampled.pdf == delta_pdf) {
                 z.weights.leave_by_the_only_direction(h, cosine);
             } else {
-                const SurfaceSide lit = scene_->materials.side(z.x, z.wi);
-                z.weights.leave(h, cosine, sampled.pdf, lit.bsdf ? AdjointReflection::pdf(lit, z.wi, z.wo) : 0.0);
+                z.weights.leave(h, cosine, sampled.pdf, light_pdf(scene_->materials, z.x, z.wi, z.wo));
             }
             return true;
         });
@@ -299,20 +223,19 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             return T.first_hits(
                 n,
                 [&](std::size_t j) {
-                    const CameraVertexWalker& z = walker[alive[k + j]];
+                    const CameraWalker& z = walker[alive[k + j]];
                     return std::pair<const SurfacePoint&, const Vec3&>(z.x, z.wi);
                 },
                 hit);
         };
-        advance(next_points, [&](CameraVertexWalker& z, std::uint32_t i) {
+        advance(next_points, [&](CameraWalker& z, std::uint32_t i) {
             z.wo = -z.wi;
             if (emitters.is_emitter(z.x.shape)) {
                 const Rgb emitted = emitters.emitted(z.x, z.wo);
                 if (!is_black(emitted)) {
                     double others = counted(h, lights_.pdf(z.from, z.wi, z.x)) * z.weights.last;
                     if (!rest) others += counted(h, emission_.density(z.x, z.wi)) * z.weights.before;
-                    const double weight = 1.0 / (1.0 + others);
-                    found(i, Found{bounce, 0, z.beta * emitted * weight, weight});
+                    found(i, Found{bounce, 0, z.beta * emitted, 1.0 / (1.0 + others)});
                 }
             }
             if (z.x.is_infinite()) return false;

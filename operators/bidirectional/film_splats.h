@@ -42,7 +42,8 @@ CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emissio
 
 // T: which of them the camera sees; `splatted(k, position, value)`, radiance times pixels, of the k-th edge.
 template <class Transport, class OnSplat>
-void splat_what_is_seen(const Transport& T, const LightWalkers& walkers, std::span<const CameraEdge> edges, const OnSplat& splatted) {
+void splat_what_is_seen(const Transport& T, const LightWalkers& walkers, std::span<const CameraEdge> edges,
+                        const OnSplat& splatted) {
     SurfacePoint start[RayCaster::packet_size];
     for (std::size_t k = 0; k < edges.size(); k += RayCaster::packet_size) {
         const std::size_t n = std::min(RayCaster::packet_size, edges.size() - k);

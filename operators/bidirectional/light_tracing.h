@@ -11,12 +11,12 @@ struct LightTracingWork {
     std::vector<CameraEdge> edges;
 };
 
-// A path for each sampler. `splatted(position, quantity, value)`: radiance times pixels at a place on the film, of bounces 0 … N and
-// the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
+// A path for each sampler. `splatted(position, quantity, value)`: radiance times pixels at a place on the film, of bounces 0 … N
+// and the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
 template <class Transport, class Sampler, class OnSplat>
-NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
-                          const LightWalkSettings& settings, std::span<Sampler> samplers, LightTracingWork& work,
-                          const OnSplat& splatted, std::span<std::uint64_t> rays) {
+NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
+                                      const LightSampler& lights, const LightWalkSettings& settings, std::span<Sampler> samplers,
+                                      LightTracingWork& work, const OnSplat& splatted, std::span<std::uint64_t> rays) {
     const auto quantity = [&](int bounce) { return static_cast<std::size_t>(std::min(bounce, settings.vertices + 1)); };
     return walk_from_lights(
         scene, T, emission, lights, settings, samplers, work.walkers,

@@ -142,8 +142,8 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
             v.beta *= s.weight;
             if (s.pdf == 0.0 || is_black(v.beta)) return false;
             if (rest || settings.roulette.kind != Roulette::Kind::none) {
-                const double survival = settings.roulette.probability(rest, max_component(s.weight), max_component(v.beta) / w.first_weight,
-                                                                      w.kept_weight / w.first_weight);
+                const double survival = settings.roulette.probability(
+                    rest, max_component(s.weight), max_component(v.beta) / w.first_weight, w.kept_weight / w.first_weight);
                 if (survival < 1.0 && sampler.next() >= survival) return false;
                 v.beta /= survival;
                 w.kept_weight = max_component(v.beta);

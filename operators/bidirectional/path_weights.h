@@ -5,8 +5,8 @@
 //
 // The sum is split at the edge that joins the two halves, and each half is carried along its walk (van Antwerpen, Improving SIMD
 // Efficiency for Parallel Monte Carlo Light Transport on the GPU, 2011; Georgiev et al., Light Transport Simulation with Vertex
-// Connection and Merging, 2012). Where the joining edge ends in the last vertex, that vertex may have been made from the other side,
-// and so may the ones before it:
+// Connection and Merging, 2012). Where the joining edge ends in the last vertex, that vertex may have been made from the other
+// side, and so may the ones before it:
 //
 //     Σ_{k<s} h(p_k / p_s) = h(p of the last vertex, from the other side) · (last + h(p of the one before, from the last) · before)
 #pragma once

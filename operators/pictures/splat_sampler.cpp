@@ -134,7 +134,8 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
     work.weights.resize(samples);
     for (std::uint32_t i = 0; i < samples; ++i) {
         const std::uint32_t pixel = (first + i) / size;
-        const int x = film.crop_x + static_cast<int>(pixel) % film.crop_width, y = film.crop_y + static_cast<int>(pixel) / film.crop_width;
+        const int x = film.crop_x + static_cast<int>(pixel) % film.crop_width,
+                  y = film.crop_y + static_cast<int>(pixel) / film.crop_width;
         camera.push_back((first + i) % size == 0 ? sampler_of(camera_points_, pixel) : camera.back());
         camera.back().start(replicate * size + (first + i) % size);
         const FilmSample place = film.sample(camera[i].next2(), x, y);
@@ -146,15 +147,17 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
     // To which quantities something found belongs: its bounce, or its way.
     const auto sort = [&](const Found& f, const auto& add) {
         if (!settings_.ways_of_last_bounce) {
-            add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value);
+            add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value * f.weight);
         } else if (f.bounce == N) {
-            add(static_cast<std::size_t>(f.s), f.value);
-            add(static_cast<std::size_t>(N + 2 + f.s), f.value / f.weight);
+            add(static_cast<std::size_t>(f.s), f.value * f.weight);
+            add(static_cast<std::size_t>(N + 2 + f.s), f.value);
         }
     };
     work.tally.given_up += bidirectional_.trace(
         scene_->geometry, std::span<const CameraRay>(work.rays), std::span(camera), std::span(light), work.bidirectional,
-        [&](std::uint32_t i, const Found& f) { sort(f, [&](std::size_t q, const Rgb& value) { work.samples[i * Q + q] += value; }); },
+        [&](std::uint32_t i, const Found& f) {
+            sort(f, [&](std::size_t q, const Rgb& value) { work.samples[i * Q + q] += value; });
+        },
         [&](const Vec2& position, const Found& f) {
             sort(f, [&](std::size_t q, const Rgb& value) { spread(position, q, value, replicate * size + first, chunk, work); });
         },
@@ -195,13 +198,13 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
             if (settings_.sampler == SamplerKind::sobol)
                 sample_group<SobolSampler>(
                     replicate, first, n,
-                    [&](const SobolPoints& points, std::uint32_t pixel) { return SobolSampler(points, settings_.seed, pixel); }, chunk,
-                    picture, work);
+                    [&](const SobolPoints& points, std::uint32_t pixel) { return SobolSampler(points, settings_.seed, pixel); },
+                    chunk, picture, work);
             else
                 sample_group<IndependentSampler>(
                     replicate, first, n,
-                    [&](const SobolPoints&, std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, chunk, picture,
-                    work);
+                    [&](const SobolPoints&, std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, chunk,
+                    picture, work);
         }
     };
     // Pieces are worked on in any order and added up in one: the same bits on any number of threads.
@@ -227,11 +230,10 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                                                                     run_chunk(*chunk);
                                                                     return chunk;
                                                                 }) &
-                       oneapi::tbb::make_filter<Chunk*, void>(
-                           oneapi::tbb::filter_mode::serial_in_order, [&](const Chunk* chunk) {
-                               for (const Chunk::Share& s : chunk->shares) splatted[s.pixel * Q + s.quantity] += s.value;
-                               if (part_done(static_cast<double>(chunk->end) / samples)) dropped = true;
-                           }));
+                       oneapi::tbb::make_filter<Chunk*, void>(oneapi::tbb::filter_mode::serial_in_order, [&](const Chunk* chunk) {
+                           for (const Chunk::Share& s : chunk->shares) splatted[s.pixel * Q + s.quantity] += s.value;
+                           if (part_done(static_cast<double>(chunk->end) / samples)) dropped = true;
+                       }));
     if (dropped) return false;
     for (const Workspace& work : workspaces) tally.merge(work.tally);
     for (LargestSamples& largest : tally.largest) largest.add_count(samples);
@@ -268,9 +270,8 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
         if (!sample_picture(first + r, picture, new_tally, part_done)) return std::nullopt;
         carry.resize((pixels_ + 1) * stride);
         const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
-        for_each_pixel([&](std::size_t pixel) {
-            PixelMoments::set(of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * Q, Q));
-        });
+        for_each_pixel(
+            [&](std::size_t pixel) { PixelMoments::set(of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * Q, Q)); });
         // Nodes of equal size are joined as digits carry in adding 1 to a binary number.
         std::size_t level = 0;
         for (; r >> level & 1; ++level) {

@@ -25,11 +25,12 @@ private:
     struct Workspace;
     struct Chunk;
     // A replicate's picture, all quantities of each pixel, and then their means. False where the work was dropped.
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally, const std::function<bool(double)>& part_done) const;
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally,
+                        const std::function<bool(double)>& part_done) const;
     // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate.
     template <class Sampler, class SamplerOf>
-    void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SamplerOf& sampler_of, Chunk& chunk,
-                      std::span<Rgb> own, Workspace& work) const;
+    void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SamplerOf& sampler_of,
+                      Chunk& chunk, std::span<Rgb> own, Workspace& work) const;
     void spread(const Vec2& position, std::size_t quantity, const Rgb& value, std::uint64_t sample, Chunk& chunk,
                 Workspace& work) const;
 

@@ -82,9 +82,7 @@ private:
     // At one pixel: its mean and standard error.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
     std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
-    bool pixels_are_independent() const {
-        return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity;
-    }
+    bool pixels_are_independent() const { return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }
 
     int width_ = 0, height_ = 0;
     std::size_t quantities_ = 0;

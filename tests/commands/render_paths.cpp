@@ -8,16 +8,18 @@ class RenderPaths : public RenderTest {
 protected:
     // A glass ball above a floor, lit by a lamp.
     void write_glass(const std::string& integrator = "") const {
-        write("glass.xml",
-              "<scene version='3.0.0'>" + integrator +
-                  "<sensor type='perspective'><float name='fov' value='40'/><transform name='to_world'>"
-                  "<lookat origin='0 -4 2' target='0 0 0.4' up='0 0 1'/></transform><film type='hdrfilm'><integer name='width' value='16'/>"
-                  "<integer name='height' value='12'/></film></sensor>"
-                  "<shape type='rectangle'><transform name='to_world'><scale value='3'/></transform><bsdf type='diffuse'/></shape>"
-                  "<shape type='sphere'><point name='center' x='0' y='0' z='0.7'/><float name='radius' value='0.5'/>"
-                  "<bsdf type='dielectric'/></shape>"
-                  "<shape type='rectangle'><transform name='to_world'><scale value='0.4'/><rotate x='1' angle='180'/>"
-                  "<translate z='3'/></transform><emitter type='area'><float name='radiance' value='5'/></emitter></shape></scene>");
+        write(
+            "glass.xml",
+            "<scene version='3.0.0'>" + integrator +
+                "<sensor type='perspective'><float name='fov' value='40'/><transform name='to_world'>"
+                "<lookat origin='0 -4 2' target='0 0 0.4' up='0 0 1'/></transform><film type='hdrfilm'><integer name='width' "
+                "value='16'/>"
+                "<integer name='height' value='12'/></film></sensor>"
+                "<shape type='rectangle'><transform name='to_world'><scale value='3'/></transform><bsdf type='diffuse'/></shape>"
+                "<shape type='sphere'><point name='center' x='0' y='0' z='0.7'/><float name='radius' value='0.5'/>"
+                "<bsdf type='dielectric'/></shape>"
+                "<shape type='rectangle'><transform name='to_world'><scale value='0.4'/><rotate x='1' angle='180'/>"
+                "<translate z='3'/></transform><emitter type='area'><float name='radiance' value='5'/></emitter></shape></scene>");
     }
 };
 
@@ -58,8 +60,9 @@ TEST_F(RenderPaths, LightTellsWhatItCannotMake) {
 
 TEST_F(RenderPaths, Refusals) {
     expect_refused({"--ways", "2"}, "--ways belongs to --method bidirectional, not to walk");
-    expect_refused({"--method", "bidirectional", "--direct", "light"},
-                   "--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or mis-solid-angle, not light");
+    expect_refused(
+        {"--method", "bidirectional", "--direct", "light"},
+        "--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or mis-solid-angle, not light");
     expect_refused({"--method", "bidirectional", "--lights", "all"},
                    "--method bidirectional asks one light at a time; --lights all belongs to --method walk");
     expect_refused({"--method", "bidirectional", "--split", "2,2"}, "--split belongs to --method walk, not to bidirectional");

@@ -13,8 +13,9 @@ namespace neumann::physics {
 namespace {
 
 Scene scene_with(const char* light, const char* camera, const char* things) {
-    return read_scene(TEST_DATA "/generators/room.xml",
-                      {{"light", std::string(light) + ".xml"}, {"camera", std::string(camera) + ".xml"}, {"things", std::string(things) + ".xml"}});
+    return read_scene(TEST_DATA "/generators/room.xml", {{"light", std::string(light) + ".xml"},
+                                                         {"camera", std::string(camera) + ".xml"},
+                                                         {"things", std::string(things) + ".xml"}});
 }
 
 // see() undoes ray(), and counts pixels as the rays of neighbouring places tell.
@@ -52,15 +53,18 @@ TEST(Cameras, SeePointsWhereTheirRaysPass) {
 
 // ∫ weight dx = 1 over the film, at its edge too; Simpson's rule, which the edges of a filter cost some digits.
 TEST(Filters, WeightPlacesOnTheFilmAsTheyDrawThem) {
-    const PixelFilter filters[] = {BoxFilter(), TentFilter(1.5), GaussianFilter(), SignedFilter::mitchell(), SignedFilter::lanczos()};
+    const PixelFilter filters[] = {BoxFilter(), TentFilter(1.5), GaussianFilter(), SignedFilter::mitchell(),
+                                   SignedFilter::lanczos()};
     for (const PixelFilter& filter : filters)
         for (const int pixel : {0, 1, 5})
             for (const FilmExtent& film : {FilmExtent{0.0, 6.0}, FilmExtent{-INFINITY, INFINITY}}) {
-                const double low = std::max(pixel + 0.5 - radius(filter), film.from), high = std::min(pixel + 0.5 + radius(filter), film.to);
+                const double low = std::max(pixel + 0.5 - radius(filter), film.from),
+                             high = std::min(pixel + 0.5 + radius(filter), film.to);
                 constexpr int n = 20000;
                 double all = 0.0, first = 0.0, drawn = 0.0;
                 for (int i = 0; i < n; ++i) {
-                    const double u = (i + 0.5) / n, x = low + u * (high - low), w = weight(filter, x, pixel, film) * (high - low) / n;
+                    const double u = (i + 0.5) / n, x = low + u * (high - low),
+                                 w = weight(filter, x, pixel, film) * (high - low) / n;
                     all += w;
                     first += w * x;
                     const FilterSample s = std::visit([&](const auto& f) { return f.sample(u, pixel, film); }, filter);
@@ -101,8 +105,8 @@ TEST(EmissionSlow, CarriesThePowerOfTheLights) {
 }
 
 // R* draws with the density it tells, and its weights are those of R: E[w g(ωo)] = ∫ fs(ωi → ωo) |ωi·ns/ωi·ng| |ωo·ng| g dωo with
-// g = (1 + ωo.x + 2 ωo.z²)/4, by uniform directions. All things of two scenes, from both sides; |z| ≤ 4.5, about 90 comparisons. Where only few directions
-// are counted, Poisson's law lets them be 5 more or less.
+// g = (1 + ωo.x + 2 ωo.z²)/4, by uniform directions. All things of two scenes, from both sides; |z| ≤ 4.5, about 90 comparisons.
+// Where only few directions are counted, Poisson's law lets them be 5 more or less.
 TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
     for (const char* things : {"rough", "shaded"}) {
         const Scene scene = scene_with("area", "pinhole", things);

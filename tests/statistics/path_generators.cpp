@@ -27,7 +27,8 @@ constexpr Case cases[] = {{"area", "pinhole", "rough", true},
 
 Scene scene_of(const Case& c) {
     const auto file = [](const char* name) { return fmt::format("{}.xml", name); };
-    return read_scene(TEST_DATA "/generators/room.xml", {{"light", file(c.light)}, {"camera", file(c.camera)}, {"things", file(c.things)}});
+    return read_scene(TEST_DATA "/generators/room.xml",
+                      {{"light", file(c.light)}, {"camera", file(c.camera)}, {"things", file(c.things)}});
 }
 
 struct Result {
@@ -82,7 +83,8 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
                 if (misses || walk.infinite(i) || other.infinite(i)) continue;
                 ++compared;
                 EXPECT_LE(std::abs(z(other.moments.mean_of_term(i), walk.moments.mean_of_term(i))), limit)
-                    << c.light << ", " << c.camera << ", " << c.things << ", method " << static_cast<int>(method) << ", bounce " << i;
+                    << c.light << ", " << c.camera << ", " << c.things << ", method " << static_cast<int>(method) << ", bounce "
+                    << i;
             }
         }
     }

@@ -1,0 +1,78 @@
+// The edges that join a vertex of the camera's half to the light's: what they bring unless something stands in between, and the
+// weight of their way.
+#pragma once
+
+#include "operators/bidirectional/light_walk.h"
+
+namespace neumann {
+
+// What a way (s, t) has found; t = bounce + 2 − s.
+struct Found {
+    int bounce = 0, s = 0;
+    Rgb value{0.0};  // by itself
+    double weight = 0.0;
+};
+
+// A path from the camera on its way.
+struct CameraWalker {
+    SurfacePoint x;
+    Vec3 wo;
+    Rgb beta{1.0};
+    PathWeights weights;
+    double kept_weight = 0.0;
+    Vec3 from, wi;  // the edge before, and the one that goes on
+    double pdf = 0.0;
+};
+
+struct JoiningEdge {
+    SurfacePoint y;
+    Found found;
+};
+
+// (1, t): z asks for light. `rest`: the ways with more vertices from the light are not made.
+inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emission, const LightSampler& lights, Heuristic h,
+                                 const CameraWalker& z, const SurfaceSide& side, int bounce, bool rest, const Vec2& u) {
+    const LightSample light = lights.sample(z.x.position, u);
+    if (!(light.pdf > 0.0) || is_black(light.weight)) return {};
+    const Vec3 wo = side.p.frame.to_local(z.wo), wi = side.p.frame.to_local(light.w);
+    const Rgb value = z.beta * eval(*side.bsdf, side.p, wo, wi) * light.weight * std::abs(wi.z);
+    if (is_black(value)) return {};
+    const bool delta = light.pdf == delta_pdf;
+    const double asked = delta ? light.probability : light.pdf;
+    double others = delta ? 0.0 : counted(h, pdf(*side.bsdf, side.p, wo, wi) / asked);
+    if (!rest) {
+        const double density = delta ? emission.density_of_delta(light.distant, z.x.position, light.w)
+                                     : emission.density(light.point, light.w);
+        others += z.weights.sum(h, density * std::abs(glm::dot(z.x.normal, light.w)) / asked,
+                                light_pdf(scene.materials, z.x, light.w, z.wo));
+    }
+    const double weight = 1.0 / (1.0 + others);
+    return {light.point, {bounce, 1, value, weight}};
+}
+
+// (s, t), s ≥ 2: z, which has reflected `bounce` times with this edge, is joined to the light's vertex y.
+inline JoiningEdge edge_to_vertex(const Scene& scene, Heuristic h, const CameraWalker& z, const SurfaceSide& side,
+                                  const LightVertex& y, int bounce, int s) {
+    const Vec3 d = y.x.position - z.x.position;
+    const double distance2 = glm::dot(d, d);
+    if (!(distance2 > 0.0)) return {};
+    const Vec3 w = d / std::sqrt(distance2);
+    const Vec3 wo = side.p.frame.to_local(z.wo), wi = side.p.frame.to_local(w);
+    const Rgb f = eval(*side.bsdf, side.p, wo, wi);
+    if (is_black(f)) return {};
+    const SurfaceSide at_y = scene.materials.side(y.x, -w);
+    if (!at_y.bsdf) return {};
+    const Rgb g = geometric_bsdf(at_y, -w, y.wi);
+    if (is_black(g)) return {};
+    const double cosine_y = std::abs(glm::dot(y.x.normal, w)), cosine_z = std::abs(glm::dot(z.x.normal, w));
+    const Rgb value = z.beta * f * g * y.beta * (std::abs(wi.z) * cosine_y / distance2);
+    // From the camera to y, and from the light to z, each with the way back beyond.
+    const double to_y = pdf(*side.bsdf, side.p, wo, wi) * cosine_y / distance2;
+    const double to_z = light_pdf(scene.materials, y.x, y.wi, -w) * cosine_z / distance2;
+    const double back_y = pdf(*at_y.bsdf, at_y.p, at_y.p.frame.to_local(-w), at_y.p.frame.to_local(y.wi));
+    const double back_z = light_pdf(scene.materials, z.x, w, z.wo);
+    const double weight = 1.0 / (1.0 + y.weights.sum(h, to_y, back_y) + z.weights.sum(h, to_z, back_z));
+    return {y.x, {bounce + s - 1, s, value, weight}};
+}
+
+}  // namespace neumann
