@@ -53,7 +53,8 @@ RenderedPicture read_reference(const std::string& folder, const std::string& fil
 Reference::Reference(const std::string& folder, int bounces, const Film& film) {
     if (!std::filesystem::is_directory(folder))
         throw InputError(folder + ": is not a folder; --reference takes the folder of an earlier render");
-    for (int i = 0; i <= bounces; ++i) terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film).picture.mean);
+    for (int i = 0; i <= bounces; ++i)
+        terms_.push_back(read_reference(folder, bounce_file(static_cast<std::size_t>(i)), film).picture.mean);
     sum_ = read_reference(folder, sum_file(static_cast<std::size_t>(bounces)), film).picture.mean;
 }
 

@@ -137,7 +137,8 @@ RenderResult render_by_walk(const RenderJob& job) {
             fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
                         "largest here is {:.3g}",
                         request.light.roulette, std::sqrt(settings.walk.roulette.survival), albedo));
-    if (series.moments.replicates() < 2 && !request.only_pictures) warnings.add("a single replicate was sampled: the standard errors are unknown");
+    if (series.moments.replicates() < 2 && !request.only_pictures)
+        warnings.add("a single replicate was sampled: the standard errors are unknown");
     warnings.add("sample was not a finite number and was left out", series.tally.non_finite_count);
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())

@@ -45,7 +45,12 @@ std::vector<std::string> StudyData::warnings() const {
     std::vector<std::string> all;
     for (const auto& [text, count] : scene.warnings.counts()) all.push_back(text);
     all.insert(all.end(), reference.warnings.begin(), reference.warnings.end());
-    all.insert(all.end(), found_warnings.begin(), found_warnings.end());
+    for (const StudyPoint& point : points)
+        for (const StudyRun& run : point.runs)
+            for (const std::string& text : run.warnings) {
+                const std::string warning = fmt::format("{}: {}", methods[run.method].name, text);
+                if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+            }
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::string bounces;
         for (std::size_t i = 0; i + 1 < pictures(); ++i) {
@@ -54,8 +59,9 @@ std::vector<std::string> StudyData::warnings() const {
                 bounces += (bounces.empty() ? "" : ", ") + picture_name(i);
         }
         if (!bounces.empty())
-            all.push_back(fmt::format("{}: the variance of bounces {} is infinite: intervals and slopes do not hold there, nor for the sum",
-                                      methods[m].name, bounces));
+            all.push_back(
+                fmt::format("{}: the variance of bounces {} is infinite: intervals and slopes do not hold there, nor for the sum",
+                            methods[m].name, bounces));
     }
     return all;
 }
@@ -119,8 +125,8 @@ std::string study_csv(const StudyData& data) {
                                    run.samples, number(run.patches), number(run.directions), run.seed, run.setup_seconds,
                                    run.seconds - run.setup_seconds, is_sum ? all_rays : run.rays[q], run.peak_memory, errors.mse[j],
                                    errors.mse[j] >= 0.0 ? fmt::format("{:.6g}", std::sqrt(errors.mse[j])) : "", errors.rel_mse[j],
-                                   run.mean[q],
-                                   run.discretisation.empty() ? "" : fmt::format("{:.6g}", run.discretisation[q]), variance);
+                                   run.mean[q], run.discretisation.empty() ? "" : fmt::format("{:.6g}", run.discretisation[q]),
+                                   variance);
             }
         }
     return csv;

@@ -11,12 +11,14 @@ namespace neumann {
 // A render: one method, one budget, one repeat. `method` and `budget` are numbers in the plan.
 struct StudyRun {
     std::size_t method = 0, budget = 0, repeat = 0;
-    std::uint64_t seed = 0, samples = 0, patches = 0, directions = 0;  // patches and directions as asked for; 0 where there are none
+    std::uint64_t seed = 0, samples = 0, patches = 0,
+                  directions = 0;  // patches and directions as asked for; 0 where there are none
     double setup_seconds = 0.0, seconds = 0.0, peak_memory = 0.0;
     std::vector<std::uint64_t> rays;     // of each bounce 0 … N
     std::vector<double> mean;            // of each bounce, and of their sum
     std::vector<double> discretisation;  // as the method estimates it: relative, likewise; empty where there is none
     std::string variance;                // of each bounce: f finite, i infinite, ? not known
+    std::vector<std::string> warnings;
 };
 
 // All repeats of one method at one budget.
@@ -40,12 +42,12 @@ struct StudyData {
     StudyPlan plan;
     StudyReference reference;
     double scene_seconds = 0.0, pilot_seconds = 0.0;
-    bool peak_is_of_run = true;  // and not of all runs so far
-    std::vector<StudyPoint> points;
-    std::vector<std::string> found_warnings;  // in single runs
+    bool peak_is_of_run = true;      // and not of all runs so far
+    std::vector<StudyPoint> points;  // of at least two repeats
+    bool complete = false;
 
-    std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }  // the last is the sum
-    bool complete() const { return points.size() == methods.size() * plan.budgets.size(); }
+    std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }               // the last is the sum
+    std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
     std::vector<const StudyPoint*> points_of(std::size_t method) const;
     std::string picture_name(std::size_t picture) const;
     std::vector<std::string> warnings() const;
@@ -57,9 +59,9 @@ struct StudiedMethod {
     PictureSummary summary;
 };
 struct StudiedPicture {
-    double reference_size = 0.0;   // √⟨r̂²⟩
-    double reference_noise = 0.0;  // √⟨v⟩, which is subtracted
-    double error = 0.0;            // RMSE, of the seconds to a given error
+    double reference_size = 0.0;         // √⟨r̂²⟩
+    double reference_noise = 0.0;        // √⟨v⟩, which is subtracted
+    double error = 0.0;                  // RMSE, of the seconds to a given error
     std::vector<StudiedMethod> methods;  // best first
 };
 std::vector<StudiedPicture> summarise(const StudyData& data);

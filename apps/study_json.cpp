@@ -47,7 +47,9 @@ Json as_json(const StudyPoint& point, std::size_t q, const PointSummary& summary
     json["resolved"] = summary.resolved;
     json["rel_mse"] = as_json(summary.rel_mse);
     json["variance"] = as_json(summary.variance);
-    json["bias_squared"] = {{"value", number(summary.bias_squared.value)}, {"interval95", number(summary.bias_half_width)}, {"significant", summary.biased}};
+    json["bias_squared"] = {{"value", number(summary.bias_squared.value)},
+                            {"interval95", number(summary.bias_half_width)},
+                            {"significant", summary.biased}};
     if (!run.discretisation.empty()) json["discretisation_as_estimated_by_the_method"] = discretisation / repeats;
     json["efficiency"] = number(summary.efficiency);
     json["efficiency_with_bias"] = number(summary.merit);
@@ -61,7 +63,8 @@ Json as_json(const StudyData& data, std::size_t q, const StudiedMethod& method) 
     json["slope"] = as_json(s.slope);
     json["slope_by_samples"] = as_json(s.slope_by_samples);
     json["seconds_to_error"] = nullptr;
-    if (s.seconds_to_error) json["seconds_to_error"] = {{"seconds", s.seconds_to_error->work}, {"or_less", s.seconds_to_error->below}};
+    if (s.seconds_to_error)
+        json["seconds_to_error"] = {{"seconds", s.seconds_to_error->work}, {"or_less", s.seconds_to_error->below}};
     json["points"] = Json::array();
     const auto points = data.points_of(method.method);
     for (std::size_t b = 0; b < points.size(); ++b) json["points"].push_back(as_json(*points[b], q, s.points[b]));
@@ -78,7 +81,9 @@ Json truncation(const StudyData& data) {
     json["rest_mean"] = rest.mean;
     json["interval95"] = number(rest.interval());
     json["fraction_of_whole"] = number(rest.mean / data.pilot.sum());
-    json["note"] = "mean of all bounces beyond the last one, by walks of their own; no error above contains it, the sum is that of the bounces that are looked at";
+    json["note"] =
+        "mean of all bounces beyond the last one, by walks of their own; no error above contains it, the sum is that of the "
+        "bounces that are looked at";
     return json;
 }
 
@@ -89,29 +94,39 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = request.command_line;
-    json["complete"] = data.complete();
+    json["complete"] = data.complete;
     json["scene"] = {{"file", request.scene}, {"hash", data.scene.hash}, {"definitions", request.definitions}};
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
     json["repeats"] = request.repeats;
     json["seed"] = request.seed;
     json["threads"] = oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
-    json["budgets"] = {{"unit", data.plan.budgets_are_samples ? "samples a pixel" : "seconds of a run"}, {"values", data.plan.budgets}};
-    json["setup"] = {{"scene_seconds", data.scene_seconds},
-                     {"pilot_seconds", data.pilot_seconds},
-                     {"note", "once for all methods: reading the scene and building its search structures; walks that choose the bounces. What a "
-                              "method prepares in each run is in its points"}};
+    json["budgets"] = {{"unit", data.plan.budgets_are_samples ? "samples a pixel" : "seconds of a run"},
+                       {"values", data.plan.budgets}};
+    json["setup"] = {
+        {"scene_seconds", data.scene_seconds},
+        {"pilot_seconds", data.pilot_seconds},
+        {"note",
+         "once for all methods: reading the scene and building its search structures; walks that choose the bounces. What a "
+         "method prepares in each run is in its points"}};
     json["peak_memory"] = data.peak_is_of_run ? "of the whole program in that run, scene and reference included"
                                               : "of the whole program up to that run: the system does not let it be measured anew";
-    json["reference"] = {{"description", data.reference.description}, {"exact", data.reference.exact}, {"from_cache", data.reference.from_cache},
-                         {"seconds", data.reference.seconds}, {"identity", data.reference.identity}};
+    json["reference"] = {{"description", data.reference.description},
+                         {"exact", data.reference.exact},
+                         {"from_cache", data.reference.from_cache},
+                         {"seconds", data.reference.seconds},
+                         {"identity", data.reference.identity}};
     json["truncation"] = truncation(data);
     json["definitions"] = {
-        {"mse", fmt::format("mean over pixels and channels of (x - r)^2, the reference's noise subtracted; relMSE over r^2 + {} mean(r)^2", metrics_epsilon)},
+        {"mse",
+         fmt::format("mean over pixels and channels of (x - r)^2, the reference's noise subtracted; relMSE over r^2 + {} mean(r)^2",
+                     metrics_epsilon)},
         {"variance", "of a picture, over the repeats"},
-        {"bias_squared", "mse - variance, signed; the interval is that of the repeats and of the reference"},
+        {"bias_squared",
+         "mse - variance, signed; the interval is that of the repeats and of the reference; significant: above 0 at 99.9%"},
         {"seconds", "medians over the repeats, of a whole run with all its bounces; setup is what comes before the first sample"},
-        {"efficiency", "1 / (variance * seconds); with bias 1 / (mse * seconds), by which methods are ranked at their largest budget"},
+        {"efficiency",
+         "1 / (variance * seconds); with bias 1 / (mse * seconds), by which methods are ranked at their largest budget"},
         {"slope", "of log RMSE against log seconds, by weighted least squares"}};
     json["methods"] = Json::array();
     for (std::size_t m = 0; m < data.methods.size(); ++m) {

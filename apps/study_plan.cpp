@@ -99,7 +99,8 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         double least = least_default_budget;
         for (const StudyMethod& method : methods) {
             // Levels of fields do not double exactly, so that more of them are measured.
-            const double enough = is_field_method(method.request.method) ? std::max(shortest_measurement, 0.25 * largest) : shortest_measurement;
+            const double enough =
+                is_field_method(method.request.method) ? std::max(shortest_measurement, 0.25 * largest) : shortest_measurement;
             auto seconds = measure(method, enough, bounces, request.seed, scene, pilot);
             if (!seconds) return std::nullopt;
             least = std::max(least, is_field_method(method.request.method) ? seconds->front() : 4.0 * seconds->front());
@@ -117,8 +118,8 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         if (!seconds) return std::nullopt;
         most_samples = sampling_effort(choose_levels(*seconds, std::vector{plan.budgets.back()}).back()).samples;
     }
-    plan.reference_samples = request.reference_samples.value_or(
-        std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
+    plan.reference_samples =
+        request.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
     return plan;
 }
 

@@ -25,7 +25,7 @@ std::optional<RenderResult> run_method(const StudyMethod& method, const Effort& 
                                        const Scene& scene, const Pilot& pilot);
 
 struct StudyPlan {
-    std::vector<double> budgets;               // seconds of a run, or samples a pixel
+    std::vector<double> budgets;  // seconds of a run, or samples a pixel
     bool budgets_are_samples = false;
     std::vector<std::vector<Effort>> efforts;  // method by method, budget by budget
     std::uint64_t reference_samples = 0;       // of a reference that is made

@@ -47,11 +47,13 @@ StudyReference from_values(const std::string& text, const Film& film, int bounce
         at = next;
     }
     if (values.size() < static_cast<std::size_t>(bounces) + 1)
-        throw InputError(fmt::format("--reference {}: has {} values, expected {}, of bounces 0 to {}", text, values.size(), bounces + 1, bounces));
+        throw InputError(fmt::format("--reference {}: has {} values, expected {}, of bounces 0 to {}", text, values.size(),
+                                     bounces + 1, bounces));
     StudyReference result;
     Image picture(film.crop_width, film.crop_height), sum = picture;
     for (int i = 0; i <= bounces; ++i) {
-        for (std::size_t p = 0; p < picture.pixels.size(); ++p) sum.pixels[p] += picture.pixels[p] = Rgb(values[static_cast<std::size_t>(i)]);
+        for (std::size_t p = 0; p < picture.pixels.size(); ++p)
+            sum.pixels[p] += picture.pixels[p] = Rgb(values[static_cast<std::size_t>(i)]);
         result.pictures.push_back({picture, {}});
     }
     result.pictures.push_back({sum, {}});
@@ -65,7 +67,9 @@ StudyReference from_folder(const std::string& folder, const Film& film, int boun
     StudyReference result;
     const auto add = [&](const std::string& file) {
         RenderedPicture rendered = read_reference(folder, file, film);
-        if (rendered.infinite_variance) result.warnings.push_back(fmt::format("{}/{}: its variance is infinite; what its noise adds is not known", folder, file));
+        if (rendered.infinite_variance)
+            result.warnings.push_back(
+                fmt::format("{}/{}: its variance is infinite; what its noise adds is not known", folder, file));
         result.exact = (result.pictures.empty() || result.exact) && !rendered.has_error();
         result.pictures.push_back(std::move(rendered.picture));
     };
@@ -145,14 +149,16 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
                                              const Pilot& pilot, int bounces) {
     const StudyMethod method = making_method(request);
     const auto described = [&](StudyReference reference, std::uint64_t samples) {
-        reference.description = fmt::format("{} with {} samples a pixel and a seed of its own; its noise is subtracted", request.reference, samples);
+        reference.description =
+            fmt::format("{} with {} samples a pixel and a seed of its own; its noise is subtracted", request.reference, samples);
         reference.identity = made_identity(request, samples, scene, bounces);
         return reference;
     };
     const std::optional<fs::path> cache = cache_folder();
     // As speed is never measured alike, half as many samples do as well; more do anyway.
     std::vector<std::uint64_t> enough{wanted};
-    if (!request.reference_samples && !request.resume) enough = {16 * wanted, 8 * wanted, 4 * wanted, 2 * wanted, wanted, wanted / 2};
+    if (!request.reference_samples && !request.resume)
+        enough = {16 * wanted, 8 * wanted, 4 * wanted, 2 * wanted, wanted, wanted / 2};
     for (const std::uint64_t samples : enough) {
         const Json identity = made_identity(request, samples, scene, bounces);
         if (!cache || !is_cached(cache_path(*cache, identity), identity)) continue;
@@ -170,7 +176,8 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
     made.pictures.push_back(run->series.sum(static_cast<std::size_t>(bounces)));
     for (int i = 0; i <= bounces; ++i)
         if (run->series.report.bounces[static_cast<std::size_t>(i)].infinite_variance)
-            made.warnings.push_back(fmt::format("the reference has an infinite variance at bounce {}: what its noise adds is not known", i));
+            made.warnings.push_back(
+                fmt::format("the reference has an infinite variance at bounce {}: what its noise adds is not known", i));
     if (cache && made.warnings.empty()) {
         const Json identity = made_identity(request, wanted, scene, bounces);
         try {

@@ -9,9 +9,9 @@
 namespace neumann {
 
 struct StudyReference {
-    std::vector<Estimate> pictures;  // bounces 0 … N, and their sum; without standard errors where they are exact
-    std::string description;         // in words
-    nlohmann::ordered_json identity; // tells it from others, and how it is made again
+    std::vector<Estimate> pictures;   // bounces 0 … N, and their sum; without standard errors where they are exact
+    std::string description;          // in words
+    nlohmann::ordered_json identity;  // tells it from others, and how it is made again
     std::vector<std::string> warnings;
     bool exact = false, from_cache = false;
     double seconds = 0.0;  // that it took

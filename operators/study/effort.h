@@ -30,7 +30,8 @@ Effort field_effort_of_samples(std::uint64_t samples);
 // levels' times are measured, at least one; later ones are taken to double.
 std::vector<int> choose_levels(std::span<const double> measured, std::span<const double> budgets);
 
-// Another seed for each method, budget and repeat; below 2^48, so that JSON's numbers hold it. The reference's is that of no method.
+// Another seed for each method, budget and repeat; below 2^48, so that JSON's numbers hold it. The reference's is that of no
+// method.
 constexpr std::uint64_t reference_method = ~std::uint64_t{0};
 std::uint64_t study_seed(std::uint64_t seed, std::uint64_t method, std::uint64_t budget, std::uint64_t repeat);
 

@@ -57,7 +57,8 @@ std::optional<ErrorSlope> error_slope(std::span<const ErrorPoint> points, double
     std::vector<LogPoint> logs;
     for (const ErrorPoint& p : points)
         if (p.work > 0.0 && p.mse_error > 0.0 && std::isfinite(p.mse_error) && is_resolved(p, shared_error))
-            logs.push_back({std::log(p.work), 0.5 * std::log(p.mse), p.work_error / p.work, 0.5 * p.mse_error / p.mse, 0.5 / p.mse});
+            logs.push_back(
+                {std::log(p.work), 0.5 * std::log(p.mse), p.work_error / p.work, 0.5 * p.mse_error / p.mse, 0.5 / p.mse});
     const auto [least, most] =
         std::minmax_element(logs.begin(), logs.end(), [](const LogPoint& a, const LogPoint& b) { return a.x < b.x; });
     if (logs.size() < 2 || least->x == most->x) return std::nullopt;

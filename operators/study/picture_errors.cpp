@@ -80,16 +80,15 @@ void PictureErrors::add(const Image& picture) {
     std::vector<float>& errors = errors_.emplace_back();
     errors.reserve(3 * picture.pixels.size());
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            errors.push_back(static_cast<float>(picture.pixels[i][c] - reference_.mean.pixels[i][c]));
+        for (int c = 0; c < 3; ++c) errors.push_back(static_cast<float>(picture.pixels[i][c] - reference_.mean.pixels[i][c]));
 }
 
 double PictureErrors::reference_size() const {
     return compare(reference_.mean, Image(reference_.mean.width, reference_.mean.height)).rmse;
 }
 
-// The error of ⟨η²⟩ − ⟨v⟩ − 2⟨b, η⟩ with b = E x − r. For normal η, and v estimated with n degrees of freedom, a pixel's channel has
-// the variance 2v² (1 + 1/n) + 4b²v. The channels of a pixel share their samples, and so may pixels: taken as fully correlated.
+// The error of ⟨η²⟩ − ⟨v⟩ − 2⟨b, η⟩ with b = E x − r. For normal η, and v estimated with n degrees of freedom, a pixel's channel
+// has the variance 2v² (1 + 1/n) + 4b²v. The channels of a pixel share their samples, and so may pixels: taken as fully correlated.
 double PictureErrors::reference_error() const {
     const double n = reference_.degrees_of_freedom;
     const double estimated = n > 0.0 ? 2.0 * (1.0 + 1.0 / n) : 2.0;

@@ -1,7 +1,7 @@
 // The errors of one picture that is rendered again and again with other random numbers, taken apart into bias and variance.
 //
-// With x_j the picture of repeat j of R, r̂ = r + η the reference, of which only η's variance v is known, ⟨a, b⟩ the mean of a·b over
-// pixels and channels, and G_jk = ⟨x_j − r̂, x_k − r̂⟩:
+// With x_j the picture of repeat j of R, r̂ = r + η the reference, of which only η's variance v is known, ⟨a, b⟩ the mean of a·b
+// over pixels and channels, and G_jk = ⟨x_j − r̂, x_k − r̂⟩:
 //
 //     MSE    = mean_j G_jj − ⟨v⟩            E = bias² + variance
 //     bias²  = mean_{j≠k} G_jk − ⟨v⟩        E = ⟨E x − r, E x − r⟩; a U-statistic, so it may come out negative
