@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC2034,SC2154
 # What neumann needs, and the functions that install it and build. Sourced by ../run and ../test, which set $root and $build.
 #
-# One line each: Debian package | what it is | a command or headers by which it is recognised where there is no apt (any of them is enough)
+# One line each: Debian package | what it is | a command, file or headers by which it is recognised where there is no apt (any of them is enough)
 
 packages_to_run='
 g++                 | a C++20 compiler                        | c++ g++ clang++
@@ -21,6 +21,7 @@ libeigen3-dev       | Eigen 3.4 or later                      | eigen3/Eigen/src
 libspectra-dev      | Spectra                                 | Spectra/Util/Version.h
 librandom123-dev    | Random123                               | Random123/philox.h
 libxxhash-dev       | xxHash                                  | xxhash.h
+libjs-chart.js      | Chart.js 3 or 4, for plots              | /usr/share/javascript/chart.js/chart.min.js
 fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
 '
 
@@ -53,6 +54,7 @@ missing_by_name() {
         found=
         for probe in $probes; do
             case $probe in
+            /*) [[ -e $probe ]] && found=1 ;;
             *.h | *.hpp) "${CXX:-c++}" -E -x c++ -include "$probe" /dev/null >/dev/null 2>&1 && found=1 ;;
             *) command -v "$probe" >/dev/null && found=1 ;;
             esac

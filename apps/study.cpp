@@ -89,6 +89,7 @@ StudyRun make_run(const RenderResult& result, const RenderRequest& request) {
     }
     run.mean.push_back(report.sum.mean);
     if (report.sum_discretisation) run.discretisation.push_back(report.sum_discretisation->relative);
+    for (const auto& [text, count] : result.warnings.counts()) run.warnings.push_back(text);
     return run;
 }
 
@@ -107,46 +108,69 @@ private:
     bool active_;
 };
 
-// Goes on until everything is done or it is interrupted.
-void run_points(StudyData& data, StudyJournal& journal) {
+// Goes on until everything is done or it is interrupted. Repeat after repeat, so that what else the machine does meets all methods
+// and budgets alike, and so that a study that is cut off has something of everything.
+void run_all(StudyData& data, StudyJournal& journal) {
     const Status status(data.request.quiet);
-    const Film& film = data.scene.film;
-    const std::size_t N = data.pictures() - 2, methods = data.methods.size();
-    for (std::size_t at = journal.points.size(); at < methods * data.plan.budgets.size(); ++at) {
-        const std::size_t method = at % methods, budget = at / methods;
+    const std::size_t N = data.pictures() - 2, methods = data.methods.size(), budgets = data.plan.budgets.size();
+    while (journal.runs.size() < data.runs()) {
+        const std::size_t at = journal.runs.size(), method = at % methods, budget = at / methods % budgets,
+                          repeat = at / methods / budgets;
+        status.show(fmt::format("run {} of {}   repeat {}   budget {:g}   {}", at + 1, data.runs(), repeat + 1,
+                                data.plan.budgets[budget], data.methods[method].name));
         const Effort& effort = data.plan.efforts[method][budget];
-        while (journal.runs.size() < data.request.repeats) {
-            const std::size_t repeat = journal.runs.size();
-            status.show(fmt::format("budget {} of {}   {}   repeat {} of {}", budget + 1, data.plan.budgets.size(),
-                                    data.methods[method].name, repeat + 1, data.request.repeats));
-            const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
-            data.peak_is_of_run = restart_peak_memory();
-            const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot);
-            if (!result || interrupted()) return;
-            for (const auto& [text, count] : result->warnings.counts()) {
-                const std::string warning = fmt::format("{}: {}", data.methods[method].name, text);
-                auto& known = data.found_warnings;
-                if (std::find(known.begin(), known.end(), warning) == known.end()) known.push_back(warning);
-            }
-            StudyRun run = make_run(*result, run_request(data.methods[method], effort, data.bounces, seed));
-            run.peak_memory = peak_memory();
-            run.method = method;
-            run.budget = budget;
-            run.repeat = repeat;
-            std::vector<Image> pictures;
-            for (std::size_t i = 0; i <= N; ++i) pictures.push_back(result->series.term(i).mean);
-            pictures.push_back(result->series.sum(N).mean);
-            journal.add(run, pictures);
-        }
-        std::vector<ErrorStatistics> errors;
-        for (std::size_t q = 0; q < data.pictures(); ++q) {
-            PictureErrors picture(data.reference.pictures[q]);
-            for (std::size_t j = 0; j < data.request.repeats; ++j)
-                picture.add(journal.picture(j, q, film.crop_width, film.crop_height, data.pictures()));
-            errors.push_back(picture.statistics());
-        }
-        journal.finish_point(std::move(errors));
+        const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
+        data.peak_is_of_run = restart_peak_memory();
+        const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot);
+        if (!result) return;
+        StudyRun run = make_run(*result, run_request(data.methods[method], effort, data.bounces, seed));
+        run.peak_memory = peak_memory();
+        run.method = method;
+        run.budget = budget;
+        run.repeat = repeat;
+        std::vector<Image> pictures;
+        for (std::size_t i = 0; i <= N; ++i) pictures.push_back(result->series.term(i).mean);
+        pictures.push_back(result->series.sum(N).mean);
+        journal.add(run, pictures);
+        if (interrupted()) return;
     }
+    data.complete = true;
+}
+
+std::vector<StudyPoint> judge(const StudyData& data, const StudyJournal& journal) {
+    const Film& film = data.scene.film;
+    std::vector<StudyPoint> points;
+    for (std::size_t budget = 0; budget < data.plan.budgets.size(); ++budget)
+        for (std::size_t method = 0; method < data.methods.size(); ++method) {
+            StudyPoint point;
+            std::vector<std::size_t> places;
+            for (std::size_t i = 0; i < journal.runs.size(); ++i) {
+                if (journal.runs[i].method != method || journal.runs[i].budget != budget) continue;
+                point.runs.push_back(journal.runs[i]);
+                places.push_back(i);
+            }
+            if (places.size() < 2) continue;
+            for (std::size_t q = 0; q < data.pictures(); ++q) {
+                PictureErrors picture(data.reference.pictures[q]);
+                for (const std::size_t i : places)
+                    picture.add(journal.picture(i, q, film.crop_width, film.crop_height, data.pictures()));
+                point.errors.push_back(picture.statistics());
+            }
+            points.push_back(std::move(point));
+        }
+    return points;
+}
+
+// The pictures of all runs are kept until the end.
+void expect_disk_space(const StudyData& data, const std::filesystem::path& folder) {
+    const double bytes = static_cast<double>(data.runs()) * static_cast<double>(data.pictures()) * data.scene.film.crop_width *
+                         data.scene.film.crop_height * 3.0 * sizeof(float);
+    std::error_code error;
+    const auto space = std::filesystem::space(folder, error);
+    if (!error && bytes > 0.9 * static_cast<double>(space.available))
+        throw InputError(fmt::format(
+            "{}: {} runs need {:.1f} GiB there until the study ends, and {:.1f} are free; take fewer repeats or a smaller film",
+            folder.string(), data.runs(), bytes / 0x1p30, static_cast<double>(space.available) / 0x1p30));
 }
 
 void expect_sense(const StudyRequest& request) {
@@ -235,7 +259,7 @@ int study_command(const StudyRequest& given) {
 
     const Stopwatch pilot_watch;
     const Pilot pilot(scene, {}, request.seed);
-    StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, {}};
+    StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, false};
     data.pilot_seconds = pilot_watch.seconds();
     RenderRequest any;
     any.bounces = request.bounces;
@@ -261,14 +285,15 @@ int study_command(const StudyRequest& given) {
             throw InputError("--resume: the reference is another one than that of the study that was cut off");
     } else {
         data.plan.reference_samples = data.reference.identity.value("samples", data.plan.reference_samples);
+        expect_disk_space(data, folder.path());
         Json plan = as_json(data.plan, data.bounces);
         plan["reference"] = data.reference.identity;
         journal.begin(study, plan);
     }
     for (const Estimate& picture : data.reference.pictures) PictureErrors check(picture);
 
-    run_points(data, journal);
-    data.points = journal.points;
+    run_all(data, journal);
+    data.points = judge(data, journal);
     const auto pictures = summarise(data);
     if (!pictures.empty()) {
         const Json json = study_json(data, pictures);
@@ -281,11 +306,11 @@ int study_command(const StudyRequest& given) {
         else if (!request.quiet)
             print_study(data, pictures);
     }
-    if (data.complete())
+    if (data.complete)
         journal.remove();
     else if (!request.quiet)
-        fmt::print(stderr, "Interrupted: {} of {} points are finished; the same command with --resume goes on.\n",
-                   data.points.size(), methods.size() * data.plan.budgets.size());
+        fmt::print(stderr, "Interrupted: {} of {} runs are done; the same command with --resume goes on.\n", journal.runs.size(),
+                   data.runs());
     return 0;
 }
 

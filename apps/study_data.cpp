@@ -45,7 +45,12 @@ std::vector<std::string> StudyData::warnings() const {
     std::vector<std::string> all;
     for (const auto& [text, count] : scene.warnings.counts()) all.push_back(text);
     all.insert(all.end(), reference.warnings.begin(), reference.warnings.end());
-    all.insert(all.end(), found_warnings.begin(), found_warnings.end());
+    for (const StudyPoint& point : points)
+        for (const StudyRun& run : point.runs)
+            for (const std::string& text : run.warnings) {
+                const std::string warning = fmt::format("{}: {}", methods[run.method].name, text);
+                if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+            }
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::string bounces;
         for (std::size_t i = 0; i + 1 < pictures(); ++i) {

@@ -18,6 +18,7 @@ struct StudyRun {
     std::vector<double> mean;            // of each bounce, and of their sum
     std::vector<double> discretisation;  // as the method estimates it: relative, likewise; empty where there is none
     std::string variance;                // of each bounce: f finite, i infinite, ? not known
+    std::vector<std::string> warnings;
 };
 
 // All repeats of one method at one budget.
@@ -41,12 +42,12 @@ struct StudyData {
     StudyPlan plan;
     StudyReference reference;
     double scene_seconds = 0.0, pilot_seconds = 0.0;
-    bool peak_is_of_run = true;  // and not of all runs so far
-    std::vector<StudyPoint> points;
-    std::vector<std::string> found_warnings;  // in single runs
+    bool peak_is_of_run = true;      // and not of all runs so far
+    std::vector<StudyPoint> points;  // of at least two repeats
+    bool complete = false;
 
-    std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }  // the last is the sum
-    bool complete() const { return points.size() == methods.size() * plan.budgets.size(); }
+    std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }               // the last is the sum
+    std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
     std::vector<const StudyPoint*> points_of(std::size_t method) const;
     std::string picture_name(std::size_t picture) const;
     std::vector<std::string> warnings() const;

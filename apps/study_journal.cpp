@@ -17,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-double number(const Json& json) { return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>(); }
-
-Json as_json(const WithError& x) { return {number(x.value), number(x.standard_error)}; }
-WithError with_error(const Json& json) { return {number(json.at(0)), number(json.at(1))}; }
-
 Json as_json(const StudyRun& r) {
     return {{"method", r.method},
             {"budget", r.budget},
@@ -38,7 +31,8 @@ Json as_json(const StudyRun& r) {
             {"rays", r.rays},
             {"mean", r.mean},
             {"discretisation", r.discretisation},
-            {"variance", r.variance}};
+            {"variance", r.variance},
+            {"warnings", r.warnings}};
 }
 
 StudyRun study_run(const Json& json) {
@@ -57,29 +51,8 @@ StudyRun study_run(const Json& json) {
     json.at("mean").get_to(r.mean);
     json.at("discretisation").get_to(r.discretisation);
     json.at("variance").get_to(r.variance);
+    json.at("warnings").get_to(r.warnings);
     return r;
-}
-
-Json as_json(const ErrorStatistics& e) {
-    return {{"mse", e.mse},
-            {"rel_mse", e.rel_mse},
-            {"mean_mse", as_json(e.mean_mse)},
-            {"mean_rel_mse", as_json(e.mean_rel_mse)},
-            {"variance", as_json(e.variance)},
-            {"bias_squared", as_json(e.bias_squared)},
-            {"reference_error", e.reference_error}};
-}
-
-ErrorStatistics error_statistics(const Json& json) {
-    ErrorStatistics e;
-    json.at("mse").get_to(e.mse);
-    json.at("rel_mse").get_to(e.rel_mse);
-    e.mean_mse = with_error(json.at("mean_mse"));
-    e.mean_rel_mse = with_error(json.at("mean_rel_mse"));
-    e.variance = with_error(json.at("variance"));
-    e.bias_squared = with_error(json.at("bias_squared"));
-    json.at("reference_error").get_to(e.reference_error);
-    return e;
 }
 
 [[noreturn]] void cannot_be_written(const fs::path& path) {
@@ -126,13 +99,8 @@ void StudyJournal::read() {
             if (json.contains("study")) {
                 study = json.at("study");
                 plan = json.at("plan");
-            } else if (json.contains("run")) {
-                runs.push_back(study_run(json.at("run")));
             } else {
-                StudyPoint point{std::move(runs), {}};
-                runs.clear();
-                for (const Json& e : json.at("point")) point.errors.push_back(error_statistics(e));
-                points.push_back(std::move(point));
+                runs.push_back(study_run(json.at("run")));
             }
             whole += static_cast<off_t>(line.size()) + 1;
         }
@@ -189,14 +157,6 @@ Image StudyJournal::picture(std::size_t run, std::size_t picture, int width, int
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = Rgb(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     return image;
-}
-
-void StudyJournal::finish_point(std::vector<ErrorStatistics> errors) {
-    Json json = Json::array();
-    for (const ErrorStatistics& e : errors) json.push_back(as_json(e));
-    append({{"point", json}});
-    points.push_back({std::move(runs), std::move(errors)});
-    runs.clear();
 }
 
 void StudyJournal::remove() {

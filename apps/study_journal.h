@@ -1,9 +1,9 @@
 // What a study has done, on disk as it goes on, so that one that is cut off can be resumed.
 //
-//     study.journal   a line of JSON each: what is studied, then every run as it ends, and every point
-//     study.pictures  the pictures of the runs of the point that is being done, float32
+//     study.journal   a line of JSON each: what is studied and how it was planned, then every run as it ends
+//     study.pictures  the pictures of the runs, one after the other, float32
 //
-// Lines and pictures are appended and flushed to the disk, pictures first; a last line that is cut off is not taken.
+// Both are appended to and flushed to the disk, pictures first; a last line that is cut off is not taken.
 #pragma once
 
 #include "apps/study_data.h"
@@ -26,15 +26,12 @@ public:
     void expect_same(const nlohmann::ordered_json& study) const;
 
     void begin(const nlohmann::ordered_json& study, const nlohmann::ordered_json& plan);
-    // Points that are finished, and the runs of the one that is not.
-    std::vector<StudyPoint> points;
+    // In their order.
     std::vector<StudyRun> runs;
 
     // `pictures`: of all bounces and the sum.
     void add(const StudyRun& run, const std::vector<Image>& pictures);
     Image picture(std::size_t run, std::size_t picture, int width, int height, std::size_t pictures) const;
-    // The runs are all of a point.
-    void finish_point(std::vector<ErrorStatistics> errors);
     // All is done and written elsewhere.
     void remove();
 

@@ -94,7 +94,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = request.command_line;
-    json["complete"] = data.complete();
+    json["complete"] = data.complete;
     json["scene"] = {{"file", request.scene}, {"hash", data.scene.hash}, {"definitions", request.definitions}};
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
@@ -122,7 +122,8 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
          fmt::format("mean over pixels and channels of (x - r)^2, the reference's noise subtracted; relMSE over r^2 + {} mean(r)^2",
                      metrics_epsilon)},
         {"variance", "of a picture, over the repeats"},
-        {"bias_squared", "mse - variance, signed; the interval is that of the repeats and of the reference"},
+        {"bias_squared",
+         "mse - variance, signed; the interval is that of the repeats and of the reference; significant: above 0 at 99.9%"},
         {"seconds", "medians over the repeats, of a whole run with all its bounces; setup is what comes before the first sample"},
         {"efficiency",
          "1 / (variance * seconds); with bias 1 / (mse * seconds), by which methods are ranked at their largest budget"},

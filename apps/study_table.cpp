@@ -28,8 +28,9 @@ std::string bias_text(const PointSummary& p) {
 void print_method(const StudyData& data, const StudiedMethod& method) {
     const PictureSummary& s = method.summary;
     const PointSummary& last = s.points.back();
-    const std::string rmse = last.resolved ? fmt::format("{:.3g}", last.rmse.value)
-                                           : fmt::format("≤ {:.2g}", std::sqrt(1.0 / (last.merit * last.seconds.value)));
+    const bool exact = last.rmse.value == 0.0 && last.rmse.standard_error == 0.0;
+    const std::string rmse = last.resolved || exact ? fmt::format("{:.3g}", last.rmse.value)
+                                                    : fmt::format("≤ {:.2g}", std::sqrt(1.0 / (last.merit * last.seconds.value)));
     std::string name = data.methods[method.method].name;
     if (name.size() > 30) name = name.substr(0, 29) + "…";
     const std::string efficiency = s.infinite_variance ? "infinite V" : fmt::format("{:.3g}", last.efficiency);
@@ -54,7 +55,7 @@ void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictu
     fmt::print(
         "At the largest budget, of {} repeats, ranked by 1/(MSE T). T: seconds of a run with all its bounces and its set-up. "
         "Slope: of\n"
-        "log RMSE against log T. ±: 95% intervals. *: bias² is not 0.\n"
+        "log RMSE against log T. ±: 95% intervals. *: bias² is above 0 at 99.9%.\n"
         "Reference: {}.\n",
         data.request.repeats, data.reference.description);
     for (const std::string& warning : data.warnings()) fmt::print("warning: {}\n", warning);

@@ -44,7 +44,8 @@ PointSummary summarise(const StudiedPoint& point, double reference_size) {
     const auto repeats = static_cast<double>(errors.mse.size());
     result.bias_half_width = result.bias_squared.standard_error * student_t_quantile(0.95, repeats - 1.0);
     const double rounding = float_rounding * reference_size;
-    result.biased = result.bias_squared.value > std::max(result.bias_half_width, rounding * rounding);
+    result.biased = result.bias_squared.value >
+                    std::max(result.bias_squared.standard_error * student_t_quantile(0.999, repeats - 1.0), rounding * rounding);
     result.infinite_variance = point.infinite_variance;
     const double seconds = result.seconds.value;
     result.efficiency = 1.0 / (errors.variance.value * seconds);

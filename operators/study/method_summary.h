@@ -25,7 +25,7 @@ struct PointSummary {
     bool resolved = false;                               // the MSE is more than the noise of what it is judged by
     WithError variance, bias_squared;
     double bias_half_width = 0.0;  // of the 95% interval of bias², Student's t
-    bool biased = false;           // 0 is outside of it
+    bool biased = false;           // 0 is outside of the 99.9% interval: there are many to look at
     double efficiency = 0.0;       // 1 / (V T)
     double merit = 0.0;            // 1 / (MSE T), bias included; MSE plus two standard errors where it is not resolved
     bool infinite_variance = false;

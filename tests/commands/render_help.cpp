@@ -30,9 +30,10 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o", "-n", "--tail", "--spp", "--time", "--error", "--method",
-                                                    "--direct", "--lights", "--roulette", "--patches", "--directions",
-                                                    "--reference", "--seed", "-t", "-D", "--quiet", "--json"}));
+    EXPECT_EQ(options(help),
+              (std::set<std::string>{"-h,--help",   "-o",       "-n",       "--tail",     "--spp",     "--time",    "--error",
+                                     "--method",    "--direct", "--lights", "--roulette", "--sampler", "--patches", "--directions",
+                                     "--reference", "--seed",   "-t",       "-D",         "--quiet",   "--json"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -61,11 +62,18 @@ TEST_F(RenderHelp, OptionsOfExport) {
                                                                            "-D", "--quiet", "--json", "-o", "--with-K"}));
 }
 
+TEST_F(RenderHelp, OptionsOfStudy) {
+    EXPECT_EQ(options(printed({"help", "study"})),
+              (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
+                                     "--repeats", "-n", "--error", "--resume", "--seed", "-t", "-D", "--quiet", "--json"}));
+}
+
 TEST_F(RenderHelp, TheCommands) {
     const std::string help = printed({"--help"});
     EXPECT_EQ(help.substr(0, help.find('\n')),
               "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
-    for (const char* command : {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  help "})
+    for (const char* command :
+         {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  study ", "\n  help "})
         EXPECT_NE(help.find(command), std::string::npos) << help;
     EXPECT_EQ(printed({"help"}), help);
 }
@@ -75,7 +83,7 @@ TEST_F(RenderHelp, Version) { EXPECT_TRUE(std::regex_match(printed({"--version"}
 TEST_F(RenderHelp, UnknownCommands) {
     Finished done = run({"help", "rendr"});
     EXPECT_EQ(done.exit_code, 2);
-    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, help\n");
+    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, help\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);

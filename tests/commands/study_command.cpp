@@ -1,0 +1,324 @@
+// neumann study: what it writes, what it refuses, and that it goes on where it was cut off.
+#include "tests/commands/render_output.h"
+
+#include <bit>
+#include <cstdlib>
+
+namespace neumann {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+class StudyCommand : public RenderTest {
+protected:
+    StudyCommand() {
+        write("scene.xml", plates("width=\"41\" height=\"3\""));
+        setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);  // of the processes that are started from here
+    }
+    ~StudyCommand() override { unsetenv("XDG_CACHE_HOME"); }
+
+    static Strings joined(Strings a, const Strings& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+    }
+    Finished study(const std::string& output, const Strings& options) const {
+        const Finished done = run(joined({"study", "scene.xml", "-o", output, "--quiet"}, options));
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return done;
+    }
+    nlohmann::json study_json(const std::string& output) const {
+        return nlohmann::json::parse(text_of(path(output) / "study.json"));
+    }
+    // Of a picture of study.json, by its bounce.
+    static nlohmann::json picture(const nlohmann::json& study, const std::string& bounce) {
+        for (const nlohmann::json& p : study.at("pictures"))
+            if (p.at("bounce") == bounce) return p;
+        return nullptr;
+    }
+    static nlohmann::json method(const nlohmann::json& study, const std::string& bounce, const std::string& name) {
+        for (const nlohmann::json& m : picture(study, bounce).at("methods"))
+            if (m.at("method") == name) return m;
+        return nullptr;
+    }
+    // The rows without what the clock says.
+    std::string figures(const std::string& output) const {
+        const Table table(path(output) / "study.csv");
+        std::string all;
+        for (std::size_t row = 0; row < table.size(); ++row) {
+            for (const std::string& column : table.columns())
+                if (!column.ends_with("_seconds") && column != "peak_memory") all += table.text(row, column) + ",";
+            all += "\n";
+        }
+        return all;
+    }
+    const Strings small{
+        "--methods", "walk,walk:direct=light:sampler=independent,matrix", "--samples", "4,16", "--repeats", "4", "-n", "2"};
+};
+
+TEST_F(StudyCommand, Files) {
+    const Finished done = study("a", small);
+    EXPECT_EQ(done.out, "");
+    EXPECT_EQ(done.err, "");
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    const Table table(path("a/study.csv"));
+    EXPECT_EQ(table.columns(),
+              (Strings{"method", "budget", "repeat", "bounce", "samples", "patches", "directions", "seed", "setup_seconds",
+                       "sampling_seconds", "rays", "peak_memory", "mse", "rmse", "rel_mse", "mean", "discretisation", "variance"}));
+    EXPECT_EQ(table.size(), 3u * 2 * 4 * 4);
+    std::set<std::string> seeds;
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        seeds.insert(table.text(row, "seed"));
+        EXPECT_EQ(table.text(row, "samples"), table.text(row, "budget"));
+        EXPECT_GT(table.number(row, "sampling_seconds"), 0.0);
+        EXPECT_GT(table.number(row, "rays"), 0.0);
+        EXPECT_GT(table.number(row, "peak_memory"), 1e6);
+        const bool field = table.text(row, "method") == "matrix";
+        EXPECT_EQ(table.number(row, "setup_seconds") > 0.0, field);
+        EXPECT_EQ(table.text(row, "patches").empty(), !field);
+        EXPECT_EQ(table.text(row, "discretisation").empty(), !field);
+    }
+    EXPECT_EQ(seeds.size(), 3u * 2 * 4);
+
+    const nlohmann::json json = study_json("a");
+    EXPECT_EQ(json.at("complete"), true);
+    EXPECT_EQ(json.at("pictures").size(), 4u);
+    for (const char* bounce : {"0", "1", "2", "sum"})
+        for (const nlohmann::json& m : picture(json, bounce).at("methods")) {
+            ASSERT_EQ(m.at("points").size(), 2u);
+            for (const nlohmann::json& p : m.at("points")) {
+                const double V = p.at("variance").at("value"), T = p.at("seconds").at("value");
+                EXPECT_NEAR(p.at("efficiency").get<double>() * V * T, 1.0, 1e-6);
+            }
+        }
+    EXPECT_EQ(json.at("reference").at("exact"), false);
+    EXPECT_EQ(json.at("reference").at("from_cache"), false);
+    EXPECT_GT(json.at("truncation").at("rest_mean"), 0.0);
+
+    // One file: nothing is fetched.
+    const std::string page = text_of(path("a/index.html"));
+    EXPECT_NE(page.find("Chart.js v"), std::string::npos);
+    for (const char* foreign : {"<link", " src=", "@import", "/*STUDY*/", "/*CHART_JS*/"})
+        EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
+}
+
+// The reference is kept, and taken again where nothing that matters is another.
+TEST_F(StudyCommand, Cache) {
+    study("a", small);
+    study("b", joined(small, {"--seed", "7"}));
+    EXPECT_EQ(study_json("b").at("reference").at("from_cache"), true);
+    EXPECT_EQ(study_json("b").at("reference").at("identity"), study_json("a").at("reference").at("identity"));
+    EXPECT_NE(figures("a"), figures("b"));
+    study("c", joined(small, {"-D", "height=4"}));
+    EXPECT_EQ(study_json("c").at("reference").at("from_cache"), false);
+}
+
+// The pictures of a run are those of `render` with its samples and its seed: judged by these, its MSE is 0, of which the noise of
+// the reference is subtracted.
+TEST_F(StudyCommand, ARunIsRepeatedByRender) {
+    study("a", small);
+    const Table table(path("a/study.csv"));
+    for (const std::string name : {"walk", "walk:direct=light:sampler=independent", "matrix"}) {
+        std::size_t row = 0;
+        while (table.text(row, "method") != name || table.text(row, "budget") != "16" || table.text(row, "repeat") != "2") ++row;
+        Strings options{"-n", "2", "--spp", "16", "--quiet", "--seed", table.text(row, "seed")};
+        if (name == "matrix")
+            options = joined(options, {"--method", "matrix", "--patches", table.text(row, "patches"), "--directions",
+                                       table.text(row, "directions")});
+        if (name.size() > 10) options = joined(options, {"--direct", "light", "--sampler", "independent"});
+        render("scene.xml", "picture", options);
+        study("b", joined(small, {"--reference", "picture"}));
+        const Table judged(path("b/study.csv"));
+        for (; judged.text(row, "repeat") == "2"; ++row) {
+            const double noise = picture(study_json("b"), judged.text(row, "bounce")).at("reference_noise_subtracted");
+            EXPECT_LE(std::abs(judged.number(row, "mse") + noise * noise), 1e-5 * noise * noise)
+                << name << judged.text(row, "bounce");
+        }
+        std::filesystem::remove_all(path("b"));
+    }
+}
+
+TEST_F(StudyCommand, ExactAnswers) {
+    write("scene.xml", closed_room("0.5"));
+    study("a", {"--methods", "walk:direct=bsdf,walk", "--samples", "2,4", "--repeats", "4", "-n", "2", "--reference",
+                "values:1,0.5,0.25"});
+    const nlohmann::json json = study_json("a");
+    EXPECT_EQ(json.at("reference").at("exact"), true);
+    EXPECT_EQ(picture(json, "sum").at("reference_rms"), 1.75);
+    EXPECT_FALSE(std::filesystem::exists(path("cache")));
+    // By directions of the material the furnace has no variance.
+    for (const nlohmann::json& p : method(json, "2", "walk:direct=bsdf").at("points")) EXPECT_LE(p.at("rmse").at("value"), 1e-7);
+    EXPECT_EQ(method(json, "2", "walk:direct=bsdf").at("rank"), 1);
+    EXPECT_GT(method(json, "2", "walk").at("points").at(1).at("rmse").at("value"), 1e-3);
+}
+
+TEST_F(StudyCommand, Table) {
+    const Finished done = run(joined({"study", "scene.xml", "-o", "a"}, small));
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    std::istringstream lines(done.out);
+    for (std::string line; std::getline(lines, line);) {
+        std::size_t width = 0;
+        for (const char c : line) width += (c & 0xc0) != 0x80;
+        EXPECT_LE(width, 130u) << line;
+    }
+    for (const char* text : {"bounce 0 ", "bounce 2 ", "sum of bounces 0 to 2 ", "\n  1 ", "\n  3 ", "Tables and plots are in a\n"})
+        EXPECT_NE(done.out.find(text), std::string::npos) << done.out;
+    std::filesystem::remove_all(path("a"));
+    const Finished json = run(joined({"study", "scene.xml", "-o", "a", "--json", "--quiet"}, small));
+    EXPECT_EQ(json.out, text_of(path("a/study.json")));
+}
+
+// Seconds are turned into numbers of samples that grow.
+TEST_F(StudyCommand, Budgets) {
+    study("a", {"--methods", "walk,patches", "--budgets", "0.01,0.011,0.1", "--repeats", "2", "-n", "1"});
+    const nlohmann::json json = study_json("a");
+    for (const char* name : {"walk", "patches"}) {
+        const nlohmann::json points = method(json, "1", name).at("points");
+        ASSERT_EQ(points.size(), 3u);
+        for (std::size_t b = 1; b < 3; ++b) EXPECT_GT(points[b].at("samples"), points[b - 1].at("samples"));
+        EXPECT_EQ(std::popcount(points[2].at("samples").get<std::uint64_t>()), 1);
+    }
+}
+
+TEST_F(StudyCommand, Refused) {
+    const auto refusal = [&](const Strings& options) {
+        const std::string said = refused(joined({"study", "scene.xml", "-n", "1", "-o", "new"}, options));
+        EXPECT_FALSE(std::filesystem::exists(path("new")));
+        return said;
+    };
+    EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
+              "--methods wlak: --method: wlak not in {walk,pointwise,matrix,gather,patches}\n");
+    EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
+    EXPECT_EQ(refusal({"--methods", "walk:colour=red"}),
+              "--methods walk:colour=red: 'colour=red' is not an option of a method, expected NAME=VALUE as in direct=bsdf\n");
+    EXPECT_EQ(refusal({"--methods", "walk:direct"}),
+              "--methods walk:direct: 'direct' is not an option of a method, expected NAME=VALUE as in direct=bsdf\n");
+    EXPECT_NE(refusal({"--methods", "walk:direct=nowhere"}).find("--methods walk:direct=nowhere: --direct: nowhere not in {"),
+              std::string::npos);
+    EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
+              "matrix:direct=light: --direct, --lights and --roulette belong to --method walk, not to matrix\n");
+    EXPECT_EQ(refusal({"--methods", "walk:patches=100", "--samples", "4"}),
+              "walk:patches=100: --patches and --directions belong to --method patches, matrix and gather, not to walk\n");
+    EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
+              "matrix:sampler=sobol: --sampler belongs to --method walk and pointwise, not to matrix\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--budgets", "1,1"}), "--budgets: 1 after 1; budgets have to grow\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--samples", "16,4"}), "--samples: 4 after 16; budgets have to grow\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--samples", "4", "--budgets", "1"}),
+              "--budgets and --samples exclude each other: seconds of a run, or samples a pixel\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--repeats", "1"}), "--repeats 1: a variance takes at least 2 repeats\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--reference", "matrix"}),
+              "--reference matrix: fields on patches have an error of their own; take walk\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--reference", "nowhere"}),
+              "--reference nowhere: expected the folder of an earlier render, values:A,B,…, or a method without bias that makes "
+              "one, as in walk or walk:direct=light\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--reference", "values:1"}),
+              "--reference values:1: has 1 values, expected 2, of bounces 0 to 1\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--reference", "values:1,x"}),
+              "--reference values:1,x: expected a number for each bounce, as in values:1,0.5,0.25\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--resume"}), "new: holds no study that could be resumed\n");
+    render("scene.xml", "other", {"-n", "1", "--spp", "8", "-D", "width=40", "--quiet"});
+    EXPECT_EQ(refusal({"--methods", "walk", "--reference", "other"}),
+              "other/bounce_000.exr: is 40×3 pixels, expected 41×3 as the scene's film\n");
+    render("scene.xml", "single", {"-n", "1", "--spp", "1", "--quiet"});
+    EXPECT_EQ(refusal({"--methods", "walk", "--samples", "4", "--reference", "single"}),
+              "the reference does not know its error: it is of a single replicate; take one of more samples\n");
+}
+
+// Killed or interrupted, and gone on with, it finds what it would have found at once.
+TEST_F(StudyCommand, Resumed) {
+    const Strings options{"--methods", "walk,patches", "--samples", "1024,4096", "--repeats", "6", "-n", "1"};
+    const auto begun = [&] {
+        for (int i = 0; i < 3000; ++i) {
+            if (text_of(path("a/study.journal")).find("\"run\"") != std::string::npos) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        return false;
+    };
+    const Strings arguments = joined({"study", "scene.xml", "-o", "a", "--quiet"}, options);
+    {
+        RunningCommand command = start(arguments);
+        ASSERT_TRUE(begun());
+        command.signal(SIGKILL);
+        EXPECT_EQ(command.wait().exit_code, 128 + SIGKILL);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("a/study.csv")));
+    EXPECT_EQ(refused(arguments),
+              "a: holds a study that was not finished; --resume goes on with it, and to begin another one there, "
+              "remove study.journal\n");
+    EXPECT_EQ(refused(joined(arguments, {"--resume", "--seed", "5"})),
+              "--resume: seed is 5, and the study that was cut off has 0\n");
+    EXPECT_EQ(refused(joined(arguments, {"--resume", "-D", "height=4"})),
+              "--resume: definitions is {\"height\":\"4\"}, and the study that was cut off has {}\n");
+    // A line that was being written does not count.
+    std::ofstream(path("a/study.journal"), std::ios::app) << "{\"run\":{\"meth";
+    {
+        RunningCommand command = start(joined(arguments, {"--resume"}));
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        command.signal(SIGINT);
+        const int code = command.wait().exit_code;
+        // The signal ends it before it is caught, or while nothing is done yet, or later.
+        EXPECT_TRUE(code == 0 || code == 1 || code == 128 + SIGINT) << code;
+    }
+    if (std::filesystem::exists(path("a/study.journal"))) EXPECT_EQ(run(joined(arguments, {"--resume"})).exit_code, 0);
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    EXPECT_EQ(study_json("a").at("complete"), true);
+    study("whole", options);
+    EXPECT_EQ(figures("a"), figures("whole"));
+}
+
+// A light that touches a wall: asked for alone, it gives bounce 1 an infinite variance.
+TEST_F(StudyCommand, InfiniteVariance) {
+    std::string touching = plates("width=\"164\" height=\"5\"");
+    const std::string from = "<scale value=\".5\"/><rotate x=\"1\" angle=\"180\"/><translate z=\"1\"/>";
+    touching.replace(touching.find(from), from.size(),
+                     "<scale value=\".5\"/><rotate x=\"1\" angle=\"180\"/><translate x=\"-1.5\" z=\"1\"/>");
+    write("scene.xml", touching);
+    study("a", {"--methods", "walk,walk:direct=light:sampler=independent", "--samples", "64,256", "--repeats", "4", "-n", "1"});
+    const nlohmann::json json = study_json("a");
+    for (const char* bounce : {"1", "sum"}) {
+        EXPECT_EQ(method(json, bounce, "walk:direct=light:sampler=independent").at("infinite_variance"), true) << bounce;
+        EXPECT_EQ(method(json, bounce, "walk:direct=light:sampler=independent").at("rank"), 2) << bounce;
+        EXPECT_EQ(method(json, bounce, "walk").at("infinite_variance"), false) << bounce;
+    }
+    EXPECT_NE(json.at("warnings").dump().find("walk:direct=light:sampler=independent: the variance of bounces 1 is infinite"),
+              std::string::npos)
+        << json.at("warnings");
+}
+
+// The slope of independent samples, over 64 repeats: −0.5 ± 0.05, and within 4.5 of its standard errors (half widths are 1.96 of
+// them, or more), in four pictures. The bias² of walks is 0: 8 comparisons by t with 63 degrees of freedom, |t| ≤ 4.5, false alarm
+// 2.4e-4 in all. That of a hundred patches is not.
+using StudyCommandSlow = StudyCommand;
+TEST_F(StudyCommandSlow, SlopesAndBias) {
+    const char* seed = std::getenv("NEUMANN_TEST_SEED");
+    const std::string scene = scene_file("cornell-box");
+    const Finished done = run({"study", scene, "-o", "a", "--quiet", "-n", "2", "-D", "res=16", "--repeats", "64", "--samples",
+                               "4,16,64", "--methods", "walk:sampler=independent,walk,patches:patches=100", "--reference-spp",
+                               "32768", "--seed", seed ? seed : "20240229"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const nlohmann::json json = study_json("a");
+    for (const char* bounce : {"0", "1", "2", "sum"}) {
+        const nlohmann::json slope = method(json, bounce, "walk:sampler=independent").at("slope_by_samples");
+        const double value = slope.at("value"), half_width = slope.at("interval95");
+        EXPECT_EQ(slope.at("points"), 3);
+        EXPECT_NEAR(value, -0.5, 0.05) << bounce;
+        EXPECT_NEAR(value, -0.5, 4.5 / 1.96 * half_width) << bounce;
+        EXPECT_LE(half_width, 0.05) << bounce;
+        for (const char* name : {"walk:sampler=independent", "walk"})
+            for (const nlohmann::json& p : method(json, bounce, name).at("points")) {
+                const double bias = p.at("bias_squared").at("value"), interval = p.at("bias_squared").at("interval95");
+                const double rmse = p.at("rmse").at("value");
+                EXPECT_LE(std::abs(bias), 4.5 / 1.998 * interval) << bounce << name;
+                // With power: a bias of a third of the RMSE would be seen in independent samples.
+                if (std::string(name) != "walk") EXPECT_LE(interval, 0.1 * rmse * rmse) << bounce;
+            }
+    }
+    for (const char* bounce : {"1", "2"})
+        for (const nlohmann::json& p : method(json, bounce, "patches:patches=100").at("points")) {
+            EXPECT_EQ(p.at("bias_squared").at("significant"), true) << bounce;
+            const double bias = p.at("bias_squared").at("value"), interval = p.at("bias_squared").at("interval95");
+            EXPECT_GT(bias, 4.5 / 1.998 * interval) << bounce;
+        }
+}
+
+}  // namespace
+}  // namespace neumann
