@@ -111,12 +111,30 @@ TEST_F(RenderScenes, MetalRoom) {
     }
 }
 
+// What their READMEs say of bounce 0, and of the lamp's mirror image.
+TEST_F(RenderScenes, HardOnes) {
+    for (const char* scene : {"door-ajar", "facing-mirrors", "floating-panels", "glass-ball", "glossy-floor", "outdoor"}) {
+        render(scene_file(scene), scene, {"-D", "res=128", "-n", "3", "--spp", "4", "--quiet"});
+        expect_complete(scene);
+        expect_finite(scene);
+        const ChannelMean emitted = channel_mean(picture(scene, "bounce_000.exr"), 0);
+        const bool hidden = std::string(scene) == "door-ajar" || std::string(scene) == "glass-ball";
+        EXPECT_EQ(emitted.mean == 0.0, hidden) << scene;
+        for (int i = 1; i <= 3; ++i) EXPECT_GT(channel_mean(picture(scene, numbered("bounce", i)), 0).mean, 0.0) << scene << i;
+    }
+    double brightest = 0.0;
+    const Estimate mirrored = picture("facing-mirrors", "bounce_001.exr");
+    for (const Rgb& p : mirrored.mean.pixels) brightest = std::max(brightest, p.r);
+    EXPECT_NEAR(brightest, 0.9 * 14.0, 1e-5);
+}
+
 // Every folder in scenes/ has a scene of its name, which is rendered above or here.
 TEST_F(RenderScenes, NoneIsForgotten) {
     Names found;
     for (const auto& entry : std::filesystem::directory_iterator(SCENES))
         if (entry.is_directory()) found.insert(entry.path().filename().string());
-    EXPECT_EQ(found, (Names{"cornell-box", "furnace", "metal-room", "mitsuba-cornell", "sphere-segment"}));
+    EXPECT_EQ(found, (Names{"cornell-box", "door-ajar", "facing-mirrors", "floating-panels", "furnace", "glass-ball",
+                            "glossy-floor", "metal-room", "mitsuba-cornell", "outdoor", "sphere-segment"}));
     for (const std::string& name : found) EXPECT_TRUE(std::filesystem::exists(scene_file(name))) << name;
 }
 

@@ -73,7 +73,7 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
             SCOPED_TRACE(describe(split) +
                          fmt::format(", direct {}, lights {}", static_cast<int>(direct.direct), static_cast<int>(direct.lights)));
             const Estimates found = probe(scene, start, Way::mis,
-                                          {.samples = 1024,
+                                          {.samples = direct.direct == DirectLight::cosine ? 4096u : 1024u,
                                            .bounces = 3,
                                            .rest_probability = 1.0,
                                            .direct = direct,
