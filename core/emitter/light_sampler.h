@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/emitter/emitters.h"
+#include "core/geometry/rectangle.h"
 #include "core/sampling/delta_pdf.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ enum class LightChoice {
     power,         // by the power it gives off, of its largest radiance
     contribution,  // by what it would bring to the point if nothing stood between: radiance times solid angle, of each of its
                    // parts, all of which are looked at for that
-    all  // each once
+    all            // each once
 };
 
 // Where on it: uniform on its surface, or in the directions in which it is seen.
@@ -62,8 +63,10 @@ public:
     }
 
 private:
+    // A primitive, or where directions are sampled two triangles that are a rectangle, from `primitive` on.
     struct Part {
-        std::uint32_t shape, primitive;
+        static constexpr std::uint32_t no_rectangle = 0xffffffffu;
+        std::uint32_t shape, primitive, rectangle = no_rectangle;
     };
     // A light's range in cumulative_.
     struct Light {
@@ -75,11 +78,12 @@ private:
     }
 
     LightSample on_part(const Part& part, double density, const Vec3& x, const Vec2& uv) const {
-        if (place_ == LightPlace::solid_angle)
-            if (const double angle = sampled_solid_angle(part, x); angle > 0.0)
-                return in_solid_angle(part, density * geometry_->area(part.shape, part.primitive), angle, x, uv);
+        if (place_ == LightPlace::solid_angle) return on_part_as_seen(part, density, x, uv);
+        return at_point(geometry_->point(part.shape, part.primitive, uv), density, x);
+    }
+    LightSample at_point(const SurfacePoint& point, double density, const Vec3& x) const {
         LightSample light;
-        light.point = geometry_->point(part.shape, part.primitive, uv);
+        light.point = point;
         const Vec3 d = light.point.position - x;
         const double distance2 = glm::dot(d, d);
         light.w = d * (1.0 / std::sqrt(distance2));
@@ -90,11 +94,15 @@ private:
         return light;
     }
     LightSample on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const;
-    LightSample in_solid_angle(const Part& part, double probability, double angle, const Vec3& x, const Vec2& uv) const;
+    LightSample on_part_as_seen(const Part& part, double density, const Vec3& x, const Vec2& uv) const;
+    SurfacePoint point_on_rectangle(const Part& part, const Vec3& position) const;
     LightSample sample_of(const Light& light, const Vec3& x, const Vec2& uv) const;
     LightSample sample_by_contribution(const Vec3& x, const Vec2& uv) const;
     double pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const;
 
+    Part part_at(const SurfacePoint& y) const;
+    double area(const Part& part) const;
+    double solid_angle_from_front(const Part& part, const Vec3& x) const;
     // The solid angle of a part whose directions are sampled, or 0 where its points are.
     double sampled_solid_angle(const Part& part, const Vec3& x) const;
     double contribution(const Part& part, const Vec3& x) const;
@@ -107,6 +115,8 @@ private:
     LightChoice choice_;
     LightPlace place_;
     std::vector<Part> parts_;
+    std::vector<Rectangle> rectangles_;
+    std::vector<std::vector<Part>> rectangular_;  // by shape and primitive, of shapes with rectangles
     std::vector<Light> lights_;
     std::vector<double> cumulative_;        // of the probabilities of parts_, then of the distant lights of Emitters
     std::vector<double> density_of_shape_;  // per area, of an ask
