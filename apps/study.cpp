@@ -3,18 +3,14 @@
 #include "apps/interrupt.h"
 #include "apps/options.h"
 #include "apps/output_folder.h"
-#include "apps/study_journal.h"
+#include "apps/study_runs.h"
 #include "core/base/error.h"
-#include "core/base/peak_memory.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 namespace neumann {
@@ -72,107 +68,6 @@ StudyPlan study_plan(const Json& json, bool budgets_are_samples) {
     return plan;
 }
 
-StudyRun make_run(const RenderResult& result, const RenderRequest& request) {
-    const SeriesReport& report = result.series.report;
-    StudyRun run;
-    run.seed = request.seed;
-    run.samples = result.series.samples;
-    run.patches = request.patches.value_or(0);
-    run.directions = request.directions.value_or(0);
-    run.setup_seconds = result.series.setup_seconds;
-    run.seconds = result.series.seconds;
-    for (const BounceReport& b : report.bounces) {
-        run.rays.push_back(b.rays);
-        run.mean.push_back(b.mean.mean);
-        if (b.discretisation) run.discretisation.push_back(b.discretisation->relative);
-        run.variance += b.infinite_variance ? 'i' : b.tail ? 'f' : '?';
-    }
-    run.mean.push_back(report.sum.mean);
-    if (report.sum_discretisation) run.discretisation.push_back(report.sum_discretisation->relative);
-    for (const auto& [text, count] : result.warnings.counts()) run.warnings.push_back(text);
-    return run;
-}
-
-// On a terminal, what is being done.
-class Status {
-public:
-    explicit Status(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
-    ~Status() { show(""); }
-    void show(const std::string& text) const {
-        if (!active_) return;
-        fmt::print(stderr, "\r\033[K{}", text);
-        std::fflush(stderr);
-    }
-
-private:
-    bool active_;
-};
-
-// Goes on until everything is done or it is interrupted. Repeat after repeat, so that what else the machine does meets all methods
-// and budgets alike, and so that a study that is cut off has something of everything.
-void run_all(StudyData& data, StudyJournal& journal) {
-    const Status status(data.request.quiet);
-    const std::size_t N = data.pictures() - 2, methods = data.methods.size(), budgets = data.plan.budgets.size();
-    while (journal.runs.size() < data.runs()) {
-        const std::size_t at = journal.runs.size(), method = at % methods, budget = at / methods % budgets,
-                          repeat = at / methods / budgets;
-        status.show(fmt::format("run {} of {}   repeat {}   budget {:g}   {}", at + 1, data.runs(), repeat + 1,
-                                data.plan.budgets[budget], data.methods[method].name));
-        const Effort& effort = data.plan.efforts[method][budget];
-        const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
-        data.peak_is_of_run = restart_peak_memory();
-        const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot);
-        if (!result) return;
-        StudyRun run = make_run(*result, run_request(data.methods[method], effort, data.bounces, seed));
-        run.peak_memory = peak_memory();
-        run.method = method;
-        run.budget = budget;
-        run.repeat = repeat;
-        std::vector<Image> pictures;
-        for (std::size_t i = 0; i <= N; ++i) pictures.push_back(result->series.term(i).mean);
-        pictures.push_back(result->series.sum(N).mean);
-        journal.add(run, pictures);
-        if (interrupted()) return;
-    }
-    data.complete = true;
-}
-
-std::vector<StudyPoint> judge(const StudyData& data, const StudyJournal& journal) {
-    const Film& film = data.scene.film;
-    std::vector<StudyPoint> points;
-    for (std::size_t budget = 0; budget < data.plan.budgets.size(); ++budget)
-        for (std::size_t method = 0; method < data.methods.size(); ++method) {
-            StudyPoint point;
-            std::vector<std::size_t> places;
-            for (std::size_t i = 0; i < journal.runs.size(); ++i) {
-                if (journal.runs[i].method != method || journal.runs[i].budget != budget) continue;
-                point.runs.push_back(journal.runs[i]);
-                places.push_back(i);
-            }
-            if (places.size() < 2) continue;
-            for (std::size_t q = 0; q < data.pictures(); ++q) {
-                PictureErrors picture(data.reference.pictures[q]);
-                for (const std::size_t i : places)
-                    picture.add(journal.picture(i, q, film.crop_width, film.crop_height, data.pictures()));
-                point.errors.push_back(picture.statistics());
-            }
-            points.push_back(std::move(point));
-        }
-    return points;
-}
-
-// The pictures of all runs are kept until the end.
-void expect_disk_space(const StudyData& data, const std::filesystem::path& folder) {
-    const double bytes = static_cast<double>(data.runs()) * static_cast<double>(data.pictures()) * data.scene.film.crop_width *
-                         data.scene.film.crop_height * 3.0 * sizeof(float);
-    std::error_code error;
-    const auto space = std::filesystem::space(folder, error);
-    if (!error && bytes > 0.9 * static_cast<double>(space.available))
-        throw InputError(fmt::format(
-            "{}: {} runs need {:.1f} GiB there until the study ends, and {:.1f} are free; take fewer repeats or a smaller film",
-            folder.string(), data.runs(), bytes / 0x1p30, static_cast<double>(space.available) / 0x1p30));
-}
-
 void expect_sense(const StudyRequest& request) {
     if (request.repeats < 2) throw InputError("--repeats 1: a variance takes at least 2 repeats");
     if (!request.budgets.empty() && !request.samples.empty())
@@ -182,59 +77,6 @@ void expect_sense(const StudyRequest& request) {
 }
 
 }  // namespace
-
-CLI::App* add_study(CLI::App& app, StudyRequest& request) {
-    auto* study = app.add_subcommand("study", "Compare methods: error against time, bounce by bounce");
-    study->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
-    study
-        ->add_option("--methods", request.methods,
-                     "Methods with options of render after colons: walk,walk:direct=light:sampler=independent,matrix")
-        ->type_name("A,B,...")
-        ->delimiter(',')
-        ->required();
-    study->add_option("-o", request.output, "Folder for tables and page; out/NAME-study without it")->type_name("DIR");
-    study
-        ->add_option("--reference", request.reference,
-                     "What is true: the folder of an earlier render, values:A,B,... for bounces of one colour each, or an unbiased "
-                     "method that makes a reference with a seed of its own, which is kept in the cache")
-        ->type_name("R")
-        ->capture_default_str();
-    study
-        ->add_option("--reference-spp", request.reference_samples,
-                     "Samples a pixel of a reference that is made; 16 times those of walk at the largest budget without it")
-        ->type_name("N")
-        ->check(whole_from(4, std::uint64_t{1} << 40));
-    study->add_option("--budgets", request.budgets, "Seconds of a run, growing; chosen without it")
-        ->type_name("S,S,...")
-        ->delimiter(',')
-        ->check(above_zero());
-    study->add_option("--samples", request.samples, "Instead of --budgets: samples a pixel of a run, growing")
-        ->type_name("N,N,...")
-        ->delimiter(',')
-        ->check(whole_from(1, std::uint64_t{1} << 40));
-    study->add_option("--repeats", request.repeats, "Runs of each method at each budget, with other seeds")
-        ->type_name("N")
-        ->check(whole_from(1, 100000))
-        ->capture_default_str();
-    study->add_option("-n", request.bounces, "The last bounce that is looked at")
-        ->type_name("BOUNCES")
-        ->check(whole_from(0, 100000));
-    study
-        ->add_option("--error", request.error,
-                     "Relative RMSE for the time to a given error; without it the smallest that all methods reach")
-        ->type_name("REL")
-        ->check(above_zero());
-    study->add_flag("--resume", request.resume, "Go on with a study that was cut off");
-    study->add_option("--seed", request.seed, "Seed that the seeds of all runs come from")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    study->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
-    add_definitions(*study, request.definition_texts);
-    study->add_flag("--quiet", request.quiet, "Print nothing but errors");
-    study->add_flag("--json", request.json, "Print study.json");
-    return study;
-}
 
 int study_command(const StudyRequest& given) {
     StudyRequest request = given;

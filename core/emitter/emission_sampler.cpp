@@ -8,7 +8,7 @@
 namespace neumann {
 
 EmissionSampler::EmissionSampler(const Geometry& geometry, const Emitters& emitters)
-    : geometry_(&geometry), emitters_(&emitters), table_(geometry, emitters, emitters.powers()) {
+    : geometry_(&geometry), emitters_(&emitters), table_(geometry, emitters, emitters.powers(), LightTable::Rectangles::as_triangles) {
     const double all = std::accumulate(emitters.powers().begin(), emitters.powers().end(), 0.0);
     // Of the place 1/A, of the direction |cosθ|/π, of the solid angle that x sees d²/|cosθ| and of the area at x 1/d².
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {

@@ -1,5 +1,6 @@
 #include "core/emitter/light_sampler.h"
 
+#include "core/sampling/spherical_rectangle.h"
 #include "core/sampling/spherical_triangle.h"
 #include "core/sampling/warp.h"
 
@@ -41,7 +42,8 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
 
 LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
                            const std::vector<double>& share)
-    : geometry_(&geometry), emitters_(&emitters), choice_(choice), place_(place), table_(geometry, emitters, share) {
+    : geometry_(&geometry), emitters_(&emitters), choice_(choice), place_(place), table_(geometry, emitters, share,
+             place == LightPlace::solid_angle ? LightTable::Rectangles::whole : LightTable::Rectangles::as_triangles) {
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
                                                         : (choice == LightChoice::all ? 1.0 : share[shape]) / geometry.area(shape));
@@ -61,15 +63,33 @@ LightSample LightSampler::on_distant(std::size_t index, double probability, cons
     return light;
 }
 
-LightSample LightSampler::in_solid_angle(const Part& part, double probability, double angle, const Vec3& x, const Vec2& uv) const {
+LightSample LightSampler::on_part_as_seen(const Part& part, double density, const Vec3& x, const Vec2& uv) const {
+    const double angle = sampled_solid_angle(part, x);
     LightSample light;
-    const auto [a, b, c] = corners(part, x);
-    light.w = sample_spherical_triangle(a, b, c, angle, uv);
-    const Vec3 n = glm::cross(b - a, c - a);
-    light.point = geometry_->point_on_triangle(part.shape, part.primitive, x + light.w * (glm::dot(a, n) / glm::dot(light.w, n)));
-    light.pdf = probability / angle;
+    if (part.is_rectangle()) {
+        const Rectangle& r = table_.rectangle(part);
+        if (angle == 0.0) return at_point(point_on_rectangle(part, r.corner + uv.x * r.a + uv.y * r.b), density, x);
+        const Vec3 d = SphericalRectangle(r.corner - x, r.a, r.b).sample(uv);
+        light.w = glm::normalize(d);
+        light.point = point_on_rectangle(part, x + d);
+    } else {
+        if (angle == 0.0) return at_point(geometry_->point(part.shape, part.primitive, uv), density, x);
+        const auto [a, b, c] = corners(part, x);
+        light.w = sample_spherical_triangle(a, b, c, angle, uv);
+        const Vec3 n = glm::cross(b - a, c - a);
+        const double distance = glm::dot(a, n) / glm::dot(light.w, n);
+        light.point = geometry_->point_on_triangle(part.shape, part.primitive, x + light.w * distance);
+    }
+    light.pdf = density * table_.area(part) / angle;
     light.weight = emitters_->emitted(light.point, -light.w) / light.pdf;
     return light;
+}
+
+SurfacePoint LightSampler::point_on_rectangle(const Part& part, const Vec3& position) const {
+    const Rectangle& r = table_.rectangle(part);
+    const Vec3 d = position - r.corner;
+    const bool in_first = glm::dot(d, r.a) / glm::dot(r.a, r.a) + glm::dot(d, r.b) / glm::dot(r.b, r.b) <= 1.0;
+    return geometry_->point_on_triangle(part.shape, part.primitive + (in_first ? 0 : 1), position);
 }
 
 LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) const {
@@ -83,7 +103,7 @@ LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) 
     const Vec2 left(std::min((u - below) / share, 0x1.fffffffffffffp-1), uv.y);
     if (table_.is_distant(chosen)) return on_distant(table_.distant(chosen), share / all, x, left);
     const Part& part = table_.parts()[chosen];
-    return on_part(part, share / all / geometry_->area(part.shape, part.primitive), x, left);
+    return on_part(part, share / all / table_.area(part), x, left);
 }
 
 double LightSampler::pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const {
@@ -93,8 +113,8 @@ double LightSampler::pdf_in_general(const Vec3& x, const Vec3& w, const SurfaceP
         return probability_of_distant(0, x) * emitters_->environment_pdf(w);
     }
     if (density_of_shape_[y.shape] == 0.0) return 0.0;
-    const Part part{y.shape, y.primitive};
-    const double area = geometry_->area(part.shape, part.primitive);
+    const Part part = table_.part_at(y);
+    const double area = table_.area(part);
     const double probability =
         by_contribution ? contribution(part, x) / contributions(x).back() : density_of_shape_[y.shape] * area;
     if (!(probability > 0.0)) return 0.0;
@@ -115,28 +135,35 @@ std::array<Vec3, 3> LightSampler::corners(const Part& part, const Vec3& x) const
     return {mesh.vertices[t[0]] - x, mesh.vertices[t[1]] - x, mesh.vertices[t[2]] - x};
 }
 
-// Small ones are as good as flat, and what is left of their angles' sum over π has few digits.
+// Of a part of a mesh; 0 from behind.
+double LightSampler::solid_angle_from_front(const Part& part, const Vec3& x) const {
+    if (part.is_rectangle()) {
+        const Rectangle& r = table_.rectangle(part);
+        return glm::dot(r.corner - x, glm::cross(r.a, r.b)) < 0.0 ? SphericalRectangle(r.corner - x, r.a, r.b).solid_angle() : 0.0;
+    }
+    const auto [a, b, c] = corners(part, x);
+    return glm::dot(a, glm::cross(b - a, c - a)) < 0.0 ? solid_angle(a, b, c) : 0.0;
+}
+
+// Small ones are as good as flat, and what is left of their angles' sum over multiples of π has few digits.
 double LightSampler::sampled_solid_angle(const Part& part, const Vec3& x) const {
     constexpr double smallest = 1e-4;
     if (!std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape])) return 0.0;
-    const auto [a, b, c] = corners(part, x);
-    if (glm::dot(a, glm::cross(b - a, c - a)) >= 0.0) return 0.0;  // from behind
-    const double angle = solid_angle(a, b, c);
+    const double angle = solid_angle_from_front(part, x);
     return angle > smallest ? angle : 0.0;
 }
 
 // An estimate for round shapes, positive wherever they may be seen.
 double LightSampler::contribution(const Part& part, const Vec3& x) const {
-    const double area = geometry_->area(part.shape, part.primitive),
-                 radiance = emitters_->powers()[part.shape] / geometry_->area(part.shape);
+    const double radiance = emitters_->powers()[part.shape] / geometry_->area(part.shape);
     return std::visit(
         [&](const auto& shape) {
             if constexpr (std::is_same_v<decltype(shape), const TriangleMesh&>) {
-                const auto [a, b, c] = corners(part, x);
-                return glm::dot(a, glm::cross(b - a, c - a)) < 0.0 ? radiance * solid_angle(a, b, c) : 0.0;
+                return radiance * solid_angle_from_front(part, x);
             } else {
                 const Vec3 d = center_of(shape) - x;
-                return radiance * area / (glm::dot(d, d) + area * inv_pi);
+                const double whole = table_.area(part);
+                return radiance * whole / (glm::dot(d, d) + whole * inv_pi);
             }
         },
         geometry_->shapes()[part.shape]);

@@ -73,11 +73,12 @@ private:
     }
 
     LightSample on_part(const Part& part, double density, const Vec3& x, const Vec2& uv) const {
-        if (place_ == LightPlace::solid_angle)
-            if (const double angle = sampled_solid_angle(part, x); angle > 0.0)
-                return in_solid_angle(part, density * geometry_->area(part.shape, part.primitive), angle, x, uv);
+        if (place_ == LightPlace::solid_angle) return on_part_as_seen(part, density, x, uv);
+        return at_point(geometry_->point(part.shape, part.primitive, uv), density, x);
+    }
+    LightSample at_point(const SurfacePoint& point, double density, const Vec3& x) const {
         LightSample light;
-        light.point = geometry_->point(part.shape, part.primitive, uv);
+        light.point = point;
         const Vec3 d = light.point.position - x;
         const double distance2 = glm::dot(d, d);
         light.w = d * (1.0 / std::sqrt(distance2));
@@ -95,10 +96,12 @@ private:
         return on_part(part, density_of_shape_[part.shape], x, left);
     }
     LightSample on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const;
-    LightSample in_solid_angle(const Part& part, double probability, double angle, const Vec3& x, const Vec2& uv) const;
+    LightSample on_part_as_seen(const Part& part, double density, const Vec3& x, const Vec2& uv) const;
+    SurfacePoint point_on_rectangle(const Part& part, const Vec3& position) const;
     LightSample sample_by_contribution(const Vec3& x, const Vec2& uv) const;
     double pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const;
 
+    double solid_angle_from_front(const Part& part, const Vec3& x) const;
     // The solid angle of a part whose directions are sampled, or 0 where its points are.
     double sampled_solid_angle(const Part& part, const Vec3& x) const;
     double contribution(const Part& part, const Vec3& x) const;

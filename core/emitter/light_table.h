@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/emitter/emitters.h"
+#include "core/geometry/rectangle.h"
 
 #include <algorithm>
 #include <span>
@@ -11,8 +12,11 @@ namespace neumann {
 
 class LightTable {
 public:
+    // A primitive, or two triangles that are a rectangle, from `primitive` on.
     struct Part {
-        std::uint32_t shape, primitive;
+        static constexpr std::uint32_t no_rectangle = 0xffffffffu;
+        std::uint32_t shape, primitive, rectangle = no_rectangle;
+        bool is_rectangle() const { return rectangle != no_rectangle; }
     };
     // A light's parts.
     struct Range {
@@ -24,8 +28,10 @@ public:
         double probability, left;
     };
 
-    // `share`: the probability of each of Emitters::powers(). None can be drawn where all are 0.
-    LightTable(const Geometry& geometry, const Emitters& emitters, const std::vector<double>& share);
+    enum class Rectangles { as_triangles, whole };
+
+    // `share`: the probability of each of Emitters::powers(). None can be drawn where all are 0. Refers to the geometry.
+    LightTable(const Geometry& geometry, const Emitters& emitters, const std::vector<double>& share, Rectangles rectangles);
 
     bool empty() const { return cumulative_.empty(); }
     std::size_t size() const { return cumulative_.size(); }
@@ -36,6 +42,11 @@ public:
     // Lights of a share above 0.
     std::span<const Range> lights() const { return lights_; }
     double probability(std::size_t index) const { return cumulative_[index] - (index == 0 ? 0.0 : cumulative_[index - 1]); }
+
+    // Of a surface that shines.
+    Part part_at(const SurfacePoint& y) const;
+    double area(const Part& part) const;
+    const Rectangle& rectangle(const Part& part) const { return rectangles_[part.rectangle]; }
 
     Choice choose(double u) const { return choose(u, 0, cumulative_.size()); }
     // One part of a light, in proportion; the probability is that of all.
@@ -53,9 +64,12 @@ private:
         return {static_cast<std::size_t>(found - begin), share, std::clamp((u - below) / share, 0.0, 0x1.fffffffffffffp-1)};
     }
 
+    const Geometry* geometry_;
     std::vector<Part> parts_;
     std::vector<Range> lights_;
     std::vector<double> cumulative_;  // of the probabilities of parts_, then of the distant lights of Emitters
+    std::vector<Rectangle> rectangles_;
+    std::vector<std::vector<Part>> rectangular_;  // by shape and primitive, of shapes with rectangles
 };
 
 }  // namespace neumann
