@@ -66,17 +66,18 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
     render
         ->add_option(
             "--method", request.method,
-            "walk: one walk for all bounces; surface: the same by points on all surfaces; classic: the same by mirrors and glass "
+            "walk: one walk for all bounces; guided: the same with directions drawn by the fields of a matrix solution; surface: "
+            "the same by points on all surfaces; classic: the same by mirrors and glass "
             "alone, some of all paths; pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; "
             "gather: the same with K once more at the pixel; patches: the patches as they are")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "surface", "classic", "pointwise", "matrix", "gather", "patches"}).description(""))
+        ->check(CLI::IsMember({"walk", "guided", "surface", "classic", "pointwise", "matrix", "gather", "patches"}).description(""))
         ->capture_default_str();
     neumann::add_light_options(*render, request.light);
-    render->add_option("--patches", request.patches, "Patches of patches, matrix and gather; about as many")
+    render->add_option("--patches", request.patches, "Patches of guided, patches, matrix and gather; about as many")
         ->type_name("N")
         ->check(neumann::whole_from(0, std::uint64_t{1} << 40));
-    render->add_option("--directions", request.directions, "Rays of a patch, of patches, matrix and gather")
+    render->add_option("--directions", request.directions, "Rays of a patch, of guided, patches, matrix and gather")
         ->type_name("N")
         ->check(neumann::whole_from(1, 1u << 20));
     render

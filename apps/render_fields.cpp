@@ -34,7 +34,7 @@ FieldSettings choose_settings(const RenderJob& job) {
     const RenderRequest& request = job.request;
     check_light_options(request.light, request.method);
     if (request.seconds)
-        throw InputError("--time belongs to --method walk, surface, classic and pointwise; " + request.method +
+        throw InputError("--time belongs to --method walk, guided, surface, classic and pointwise; " + request.method +
                          " takes --error, or --spp, --patches and --directions");
     FieldSettings settings;
     settings.method = field_method(request.method);

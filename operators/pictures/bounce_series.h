@@ -19,6 +19,7 @@ struct BounceSeries {
     std::uint64_t samples = 0;  // a pixel
     std::uint64_t rays = 0;
     double seconds = 0.0;
+    std::optional<double> setup_seconds = {};  // before them, where a method has a set-up of its own
     double degrees_of_freedom = 0.0;
 };
 

@@ -34,13 +34,15 @@ struct Tally {
     std::vector<NonFiniteSample> non_finite;  // the first ones in order of pixel and sample
 };
 
-// How the terms are sampled: by the walk, with the continuation of the material, of surfaces, or of mirrors alone; or one by one.
-enum class Method { walk, surface, classic, pointwise };
+// How the terms are sampled: by the walk, with the continuation of the material, of tables, of surfaces, or of mirrors alone; or
+// one by one.
+enum class Method { walk, guided, surface, classic, pointwise };
 
 class PictureSampler {
 public:
     struct Settings {
         Method method = Method::walk;
+        std::shared_ptr<const DirectionTables> tables = {};  // of `guided`
         WalkSettings walk;
         SamplerKind sampler = SamplerKind::sobol;
         std::uint64_t seed = 0;

@@ -12,15 +12,6 @@ protected:
         options.insert(options.end(), {"-n", std::to_string(N), "--quiet"});
         render("scene.xml", output, options);
     }
-    void expect_refused(const std::vector<std::string>& options, const std::string& message) const {
-        write("scene.xml", plates());
-        std::vector<std::string> arguments{"render", "scene.xml", "-o", "refused", "--quiet"};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        const Finished done = run(arguments);
-        EXPECT_EQ(done.exit_code, 2);
-        EXPECT_EQ(done.err, message + "\n");
-        EXPECT_FALSE(std::filesystem::exists(path("refused")));
-    }
 };
 
 TEST_F(RenderFields, WriteTheFilesOfAnyRender) {
@@ -91,16 +82,18 @@ TEST_F(RenderFields, AClosedRoomOfAlbedoOneHasNoRest) {
 }
 
 TEST_F(RenderFields, Refusals) {
-    expect_refused({"--method", "matrix", "--time", "3"},
-                   "--time belongs to --method walk, surface, classic and pointwise; matrix takes --error, or --spp, --patches and "
-                   "--directions");
+    expect_refused(
+        {"--method", "matrix", "--time", "3"},
+        "--time belongs to --method walk, guided, surface, classic and pointwise; matrix takes --error, or --spp, --patches and "
+        "--directions");
     expect_refused({"--method", "gather", "--direct", "light"},
                    "--direct, --lights and --roulette belong to --method walk, not to gather");
     expect_refused({"--method", "pointwise", "--lights", "all"},
                    "--direct, --lights and --roulette belong to --method walk, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
                    "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
-    expect_refused({"--patches", "100"}, "--patches and --directions belong to --method patches, matrix and gather, not to walk");
+    expect_refused({"--patches", "100"},
+                   "--patches and --directions belong to --method guided, patches, matrix and gather, not to walk");
     expect_refused(
         {"--method", "matrix", "--error", "0.1", "--spp", "4"},
         "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");

@@ -117,6 +117,17 @@ protected:
         return done;
     }
 
+    // Of the plates: nothing is written.
+    void expect_refused(const std::vector<std::string>& options, const std::string& message) const {
+        write("scene.xml", plates());
+        std::vector<std::string> arguments{"render", "scene.xml", "-o", "refused", "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Finished done = run(arguments);
+        EXPECT_EQ(done.exit_code, 2);
+        EXPECT_EQ(done.err, message + "\n");
+        EXPECT_FALSE(std::filesystem::exists(path("refused")));
+    }
+
     nlohmann::json run_json(const std::string& output) const { return nlohmann::json::parse(text_of(path(output) / "run.json")); }
     Estimate picture(const std::string& output, const std::string& name) const { return read_exr((path(output) / name).string()); }
     static std::string numbered(const std::string& name, int i) { return fmt::format("{}_{:03}.exr", name, i); }
