@@ -26,7 +26,7 @@ struct RenderResult {
     std::optional<Ways> ways;
 };
 
-RenderResult render_by_walk(const RenderJob& job);    // walk, surface, classic and pointwise
+RenderResult render_by_walk(const RenderJob& job);    // walk, guided, surface, classic and pointwise
 RenderResult render_by_fields(const RenderJob& job);  // patches, matrix and gather
 inline bool is_field_method(const std::string& method) { return method == "patches" || method == "matrix" || method == "gather"; }
 // By request.method.

@@ -1,4 +1,4 @@
-// Renders by sampling: walk, surface, classic and pointwise.
+// Renders by sampling: walk, guided, surface, classic and pointwise.
 #include "apps/render_method.h"
 
 #include "apps/interrupt.h"
@@ -6,6 +6,8 @@
 #include "apps/progress_line.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/base/stopwatch.h"
+#include "operators/guide/direction_tables.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -21,6 +23,8 @@ using Json = nlohmann::ordered_json;
 
 // Without any goal: a good picture, or what a short wait gives.
 constexpr double default_seconds = 20.0, default_error = 0.02;
+// Left to sampling where the set-up has taken all of the time, seconds.
+constexpr double shortest_sampling = 1e-3;
 
 // Samples a pixel in one replicate: as many as still give several replicates.
 std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const Pilot& pilot, const Split& split) {
@@ -45,10 +49,23 @@ void check_memory(const Film& film, int bounces) {
 }
 
 Method method_of(const std::string& name) {
-    static const std::map<std::string, Method> methods = {{"walk", Method::walk},       {"surface", Method::surface},
-                                                          {"light", Method::light},     {"bidirectional", Method::bidirectional},
-                                                          {"classic", Method::classic}, {"pointwise", Method::pointwise}};
+    static const std::map<std::string, Method> methods = {
+        {"walk", Method::walk},   {"guided", Method::guided},   {"surface", Method::surface},    {"light", Method::light},
+        {"bidirectional", Method::bidirectional}, {"classic", Method::classic}, {"pointwise", Method::pointwise}};
     return methods.at(name);
+}
+
+std::shared_ptr<const DirectionTables> direction_tables(const RenderJob& job, int bounces) {
+    const RenderRequest& request = job.request;
+    GuideSettings settings{.bounces = bounces, .seed = request.seed};
+    if (request.patches) settings.patches = *request.patches;
+    if (request.directions) {
+        settings.rays = *request.directions;
+        if (!std::has_single_bit(settings.rays) || settings.rays < CellDistribution::cells)
+            throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
+                                         CellDistribution::cells));
+    }
+    return std::make_shared<const DirectionTables>(job.scene, settings);
 }
 
 RestVerdict rest_verdict(const RenderJob& job) {
@@ -76,9 +93,9 @@ BounceSeries bounce_series(const RenderedSeries& series, SeriesReport report) {
 
 RenderResult render_by_walk(const RenderJob& job) {
     const auto& [request, scene, pilot] = job;
-    if (request.patches || request.directions)
-        throw InputError(
-            fmt::format("--patches and --directions belong to --method patches, matrix and gather, not to {}", request.method));
+    if (request.method != "guided" && (request.patches || request.directions))
+        throw InputError(fmt::format("--patches and --directions belong to --method guided, patches, matrix and gather, not to {}",
+                                     request.method));
     check_light_options(request.light, request.method);
     if (request.ways && request.method != "bidirectional")
         throw InputError("--ways belongs to --method bidirectional, not to " + request.method);
@@ -104,6 +121,14 @@ RenderResult render_by_walk(const RenderJob& job) {
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
     if (!goal.samples && !goal.seconds && !goal.relative_error) goal = {std::nullopt, default_seconds, default_error};
+    double setup_seconds = 0.0;
+    if (settings.method == Method::guided) {
+        const Stopwatch watch;
+        settings.tables = direction_tables(job, settings.walk.bounces);
+        setup_seconds = watch.seconds();
+        // Of the time that was asked for.
+        if (goal.seconds) goal.seconds = std::max(*goal.seconds - setup_seconds, shortest_sampling);
+    }
     settings.replicate_size = choose_replicate_size(goal, scene.film, pilot, settings.walk.split);
 
     RenderedSeries series{SeriesMoments(0, 0, 0), Tally(0), {}};
@@ -190,6 +215,13 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (request.ways) result.options["ways"] = *request.ways;
     if (request.method == "walk" || request.method == "bidirectional") result.options.update(as_json(request.light));
     if (request.method == "light") result.options["roulette"] = request.light.roulette.empty() ? "none" : request.light.roulette;
+    if (settings.tables) {
+        result.options.update({{"patches", settings.tables->settings().patches}, {"directions", settings.tables->settings().rays}});
+        result.series.setup_seconds = setup_seconds;
+        result.series.seconds += setup_seconds;
+        result.series.rays += settings.tables->rays();
+        for (Checkpoint& checkpoint : result.series.convergence) checkpoint.seconds += setup_seconds;
+    }
     result.options.update({{"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"}, {"seed", settings.seed}});
     result.samples = {
         {"per_pixel", series.samples}, {"replicate_size", series.replicate_size}, {"replicates", series.moments.replicates()}};

@@ -105,7 +105,8 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     json["samples"] = result.samples;
     json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;
     json["samples"]["outcome"] = name(series.outcome);
-    json["timing"] = {{"sampling_seconds", series.seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
+    json["timing"] = {{"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
+    if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
     json["sum"] = mean_json(report.sum, report.infinite_variance());
     add_discretisation(json["sum"], report.sum_discretisation);
     json["bounces"] = Json::array();

@@ -1,48 +1,25 @@
 #include "operators/matrix/ray_table.h"
 
 #include "core/base/hot.h"
-#include "core/sampling/sobol_sampler.h"
+#include "operators/matrix/facet_rays.h"
 
 #include <oneapi/tbb/parallel_for.h>
-#include <array>
 #include <map>
 
 namespace neumann {
 
 namespace {
 
-struct Departure {
-    SurfacePoint x;
-    Vec3 w;
-    std::uint32_t slot;  // in the facet's row
-};
-
 // Fills the row of one facet.
 NEUMANN_HOT void trace_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
                              std::uint32_t* row) {
-    const Facet& facet = space.facets()[number];
-    const std::uint32_t rays = sobol.size(), each = rays / facet.cells.size();
-    SobolSampler sampler(sobol, seed, number);
-    constexpr std::uint32_t packet = RayCaster::packet_size;
-    std::array<Departure, packet> from;
-    std::array<SurfacePoint, packet> hit;
-    std::vector<std::uint32_t> filled(facet.cells.size());
-    for (std::uint32_t begin = 0; begin < rays; begin += packet) {
-        const std::uint32_t n = std::min(packet, rays - begin);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            sampler.start(begin + i);
-            const Vec2 u = sampler.next2();
-            from[i].x = space.patches().point(facet.patch, sampler.next2());
-            from[i].w = PatchSpace::frame(facet, from[i].x).to_world(cosine_hemisphere(u));
-            const std::uint32_t cell = facet.cells.cell_of_square(u);
-            from[i].slot = cell * each + filled[cell]++;
-        }
-        const std::uint32_t found = space.geometry().first_hits(
-            n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(from[i].x, from[i].w); },
-            [&](std::size_t i) -> SurfacePoint& { return hit[i]; });
-        for (std::uint32_t i = 0; i < n; ++i)
-            row[from[i].slot] = found >> i & 1u ? space.unknown(hit[i], -from[i].w) : space.nothing();
-    }
+    const DirectionCells cells = space.facets()[number].cells;
+    const std::uint32_t each = sobol.size() / cells.size();
+    std::vector<std::uint32_t> filled(cells.size());
+    for_rays_of_facet(space, sobol, seed, number, [&](const Vec2& u, std::uint32_t unknown) {
+        const std::uint32_t cell = cells.cell_of_square(u);
+        row[cell * each + filled[cell]++] = unknown;
+    });
 }
 
 }  // namespace

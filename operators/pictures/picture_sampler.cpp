@@ -121,6 +121,8 @@ TermEstimator make_estimator(const Scene& scene, const PictureSampler::Settings&
             return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
         case Method::classic:
             return WalkEstimator(scene, settings.walk, SpecularContinuation());
+        case Method::guided:
+            return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
         default:
             return WalkEstimator(scene, settings.walk, MaterialContinuation());
     }

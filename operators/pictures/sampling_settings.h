@@ -6,12 +6,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace neumann {
 
+class DirectionTables;
+
 enum class Method {
     walk,           // from the camera, by directions of the material
+    guided,         // the same by directions from which light comes, as tables tell
     surface,        // by points on all surfaces
     light,          // from the lights
     bidirectional,  // from both ends
@@ -23,6 +27,7 @@ inline bool splats(Method method) { return method == Method::light || method == 
 
 struct SamplingSettings {
     Method method = Method::walk;
+    std::shared_ptr<const DirectionTables> tables = {};  // of `guided`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;

@@ -5,6 +5,7 @@
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
 #include "operators/series/neumann_series.h"
+#include "operators/walk/guided_continuation.h"
 #include "operators/walk/walk.h"
 
 #include <memory>
@@ -70,6 +71,6 @@ private:
 };
 
 using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>,
-                                   WalkEstimator<SpecularContinuation>, PointwiseEstimator>;
+                                   WalkEstimator<SpecularContinuation>, WalkEstimator<GuidedContinuation>, PointwiseEstimator>;
 
 }  // namespace neumann

@@ -1,11 +1,11 @@
 // How a walk goes on: the direction of its next reflection, and with which density it draws it. Each is a class with
 //
-//     BsdfSample sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / pdf, and its pdf; pdf 0 ends the
-//     walk double pdf(side, wo, wi, y)            the density, per solid angle, with which sample() draws wi and the walk then
-//     finds y:
-//                                            multiple importance sampling weighs lights by it
-//     joins_points                           sample() has one argument more, into which it writes the next vertex, and T is asked
-//                                            whether that is seen; otherwise T looks for it along wi
+//     at(side, wanted)            what is below, for a vertex; `wanted`: bounces after this one that the walk is for, 0 where none
+//     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / pdf, and its pdf; pdf 0 ends the walk
+//     pdf(side, wo, wi, y)        the density, per solid angle, with which sample() draws wi and the walk then finds y: multiple
+//                                 importance sampling weighs lights by it
+//     joins_points                sample() has one argument more, into which it writes the next vertex, and T is asked whether
+//                                 that is seen; otherwise T looks for it along wi
 //
 // The pdf of a mirror is delta_pdf: light that is found by it counts in full.
 #pragma once
@@ -18,6 +18,7 @@ namespace neumann {
 // By the material.
 struct MaterialContinuation {
     static constexpr bool joins_points = false;
+    const MaterialContinuation& at(const SurfaceSide&, int) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {
@@ -33,6 +34,7 @@ struct MaterialContinuation {
 class SurfaceContinuation {
 public:
     static constexpr bool joins_points = true;
+    const SurfaceContinuation& at(const SurfaceSide&, int) const { return *this; }
 
     explicit SurfaceContinuation(const Geometry& geometry) : surfaces_(geometry) {}
 
@@ -62,6 +64,7 @@ private:
 // small.
 struct SpecularContinuation {
     static constexpr bool joins_points = false;
+    const SpecularContinuation& at(const SurfaceSide&, int) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {

@@ -117,11 +117,11 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         }
         alive.resize(kept);
     };
-    const auto draw_direction = [&](const SurfaceSide& side, const Vec3& wo, std::uint32_t i) {
+    const auto draw_direction = [&](const auto& way, const SurfaceSide& side, const Vec3& wo, std::uint32_t i) {
         if constexpr (Continuation::joins_points)
-            return continuation.sample(side, wo, samplers[i], next[i]);
+            return way.sample(side, wo, samplers[i], next[i]);
         else
-            return continuation.sample(side, wo, samplers[i]);
+            return way.sample(side, wo, samplers[i]);
     };
     double share = 1.0;  // of a walk, among those that go on from its first vertex
     const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x * share; };
@@ -129,12 +129,13 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     double directions_per_question = 1.0;
 
     // R of the last reflection: a question for light.
-    const auto ask = [&](Walker& w, std::uint32_t i, const SurfaceSide& side, const Vec3& wo, std::size_t question) {
+    const auto ask = [&](const auto& way, Walker& w, std::uint32_t i, const SurfaceSide& side, const Vec3& wo,
+                         std::size_t question) {
         w.found = Rgb(0.0);
         const LightQuestion q = direct.ask(side, samplers[i], question);
         if (!(q.pdf > 0.0)) return;
         const Vec3 wi = side.p.frame.to_local(q.w);
-        const double pdf_other = direct.is_weighted() ? continuation.pdf(side, wo, wi, q.point) * directions_per_question : 0.0;
+        const double pdf_other = direct.is_weighted() ? way.pdf(side, wo, wi, q.point) * directions_per_question : 0.0;
         w.found = w.beta * eval(*side.bsdf, side.p, wo, wi) * q.weight *
                   (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_other) * directions_per_question);
         w.light = q.point;
@@ -195,6 +196,8 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         for (int bounce = 1; !alive.empty(); ++bounce) {
             const bool rest = bounce > N;
             const std::size_t q = static_cast<std::size_t>(std::min(bounce, N + 1));
+            // Bounces after this one that the walk is for.
+            const int wanted = bounce < N ? N - bounce : settings.rest_probability > 0.0 ? settings.give_up : 0;
             if (rest) {
                 if (settings.rest_probability == 0.0) break;
                 if (bounce - N > settings.give_up) {
@@ -220,7 +223,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 filter([&](Walker& w, std::uint32_t i) {
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
                     if (!side.bsdf) return false;
-                    ask(w, i, side, side.p.frame.to_local(w.wo), question % direct.questions());
+                    ask(continuation.at(side, wanted), w, i, side, side.p.frame.to_local(w.wo), question % direct.questions());
                     return true;
                 });
                 look(q, bounce == 1);
@@ -233,8 +236,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 const Frame& frame = side.p.frame;
                 const Vec3 wo = frame.to_local(w.wo);
                 w.found = Rgb(0.0);
-                if (questions > 0) ask(w, i, side, wo, 0);
-                const BsdfSample sampled = draw_direction(side, wo, i);
+                const auto& way = continuation.at(side, wanted);
+                if (questions > 0) ask(way, w, i, side, wo, 0);
+                const BsdfSample sampled = draw_direction(way, side, wo, i);
                 w.beta *= sampled.weight;
                 w.reflected = max_component(sampled.weight);
                 w.pdf = sampled.pdf;

@@ -90,7 +90,8 @@ TEST_F(RenderFields, Refusals) {
                    "--direct, --lights, --roulette and --split belong to --method walk, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
                    "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
-    expect_refused({"--patches", "100"}, "--patches and --directions belong to --method patches, matrix and gather, not to walk");
+    expect_refused({"--patches", "100"},
+                   "--patches and --directions belong to --method guided, patches, matrix and gather, not to walk");
     expect_refused(
         {"--method", "matrix", "--error", "0.1", "--spp", "4"},
         "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");

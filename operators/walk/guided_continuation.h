@@ -1,0 +1,64 @@
+// Directions of diffuse surfaces drawn where indirect light comes from (direction_tables.h); all others, and those from which no
+// bounce is wanted but the light that light sampling finds, by the material. Unbiased given tables that do not depend on the walks.
+#pragma once
+
+#include "operators/guide/direction_tables.h"
+#include "operators/walk/continuation.h"
+
+#include <memory>
+#include <variant>
+
+namespace neumann {
+
+class GuidedContinuation {
+public:
+    static constexpr bool joins_points = false;
+
+    explicit GuidedContinuation(std::shared_ptr<const DirectionTables> tables) : tables_(std::move(tables)) {}
+
+    // One point of a walk. With a table fs |cosθ| / pdf is ρ over the table's density.
+    class Vertex {
+    public:
+        Vertex() = default;
+        Vertex(const CellDistribution* table, const Frame& shading) : table_(table) {
+            // With texture coordinates the frame has other tangents than that of the table.
+            const Frame frame(shading.n);
+            if (frame.s == shading.s && frame.t == shading.t) return;
+            s_ = {glm::dot(frame.s, shading.s), glm::dot(frame.s, shading.t)};
+            t_ = {glm::dot(frame.t, shading.s), glm::dot(frame.t, shading.t)};
+        }
+
+        template <class Sampler>
+        BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {
+            const Vec2 u = sampler.next2();
+            if (!table_) return neumann::sample(*side.bsdf, side.p, wo, u);
+            const CellDistribution::Place place = table_->sample(u);
+            BsdfSample sampled = neumann::sample(*side.bsdf, side.p, wo, place.u);
+            const Vec3 w = sampled.wi;
+            sampled.wi = Vec3(s_ * w.x + t_ * w.y, w.z);
+            sampled.weight *= place.inverse_density;
+            sampled.pdf /= place.inverse_density;
+            return sampled;
+        }
+        double pdf(const SurfaceSide& side, const Vec3& wo, const Vec3& wi, const SurfacePoint&) const {
+            const double pdf = neumann::pdf(*side.bsdf, side.p, wo, wi);
+            if (!table_ || pdf == 0.0) return pdf;
+            const Vec2 w(wi);
+            return pdf * table_->density(CellDistribution::grid.cell(Vec3(glm::dot(s_, w), glm::dot(t_, w), wi.z)));
+        }
+
+    private:
+        const CellDistribution* table_ = nullptr;
+        Vec2 s_{1.0, 0.0}, t_{0.0, 1.0};  // the table's tangents, in the frame of the surface's
+    };
+
+    Vertex at(const SurfaceSide& side, int wanted) const {
+        if (wanted == 0 || !std::holds_alternative<Diffuse>(*side.bsdf)) return {};
+        return {tables_->at(side.p, side.p.frame.n, wanted), side.p.frame};
+    }
+
+private:
+    std::shared_ptr<const DirectionTables> tables_;
+};
+
+}  // namespace neumann
