@@ -11,7 +11,8 @@ class SphericalRectangle {
 public:
     SphericalRectangle(const Vec3& corner, const Vec3& a, const Vec3& b);
 
-    // 0 where it is seen edge-on; absolute error about 10⁻¹⁵.
+    // 0 where it is seen edge-on. Absolute error about 10⁻¹⁵, or 10⁻¹⁶ over the distance to its plane where that is small: as much
+    // as the rounding of the corner makes.
     double solid_angle() const { return solid_angle_; }
     // A point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() > 0.
     Vec3 sample(const Vec2& u) const;
