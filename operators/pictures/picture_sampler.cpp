@@ -122,6 +122,7 @@ TermEstimator make_estimator(const Scene& scene, const PictureSampler::Settings&
         case Method::classic:
             return WalkEstimator(scene, settings.walk, SpecularContinuation());
         case Method::guided:
+            if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
             return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
         default:
             return WalkEstimator(scene, settings.walk, MaterialContinuation());

@@ -1,6 +1,6 @@
 // How a walk goes on: the direction of its next reflection, and with which density it draws it. Each is a class with
 //
-//     at(side, wanted)            what is below, for a vertex; `wanted`: bounces after this one that the walk is for, 0 where none
+//     at(side, wanted)            what is below, for a vertex; `wanted`: bounces after this one that have pictures
 //     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / pdf, and its pdf; pdf 0 ends the walk
 //     pdf(side, wo, wi, y)        the density, per solid angle, with which sample() draws wi and the walk then finds y: multiple
 //                                 importance sampling weighs lights by it

@@ -1,5 +1,6 @@
-// Directions of diffuse surfaces drawn where indirect light comes from (direction_tables.h); all others, and those from which no
-// bounce is wanted but the light that light sampling finds, by the material. Unbiased given tables that do not depend on the walks.
+// Directions of diffuse surfaces drawn where indirect light comes from (direction_tables.h); all others by the material, and those
+// of the last picture and of the rest, whose roulette would end walks for going where light comes from. Unbiased given tables that
+// do not depend on the walks.
 #pragma once
 
 #include "operators/guide/direction_tables.h"

@@ -196,8 +196,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         for (int bounce = 1; !alive.empty(); ++bounce) {
             const bool rest = bounce > N;
             const std::size_t q = static_cast<std::size_t>(std::min(bounce, N + 1));
-            // Bounces after this one that the walk is for.
-            const int wanted = bounce < N ? N - bounce : settings.rest_probability > 0.0 ? settings.give_up : 0;
+            const int wanted = std::max(N - bounce, 0);
             if (rest) {
                 if (settings.rest_probability == 0.0) break;
                 if (bounce - N > settings.give_up) {
