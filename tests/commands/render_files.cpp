@@ -120,6 +120,7 @@ TEST_F(RenderFiles, FourBounces) {
                                                  {"direct", "mis"},
                                                  {"lights", "mixed"},
                                                  {"roulette", "none"},
+                                                 {"split", "1,1"},
                                                  {"sampler", "sobol"},
                                                  {"seed", 5}}));
     EXPECT_EQ(run.at("samples").at("per_pixel"), 48);

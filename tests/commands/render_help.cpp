@@ -30,10 +30,10 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help),
-              (std::set<std::string>{"-h,--help",   "-o",       "-n",       "--tail",     "--spp",     "--time",    "--error",
-                                     "--method",    "--direct", "--lights", "--roulette", "--split", "--ways", "--sampler", "--patches", "--directions",
-                                     "--reference", "--seed",   "-t",       "-D",         "--quiet",   "--json"}));
+    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o",        "-n",        "--tail",       "--spp",       "--time",
+                                                    "--error",   "--method",  "--direct",  "--lights",     "--roulette",  "--split",
+                                                    "--ways",    "--sampler", "--patches", "--directions", "--reference", "--seed",
+                                                    "-t",        "-D",        "--quiet",   "--json"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
     // Nothing of how it is written.
