@@ -122,6 +122,7 @@ int study_command(const StudyRequest& given) {
     if (!reference) reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces);
     if (!reference) return nothing_done();
     data.reference = std::move(*reference);
+    for (const Estimate& picture : data.reference.pictures) PictureErrors check(picture);
     if (request.resume) {
         if (journal.plan.at("reference") != data.reference.identity)
             throw InputError("--resume: the reference is another one than that of the study that was cut off");
@@ -132,7 +133,6 @@ int study_command(const StudyRequest& given) {
         plan["reference"] = data.reference.identity;
         journal.begin(study, plan);
     }
-    for (const Estimate& picture : data.reference.pictures) PictureErrors check(picture);
 
     run_all(data, journal);
     data.points = judge(data, journal);

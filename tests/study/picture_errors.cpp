@@ -84,7 +84,8 @@ TEST(PictureErrors, Refused) {
 }
 
 // MSE = bias² + variance, and each of them, over 400 studies with known truth: 12 comparisons by z, false alarm 8e-5. The 95%
-// intervals of bias² hold the truth in at least 92% (4 sigma below 95% would be 90.6%), and not in all.
+// intervals of bias² hold the truth in 93.5% (R = 8, the bias as large as the noise) to 98.5% (no bias), by 6000 trials of a
+// separate program; 88% is 4.5 binomial standard deviations below the former.
 TEST(PictureErrors, MeansAndIntervals) {
     constexpr int studies = 400;
     for (const Made& made : {Made{0.0, 0.3, 0.0, 8}, Made{0.1, 0.3, 0.0, 8}, Made{0.0, 0.3, 0.2, 8}, Made{0.1, 0.3, 0.2, 16}}) {
@@ -113,7 +114,7 @@ TEST(PictureErrors, MeansAndIntervals) {
         EXPECT_LE(std::abs(z(bias, made.bias * made.bias)), 4.5) << made.bias << " " << made.reference_noise;
         EXPECT_LE(std::abs(z(mse, made.noise * made.noise + made.bias * made.bias)), 4.5)
             << made.bias << " " << made.reference_noise;
-        EXPECT_GE(held, 0.92 * studies) << made.bias << " " << made.reference_noise;
+        EXPECT_GE(held, 0.88 * studies) << made.bias << " " << made.reference_noise;
         // Nor are they far too wide: one standard error holds it in 68%, and in up to 85% where ζ₁ is taken as 0.
         EXPECT_LE(standard, 0.92 * studies) << made.bias << " " << made.reference_noise;
     }
