@@ -33,7 +33,7 @@ TEST_F(RenderGuided, SameSeedSameBitsOnAnyThreads) {
 
 TEST_F(RenderGuided, Refusals) {
     expect_refused({"--method", "guided", "--direct", "light"},
-                   "--direct, --lights and --roulette belong to --method walk, not to guided");
+                   "--direct, --lights, --roulette and --split belong to --method walk, not to guided");
     for (const char* directions : {"48", "32"})
         expect_refused({"--method", "guided", "--directions", directions},
                        std::string("--directions ") + directions + ": --method guided expects a power of two, at least 64");
@@ -42,7 +42,8 @@ TEST_F(RenderGuided, Refusals) {
 
 TEST_F(RenderGuided, RefusesGlass) {
     write("glass.xml",
-          "<scene version='3.0.0'><shape type='sphere'><emitter type='area'><rgb name='radiance' value='1'/></emitter></shape>\n"
+          "<scene version='3.0.0'><sensor type='perspective'/><shape type='sphere'><emitter type='area'><rgb name='radiance' "
+          "value='1'/></emitter></shape>\n"
           "<shape type='sphere'><float name='radius' value='5'/><bsdf type='dielectric'/></shape></scene>");
     const Finished done = run({"render", "glass.xml", "-o", "refused", "--quiet", "--method", "guided", "-n", "2"});
     EXPECT_EQ(done.exit_code, 2);
