@@ -230,7 +230,8 @@ TEST_F(StudyCommand, Refused) {
 
 // Killed or interrupted, and gone on with, it finds what it would have found at once.
 TEST_F(StudyCommand, Resumed) {
-    const Strings options{"--methods", "walk,patches", "--samples", "1024,4096", "--repeats", "6", "-n", "1"};
+    const Strings options{"--methods", "walk,patches:patches=100:directions=64", "--samples", "1024,4096", "--repeats", "6", "-n",
+                          "1"};
     const auto begun = [&] {
         for (int i = 0; i < 3000; ++i) {
             if (text_of(path("a/study.journal")).find("\"run\"") != std::string::npos) return true;
