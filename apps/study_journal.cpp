@@ -68,7 +68,6 @@ void write_at(int file, const char* bytes, std::size_t size, off_t at, const fs:
         at += count;
         size -= static_cast<std::size_t>(count);
     }
-    if (::fdatasync(file) != 0) cannot_be_written(path);
 }
 
 }  // namespace

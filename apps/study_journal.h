@@ -3,7 +3,8 @@
 //     study.journal   a line of JSON each: what is studied and how it was planned, then every run as it ends
 //     study.pictures  the pictures of the runs, one after the other, float32
 //
-// Both are appended to and flushed to the disk, pictures first; a last line that is cut off is not taken.
+// Both are appended to, pictures first; a last line that is cut off is not taken. Neither is forced to the disk, which would take
+// longer than short runs: a program that is killed loses nothing, a machine that fails may.
 #pragma once
 
 #include "apps/study_data.h"

@@ -69,8 +69,7 @@ std::optional<ErrorSlope> error_slope(std::span<const ErrorPoint> points, double
     result.slope = line.slope;
     result.points = logs.size();
     result.standard_error = std::hypot(std::sqrt(line.variance * scatter), line.by_shared_error * shared_error);
-    result.half_width =
-        student_t_quantile(0.95, scatter > 1.0 ? free : std::numeric_limits<double>::infinity()) * result.standard_error;
+    result.half_width = student_t_quantile(0.95, std::numeric_limits<double>::infinity()) * result.standard_error;
     return result;
 }
 

@@ -3,7 +3,8 @@
 // Every point has y = ½ log MSE, and by propagation σ_y = σ_MSE / (2 MSE); the scatter of the work enters as slope · σ_x (York,
 // Least-squares fitting of a straight line, 1966). With w = 1/σ² the slope is Σ c_i y_i, c_i = w_i (x_i − x̄) / Σ w (x − x̄)², its
 // variance Σ c² σ². An error that all MSE share, as that of a reference, moves the slope by δ Σ c_i / (2 MSE_i): it is added. Where
-// the points scatter about the line by more than that, the error is widened by √(χ²/(n − 2)) (Birge, 1932), with Student's t.
+// the points scatter about the line by more than that, the error is widened by √(χ²/(n − 2)), as the Particle Data Group does
+// (Birge, The Calculation of Errors by the Method of Least Squares, 1932).
 #pragma once
 
 #include <cstddef>

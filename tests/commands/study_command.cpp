@@ -310,7 +310,7 @@ TEST_F(StudyCommandSlow, SlopesAndBias) {
         EXPECT_EQ(slope.at("points"), 5);
         EXPECT_NEAR(value, -0.5, 0.05) << bounce;
         EXPECT_NEAR(value, -0.5, 4.5 / 1.96 * half_width) << bounce;
-        EXPECT_LE(half_width, 0.1) << bounce;  // by Student's t of three degrees of freedom, where points scatter
+        EXPECT_LE(half_width, 0.05) << bounce;
         for (const char* name : {"walk:sampler=independent", "walk"}) {
             const nlohmann::json points = method(json, bounce, name).at("points");
             for (const nlohmann::json& p : points) {

@@ -89,18 +89,19 @@ TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
 }
 
 // The walk and the guided walk, on diffuse surfaces and among mirrors and rough metals, in the same pictures and
-// blocks. About 850 comparisons of a scene, false alarm 0.6%; the error of a picture's mean is at most 0.7% in cornell-box and 2.1%
-// in metal-room, of the small bounces that mirrors send back.
+// blocks. About 850 comparisons of a scene, false alarm 0.6%; the error of a picture's mean is at most 1%, for which the small
+// bounces that mirrors send back in metal-room need eight times the samples.
 class AgreementOfGuidedSlow : public testing::TestWithParam<const char*> {};
 
 TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
     const std::string name = GetParam();
     const Scene scene = read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", std::to_string(resolution)}});
-    const auto walk = render(scene, Method::walk, DirectLight::mis, physics::fixed_seed, 1024);
+    const std::uint64_t samples = name == "metal-room" ? 8192 : 1024;
+    const auto walk = render(scene, Method::walk, DirectLight::mis, physics::fixed_seed, samples);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::light}) {
         const auto guided =
-            render(scene, Method::guided, direct, physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct), 1024);
+            render(scene, Method::guided, direct, physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct), samples);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what =
@@ -111,7 +112,7 @@ TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
     }
     std::printf("largest |z| of %d: %.2f; beyond 2: %.1f%%; largest error of a picture's mean: %.2f%%\n", found.count,
                 found.largest, 100.0 * found.beyond_two / found.count, 100.0 * found.worst_error);
-    EXPECT_LE(found.worst_error, 0.025);
+    EXPECT_LE(found.worst_error, 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementOfGuidedSlow, testing::Values("cornell-box", "metal-room"));
