@@ -113,28 +113,17 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
     constexpr std::size_t packet = RayCaster::packet_size;
     auto& walker = work.walker;
     auto& alive = work.alive;
-    walker.assign(rays.size(), {});
-    alive.resize(rays.size());
-    std::iota(alive.begin(), alive.end(), 0u);
+    walker.clear();
+    begin_together(walker, alive, rays.size());
     const auto count = [&](int bounce) -> std::uint64_t& { return counts[static_cast<std::size_t>(std::min(bounce, N + 1))]; };
-    const auto filter = [&](const auto& f) {
-        std::size_t kept = 0;
-        for (const std::uint32_t i : alive)
-            if (f(walker[i], i)) alive[kept++] = i;
-        alive.resize(kept);
-    };
+    const auto filter = [&](const auto& f) { neumann::filter(walker, alive, f); };
     const auto advance = [&](const auto& first_hits, const auto& f) {
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < alive.size(); k += packet) {
-            const std::size_t n = std::min(packet, alive.size() - k);
-            const std::uint32_t hit = first_hits(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
-            for (std::size_t j = 0; j < n; ++j) {
-                const std::uint32_t i = alive[k + j];
-                if (!(hit >> j & 1u)) walker[i].x.shape = SurfacePoint::infinity;
-                if (f(walker[i], i)) alive[kept++] = i;
-            }
-        }
-        alive.resize(kept);
+        neumann::advance(
+            walker, alive, [](CameraWalker& z) -> SurfacePoint& { return z.x; }, first_hits,
+            [&](CameraWalker& z, std::uint32_t i, bool found) {
+                if (!found) z.x.shape = SurfacePoint::infinity;
+                return f(z, i);
+            });
     };
 
     // T: the first vertices, and (0, 2).

@@ -11,9 +11,9 @@
 #include "operators/bidirectional/adjoint_reflection.h"
 #include "operators/bidirectional/path_weights.h"
 #include "operators/walk/roulette.h"
+#include "operators/walk/together.h"
 
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -58,14 +58,9 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
                                const LightWalkSettings& settings, std::span<Sampler> samplers, LightWalkers& walkers,
                                const Visit& visit, const CountRays& rays) {
     auto& [walker, alive] = walkers;
-    walker.resize(samplers.size());
-    alive.resize(emission.empty() ? 0 : samplers.size());
-    std::iota(alive.begin(), alive.end(), 0u);
+    begin_together(walker, alive, emission.empty() ? 0 : samplers.size());
     const auto filter = [&](const auto& f) {
-        std::size_t kept = 0;
-        for (const std::uint32_t i : alive)
-            if (f(walker[i], samplers[i])) alive[kept++] = i;
-        alive.resize(kept);
+        neumann::filter(walker, alive, [&](LightWalker& w, std::uint32_t i) { return f(w, samplers[i]); });
     };
     filter([&](LightWalker& w, Sampler& sampler) {
         const Vec2 place = sampler.next2();
@@ -97,24 +92,24 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
         }
         // T*: where the power arrives.
         rays(j, alive.size());
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < alive.size(); k += RayCaster::packet_size) {
-            const std::size_t n = std::min(RayCaster::packet_size, alive.size() - k);
-            const std::uint32_t found = T.first_hits(
+        const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
+            return T.first_hits(
                 n,
                 [&](std::size_t i) {
                     const LightWalker& w = walker[alive[k + i]];
                     return std::pair<const SurfacePoint&, const Vec3&>(w.from, w.w);
                 },
-                [&](std::size_t i) -> SurfacePoint& { return walker[alive[k + i]].vertex.x; });
-            for (std::size_t i = 0; i < n; ++i) {
-                if (!(found >> i & 1u)) continue;
-                LightWalker& w = walker[alive[k + i]];
+                hit);
+        };
+        advance(
+            walker, alive, [](LightWalker& w) -> SurfacePoint& { return w.vertex.x; }, next_points,
+            [&](LightWalker& w, std::uint32_t, bool found) {
+                if (!found) return false;
                 LightVertex& v = w.vertex;
                 v.wi = -w.w;
                 const Vec3 d = v.x.position - w.from.position;
                 const double cosine = std::abs(glm::dot(v.x.normal, v.wi)), distance2 = glm::dot(d, d);
-                if (!(cosine > 0.0)) continue;
+                if (!(cosine > 0.0)) return false;
                 if (!settings.weighted) {
                 } else if (j == 1) {
                     const Emission& e = w.emission;
@@ -125,10 +120,8 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
                     v.weights.before = e.is_delta ? 0.0 : counted(h, 1.0 / density);
                 } else
                     v.weights.arrive(h, distance2, cosine);
-                alive[kept++] = alive[k + i];
-            }
-        }
-        alive.resize(kept);
+                return true;
+            });
         visit(j, walkers);
         if (j == settings.vertices && settings.rest_probability == 0.0) return 0;
 

@@ -15,7 +15,7 @@ namespace neumann {
 
 class CellDistribution {
 public:
-    static constexpr std::uint32_t k = 8, cells = k * k;
+    static constexpr std::uint32_t k = 16, cells = k * k;
     static constexpr DirectionCells grid{k};
     using Weights = std::array<double, cells>;
 
@@ -72,8 +72,8 @@ private:
     static Choice choose(const Starts& starts, double u) {
         const double scaled = u * parts;
         const auto whole = static_cast<std::uint32_t>(scaled);
-        std::uint32_t i = 0;
-        for (std::uint32_t j = 1; j < k; ++j) i += whole >= starts[j] ? 1u : 0u;
+        std::uint32_t i = ~0u;  // the first starts at 0
+        for (std::uint32_t j = 0; j < k; ++j) i += whole >= starts[j] ? 1u : 0u;
         const double inverse_width = 1.0 / width(starts, i);
         constexpr double below_one = 1.0 - 0x1p-53;
         return {i, (i + std::min((scaled - starts[i]) * inverse_width, below_one)) * (1.0 / k), inverse_width * (parts / k)};

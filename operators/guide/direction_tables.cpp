@@ -88,7 +88,7 @@ NEUMANN_HOT void look_around(const PatchSpace& space, const SobolPoints& sobol, 
 }  // namespace
 
 DirectionTables::DirectionTables(const Scene& scene, const GuideSettings& settings)
-    : settings_(settings), space_(make_space(scene, settings)) {
+    : settings_(settings), space_(make_space(scene, settings)), raster_(space_) {
     const int terms = std::clamp(settings.bounces - 1, 1, most_terms);
     tables_of_facet_ = static_cast<std::size_t>(std::min(terms, most_tables));
     const auto facets = static_cast<std::uint32_t>(space_.facets().size());

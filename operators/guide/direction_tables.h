@@ -11,6 +11,7 @@
 
 #include "core/scene/scene.h"
 #include "operators/guide/cell_distribution.h"
+#include "operators/guide/facet_raster.h"
 #include "operators/patches/patch_space.h"
 
 #include <algorithm>
@@ -21,9 +22,9 @@ namespace neumann {
 
 struct GuideSettings {
     std::size_t patches = 2000;      // about as many
-    std::uint32_t rays = 1024;       // of a facet, that tell what it sees; a power of two, of at least CellDistribution::cells
+    std::uint32_t rays = 2048;       // of a facet, that tell what it sees; a power of two, of at least CellDistribution::cells
     std::uint32_t field_rays = 64;   // of a facet, for the fields; a power of two
-    double share_of_material = 0.2;  // α, above 0
+    double share_of_material = 0.4;  // α, above 0
     int bounces = 8;                 // N: the last that is wanted
     std::uint64_t seed = 0;          // the tables use other random numbers than walks of the same seed
 };
@@ -31,19 +32,19 @@ struct GuideSettings {
 class DirectionTables {
 public:
     // Tables for 1, 2, … bounces that are still wanted; the last is for more, too.
-    static constexpr int most_tables = 4;
+    static constexpr int most_tables = 2;
 
     // The scene is kept by reference. Throws InputError as PatchSpace and side_directions() do, and where more is asked for than
     // memory holds.
     DirectionTables(const Scene& scene, const GuideSettings& settings);
 
-    // For the side of p on which `normal` is; `wanted` ≥ 1: bounces after the one that is sampled. Directions are in
-    // Frame(normal). Null where nothing is known.
-    const CellDistribution* at(const SurfacePoint& p, const Vec3& normal, int wanted) const {
-        const std::uint32_t facet = space_.facet(space_.patches().locate(p), glm::dot(p.normal, normal) > 0.0);
+    // For the side of p on which `wo` is; `wanted` ≥ 1: bounces after the one that is sampled. Directions are in Frame(normal) of
+    // the normal on that side. Null where nothing is known.
+    const CellDistribution* at(const SurfacePoint& p, const Vec3& wo, int wanted) const {
+        const std::uint32_t facet = raster_.facet(p, glm::dot(p.normal, wo) > 0.0);
         if (facet == space_.facets().size()) return nullptr;
-        return &tables_[facet * tables_of_facet_ + static_cast<std::size_t>(std::min(wanted, static_cast<int>(tables_of_facet_))) -
-                        1];
+        const int table = std::min(wanted, static_cast<int>(tables_of_facet_)) - 1;
+        return &tables_[facet * tables_of_facet_ + static_cast<std::size_t>(table)];
     }
 
     const PatchSpace& space() const { return space_; }
@@ -53,6 +54,7 @@ public:
 private:
     GuideSettings settings_;
     PatchSpace space_;
+    FacetRaster raster_;
     std::size_t tables_of_facet_;
     std::vector<CellDistribution> tables_;
     std::uint64_t rays_ = 0;

@@ -29,7 +29,10 @@ public:
 
     std::size_t size() const { return patches_.size(); }
     double area(std::uint32_t patch) const { return patches_[patch].area; }
-    const Chart& chart(std::uint32_t patch) const { return charts()[patches_[patch].chart]; }
+    const std::vector<Chart>& charts() const { return atlas_.charts(); }
+    std::uint32_t chart_number(std::uint32_t patch) const { return patches_[patch].chart; }
+    const Chart& chart(std::uint32_t patch) const { return charts()[chart_number(patch)]; }
+    std::uint32_t chart_of(const SurfacePoint& p) const { return atlas_.chart_of(p); }
 
     // Where a point is on its chart; the same on coarser patches.
     struct Place {
@@ -37,17 +40,17 @@ public:
         Vec2 st;
         Region region;
     };
-    Place place(const SurfacePoint& p) const {
-        const std::uint32_t chart = atlas_.chart_of(p);
-        const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
-        return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, p.position)};
+    Place place(std::uint32_t chart, const Vec3& position) const {
+        const Vec2 st = charts()[chart].coordinates(*geometry_, position);
+        return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, position)};
     }
+    Place place(const SurfacePoint& p) const { return place(chart_of(p), p.position); }
     std::uint32_t locate(const Place& p) const {
         const std::uint32_t c = cell(p.chart, p.st), first = first_of_cell_[c];
         return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(p.region));
     }
     std::uint32_t locate(const SurfacePoint& p) const {
-        const std::uint32_t chart = atlas_.chart_of(p);
+        const std::uint32_t chart = chart_of(p);
         const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
         const std::uint32_t c = cell(chart, st), first = first_of_cell_[c];
         return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(footprints_[chart].region(st, p.position)));
@@ -117,7 +120,6 @@ private:
         for (std::uint32_t i = 0; i < times_coarser_; ++i) region = coarser(region);
         return region;
     }
-    const std::vector<Chart>& charts() const { return atlas_.charts(); }
 
     const Geometry* geometry_;
     Atlas atlas_;

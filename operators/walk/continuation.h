@@ -1,9 +1,11 @@
 // How a walk goes on: the direction of its next reflection, and with which density it draws it. Each is a class with
 //
-//     at(side, wanted)            what is below, for a vertex; `wanted`: bounces after this one that have pictures
-//     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / pdf, and its pdf; pdf 0 ends the walk
-//     pdf(side, wo, wi, y)        the density, per solid angle, with which sample() draws wi and the walk then finds y: multiple
-//                                 importance sampling weighs lights by it
+//     Place                       what place(x, wo, wanted) finds out about a vertex; asked of all walks before any reflection, so
+//                                 that nothing waits for memory; `wanted`: bounces after this one that have pictures
+//     at(side, place)             what is below, for a vertex
+//     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / density, and its pdf; pdf 0 ends the walk
+//     pdf(side, wo, wi, y)        the same pdf, by which multiple importance sampling weighs lights: the density, per solid angle,
+//                                 with which sample() draws wi and the walk then finds y, or one that stands for it
 //     joins_points                sample() has one argument more, into which it writes the next vertex, and T is asked whether
 //                                 that is seen; otherwise T looks for it along wi
 //
@@ -15,10 +17,14 @@
 
 namespace neumann {
 
+// Of continuations that are the same everywhere.
+struct Nowhere {};
+
 // By the material.
 struct MaterialContinuation {
     static constexpr bool joins_points = false;
-    const MaterialContinuation& at(const SurfaceSide&, int) const { return *this; }
+    using Place = Nowhere;
+    const MaterialContinuation& at(const SurfaceSide&, Place) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {
@@ -34,7 +40,8 @@ struct MaterialContinuation {
 class SurfaceContinuation {
 public:
     static constexpr bool joins_points = true;
-    const SurfaceContinuation& at(const SurfaceSide&, int) const { return *this; }
+    using Place = Nowhere;
+    const SurfaceContinuation& at(const SurfaceSide&, Place) const { return *this; }
 
     explicit SurfaceContinuation(const Geometry& geometry) : surfaces_(geometry) {}
 
@@ -64,7 +71,8 @@ private:
 // small.
 struct SpecularContinuation {
     static constexpr bool joins_points = false;
-    const SpecularContinuation& at(const SurfaceSide&, int) const { return *this; }
+    using Place = Nowhere;
+    const SpecularContinuation& at(const SurfaceSide&, Place) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {

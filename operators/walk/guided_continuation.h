@@ -38,14 +38,12 @@ public:
             const Vec3 w = sampled.wi;
             sampled.wi = Vec3(s_ * w.x + t_ * w.y, w.z);
             sampled.weight *= place.inverse_density;
-            sampled.pdf /= place.inverse_density;
             return sampled;
         }
+        // For the weights of lights alone, which may be any that add up to 1: the material's, as sample() says too. It is at most
+        // 1/α times the true one, and takes no table.
         double pdf(const SurfaceSide& side, const Vec3& wo, const Vec3& wi, const SurfacePoint&) const {
-            const double pdf = neumann::pdf(*side.bsdf, side.p, wo, wi);
-            if (!table_ || pdf == 0.0) return pdf;
-            const Vec2 w(wi);
-            return pdf * table_->density(CellDistribution::grid.cell(Vec3(glm::dot(s_, w), glm::dot(t_, w), wi.z)));
+            return neumann::pdf(*side.bsdf, side.p, wo, wi);
         }
 
     private:
@@ -53,9 +51,13 @@ public:
         Vec2 s_{1.0, 0.0}, t_{0.0, 1.0};  // the table's tangents, in the frame of the surface's
     };
 
-    Vertex at(const SurfaceSide& side, int wanted) const {
-        if (wanted == 0 || !std::holds_alternative<Diffuse>(*side.bsdf)) return {};
-        return {tables_->at(side.p, side.p.frame.n, wanted), side.p.frame};
+    using Place = const CellDistribution*;
+    Place place(const SurfacePoint& x, const Vec3& wo, int wanted) const {
+        const CellDistribution* t= wanted == 0 ? nullptr : tables_->at(x, wo, wanted); return t;
+    }
+    Vertex at(const SurfaceSide& side, Place table) const {
+        if (!table || !std::holds_alternative<Diffuse>(*side.bsdf)) return {};
+        return {table, side.p.frame};
     }
 
 private:

@@ -15,11 +15,12 @@
 #include "operators/walk/continuation.h"
 #include "operators/walk/direct_light.h"
 #include "operators/walk/roulette.h"
+#include "operators/walk/together.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace neumann {
@@ -75,9 +76,8 @@ struct Walkers {
     std::vector<std::uint32_t> first_alive;
 };
 
-// Samples all terms along some camera rays. The walks advance together, one reflection at a time: R for all, then T for all, so
-// that the processor always has several independent chains of arithmetic to work on. `T` answers first_hits() and visible() as
-// Geometry does; samplers[i] gives the numbers of walk i.
+// Samples all terms along some camera rays. `T` answers first_hits() and visible() as Geometry does; samplers[i] gives the numbers
+// of walk i.
 template <class Transport, class Sampler, class Continuation = MaterialContinuation>
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
                       std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
@@ -87,35 +87,29 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     const Emitters& emitters = scene.emitters;
 
     auto& [walker, alive, asking, next, first, first_alive] = walkers;
-    walker.resize(rays.size());
-    alive.resize(rays.size());
+    begin_together(walker, alive, rays.size());
     if constexpr (Continuation::joins_points) next.resize(rays.size());
-    std::iota(alive.begin(), alive.end(), 0u);
-    // For each walk that goes on: goes on with those of which f is true.
-    const auto filter = [&](const auto& f) {
-        std::size_t kept = 0;
-        for (const std::uint32_t i : alive)
-            if (f(walker[i], i)) alive[kept++] = i;
-        alive.resize(kept);
-    };
-    // The same after asking T for the next points of as many walks at once as make a packet. Those that hit nothing end infinitely
-    // far away, if there is `something_there`.
-    constexpr std::size_t packet = RayCaster::packet_size;
+    const auto filter = [&](const auto& f) { neumann::filter(walker, alive, f); };
+    // Those that hit nothing end infinitely far away, if there is `something_there`.
     const auto advance = [&](const auto& first_hits, bool something_there, const auto& f) {
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < alive.size(); k += packet) {
-            const std::size_t n = std::min(packet, alive.size() - k);
-            const std::uint32_t found = first_hits(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
-            for (std::size_t j = 0; j < n; ++j) {
-                const std::uint32_t i = alive[k + j];
-                if (!(found >> j & 1u)) {
-                    if (!something_there) continue;
-                    walker[i].x.shape = SurfacePoint::infinity;
+        neumann::advance(
+            walker, alive, [](Walker& w) -> SurfacePoint& { return w.x; }, first_hits,
+            [&](Walker& w, std::uint32_t i, bool found) {
+                if (!found) {
+                    if (!something_there) return false;
+                    w.x.shape = SurfacePoint::infinity;
                 }
-                if (f(walker[i], i)) alive[kept++] = i;
-            }
-        }
-        alive.resize(kept);
+                return f(w, i);
+            });
+    };
+    constexpr std::size_t packet = RayCaster::packet_size;
+    constexpr bool has_places = !std::is_empty_v<typename Continuation::Place>;
+    std::vector<typename Continuation::Place> place(has_places ? rays.size() : 0);
+    const auto place_of = [&](std::uint32_t i) {
+        if constexpr (has_places)
+            return place[i];
+        else
+            return typename Continuation::Place{};
     };
     const auto draw_direction = [&](const auto& way, const SurfaceSide& side, const Vec3& wo, std::uint32_t i) {
         if constexpr (Continuation::joins_points)
@@ -212,6 +206,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                     });
             }
 
+            if constexpr (has_places)
+                for (const std::uint32_t i : alive) place[i] = continuation.place(walker[i].x, walker[i].wo, wanted);
+
             std::size_t questions = direct.questions();
             directions_per_question = 1.0;
             if (bounce == 1) {
@@ -222,7 +219,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 filter([&](Walker& w, std::uint32_t i) {
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
                     if (!side.bsdf) return false;
-                    ask(continuation.at(side, wanted), w, i, side, side.p.frame.to_local(w.wo), question % direct.questions());
+                    ask(continuation.at(side, place_of(i)), w, i, side, side.p.frame.to_local(w.wo), question % direct.questions());
                     return true;
                 });
                 look(q, bounce == 1);
@@ -235,7 +232,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 const Frame& frame = side.p.frame;
                 const Vec3 wo = frame.to_local(w.wo);
                 w.found = Rgb(0.0);
-                const auto& way = continuation.at(side, wanted);
+                const auto& way = continuation.at(side, place_of(i));
                 if (questions > 0) ask(way, w, i, side, wo, 0);
                 const BsdfSample sampled = draw_direction(way, side, wo, i);
                 w.beta *= sampled.weight;
