@@ -98,7 +98,6 @@ void add_light_options(CLI::App& command, LightOptions& options) {
 
 void check_light_options(const LightOptions& options, const std::string& method) {
     if (method == "bidirectional") {
-        if (!options.split.empty()) throw InputError("--split belongs to --method walk, not to bidirectional");
         if (!options.direct.empty() && strategies().at(options.direct).direct != DirectLight::mis)
             throw InputError(
                 fmt::format("--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or "
@@ -110,7 +109,7 @@ void check_light_options(const LightOptions& options, const std::string& method)
     }
     if (method == "light" && options.direct.empty() && options.lights.empty() && options.split.empty()) return;
     if (options.given() && method != "walk")
-        throw InputError("--direct, --lights, --roulette and --split belong to --method walk, not to " + method);
+        throw InputError("--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to " + method);
 }
 
 Roulette roulette(const LightOptions& options) { return options.roulette.empty() ? Roulette{} : *ending(options.roulette); }

@@ -8,6 +8,7 @@
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "operators/guide/direction_tables.h"
+#include "operators/walk/furnace_walk.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -49,9 +50,13 @@ void check_memory(const Film& film, int bounces) {
 }
 
 Method method_of(const std::string& name) {
-    static const std::map<std::string, Method> methods = {
-        {"walk", Method::walk},   {"guided", Method::guided},   {"surface", Method::surface},    {"light", Method::light},
-        {"bidirectional", Method::bidirectional}, {"classic", Method::classic}, {"pointwise", Method::pointwise}};
+    static const std::map<std::string, Method> methods = {{"walk", Method::walk},
+                                                          {"guided", Method::guided},
+                                                          {"surface", Method::surface},
+                                                          {"light", Method::light},
+                                                          {"bidirectional", Method::bidirectional},
+                                                          {"classic", Method::classic},
+                                                          {"pointwise", Method::pointwise}};
     return methods.at(name);
 }
 
@@ -66,6 +71,17 @@ std::shared_ptr<const DirectionTables> direction_tables(const RenderJob& job, in
                                          CellDistribution::cells));
     }
     return std::make_shared<const DirectionTables>(job.scene, settings);
+}
+
+// How walks end, at the scene's largest albedo and at albedos near 1; what is infinite is printed as null.
+Json as_json(const Roulette& roulette, double largest_albedo, int bounces) {
+    Json furnaces = Json::array();
+    for (const double albedo : {largest_albedo, 0.9, 0.99, 0.999}) {
+        const FurnaceWalk walk = furnace_walk(roulette, albedo, bounces);
+        furnaces.push_back(
+            {{"albedo", albedo}, {"expected_vertices", walk.vertices}, {"second_moment_of_sum", walk.second_moment}});
+    }
+    return furnaces;
 }
 
 RestVerdict rest_verdict(const RenderJob& job) {
@@ -225,6 +241,8 @@ RenderResult render_by_walk(const RenderJob& job) {
     result.options.update({{"sampler", settings.sampler == SamplerKind::sobol ? "sobol" : "independent"}, {"seed", settings.seed}});
     result.samples = {
         {"per_pixel", series.samples}, {"replicate_size", series.replicate_size}, {"replicates", series.moments.replicates()}};
+    if (settings.method == Method::walk)
+        result.samples["walks_in_a_furnace"] = as_json(settings.walk.roulette, albedo, settings.walk.bounces);
     if (verdict == RestVerdict::measured)
         result.rest = {{"probability_of_being_sampled", settings.walk.rest_probability}, {"walks_given_up", series.tally.given_up}};
     if (verdict == RestVerdict::not_converging)

@@ -10,6 +10,7 @@
 
 #include "operators/bidirectional/film_splats.h"
 #include "operators/bidirectional/joining_edges.h"
+#include "operators/walk/walk.h"
 
 namespace neumann {
 
@@ -19,6 +20,9 @@ struct BidirectionalSettings {
     LightPlace place = LightPlace::area;
     Heuristic heuristic = Heuristic::power;
     Roulette roulette = {};  // of both halves
+    // Of the camera's half. The weights stay those of one question and one walk: they add up to 1 however often each way is
+    // averaged.
+    Split split = {};
     // Camera samples a pixel go with as many paths from the light, which all pixels share: so many see each vertex.
     double pixels = 1.0;
     double rest_probability = 0.0;  // beyond, of the ways (0, t) and (1, t) alone
@@ -32,6 +36,8 @@ struct BidirectionalWork {
     std::vector<double> camera_weights;  // of these
     std::vector<CameraWalker> walker;
     std::vector<std::uint32_t> alive;
+    std::vector<CameraWalker> first;  // where several walks go on from each first vertex: these, and which of them go on
+    std::vector<std::uint32_t> first_alive;
     struct Edge {
         std::uint32_t walker;
         JoiningEdge edge;
@@ -138,103 +144,125 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                 return density > 0.0;
             });
 
-    for (int bounce = 1; !alive.empty(); ++bounce) {
-        const bool rest = bounce > N;
-        if (rest) {
-            if (settings_.rest_probability == 0.0) return 0;
-            if (bounce - N > settings_.give_up) return alive.size();
-            if (bounce == N + 1)
-                filter([&](CameraWalker& z, std::uint32_t i) {
-                    if (settings_.rest_probability < 1.0 && samplers[i].next() >= settings_.rest_probability) return false;
-                    z.beta /= settings_.rest_probability;
-                    z.kept_weight = max_component(z.beta);
-                    return true;
-                });
+    if (settings_.split.walks > 1) {
+        work.first = walker;
+        work.first_alive = alive;
+    }
+    std::uint64_t given_up = 0;
+    const double share = 1.0 / settings_.split.walks;
+    for (int copy = 0; copy < settings_.split.walks; ++copy) {
+        if (copy > 0) {
+            walker = work.first;
+            alive = work.first_alive;
         }
+        for (int bounce = 1; !alive.empty(); ++bounce) {
+            const bool rest = bounce > N;
+            if (rest) {
+                if (settings_.rest_probability == 0.0) break;
+                if (bounce - N > settings_.give_up) {
+                    given_up += alive.size();
+                    break;
+                }
+                if (bounce == N + 1)
+                    filter([&](CameraWalker& z, std::uint32_t i) {
+                        if (settings_.rest_probability < 1.0 && samplers[i].next() >= settings_.rest_probability) return false;
+                        z.beta /= settings_.rest_probability;
+                        z.kept_weight = max_component(z.beta);
+                        return true;
+                    });
+            }
 
-        // R: the edges to the light's half, and a direction for the next vertex.
-        work.edges.clear();
-        filter([&](CameraWalker& z, std::uint32_t i) {
-            const SurfaceSide side = scene_->materials.side(z.x, z.wo);
-            if (!side.bsdf) return false;
-            const auto take = [&](const JoiningEdge& edge) {
-                if (!is_black(edge.found.value)) work.edges.push_back({i, edge});
-            };
-            if (!lights_.empty()) take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, samplers[i].next2()));
-            const std::vector<LightVertex>& light_path = work.light_path[i];
-            for (int s = 2; s <= N - bounce + 1 && s - 2 < static_cast<int>(light_path.size()); ++s)
-                take(edge_to_vertex(*scene_, h, z, side, light_path[static_cast<std::size_t>(s - 2)], bounce, s));
-            return true;
-        });
-        for (std::size_t k = 0; k < work.edges.size(); k += packet) {
-            const std::size_t n = std::min(packet, work.edges.size() - k);
-            const std::uint32_t visible = T.visible(
-                n,
-                [&](std::size_t j) {
+            // R: the edges to the light's half, and a direction for the next vertex.
+            const bool splits = bounce == 1;
+            const int questions = lights_.empty() ? 0 : !splits ? 1 : copy == 0 ? settings_.split.lights : 0;
+            work.edges.clear();
+            filter([&](CameraWalker& z, std::uint32_t i) {
+                const SurfaceSide side = scene_->materials.side(z.x, z.wo);
+                if (!side.bsdf) return false;
+                const auto take = [&](JoiningEdge edge, double part) {
+                    edge.found.value *= part;
+                    if (!is_black(edge.found.value)) work.edges.push_back({i, edge});
+                };
+                for (int question = 0; question < questions; ++question)
+                    take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, samplers[i].next2()),
+                         splits ? 1.0 / questions : share);
+                if (splits && copy > 0) return true;
+                const std::vector<LightVertex>& light_path = work.light_path[i];
+                for (int s = 2; s <= N - bounce + 1 && s - 2 < static_cast<int>(light_path.size()); ++s)
+                    take(edge_to_vertex(*scene_, h, z, side, light_path[static_cast<std::size_t>(s - 2)], bounce, s),
+                         splits ? 1.0 : share);
+                return true;
+            });
+            for (std::size_t k = 0; k < work.edges.size(); k += packet) {
+                const std::size_t n = std::min(packet, work.edges.size() - k);
+                const std::uint32_t visible = T.visible(
+                    n,
+                    [&](std::size_t j) {
+                        const auto& [i, edge] = work.edges[k + j];
+                        return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[i].x, edge.y);
+                    },
+                    RayCaster::Rays::any);
+                for (std::size_t j = 0; j < n; ++j) {
                     const auto& [i, edge] = work.edges[k + j];
-                    return std::pair<const SurfacePoint&, const SurfacePoint&>(walker[i].x, edge.y);
-                },
-                RayCaster::Rays::any);
-            for (std::size_t j = 0; j < n; ++j) {
-                const auto& [i, edge] = work.edges[k + j];
-                ++count(edge.found.bounce);
-                if (visible >> j & 1u) found(i, edge.found);
-            }
-        }
-        filter([&](CameraWalker& z, std::uint32_t i) {
-            const SurfaceSide side = scene_->materials.side(z.x, z.wo);
-            const Frame& frame = side.p.frame;
-            const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(z.wo), samplers[i].next2());
-            z.beta *= sampled.weight;
-            if (sampled.pdf == 0.0 || is_black(z.beta)) return false;
-            if (rest || settings_.roulette.kind != Roulette::Kind::none) {
-                const double survival =
-                    settings_.roulette.probability(rest, max_component(sampled.weight), max_component(z.beta), z.kept_weight);
-                if (survival < 1.0 && samplers[i].next() >= survival) return false;
-                z.beta /= survival;
-                z.kept_weight = max_component(z.beta);
-            }
-            z.wi = frame.to_world(sampled.wi);
-            z.from = z.x.position;
-            z.pdf = sampled.pdf;
-            const double cosine = std::abs(glm::dot(z.x.normal, z.wi));
-            if (sampled.pdf == delta_pdf) {
-                z.weights.leave_by_the_only_direction(h, cosine);
-            } else {
-                z.weights.leave(h, cosine, sampled.pdf, light_pdf(scene_->materials, z.x, z.wi, z.wo));
-            }
-            return true;
-        });
-
-        // T: the next vertices, and (0, t).
-        count(bounce) += alive.size();
-        const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
-            return T.first_hits(
-                n,
-                [&](std::size_t j) {
-                    const CameraWalker& z = walker[alive[k + j]];
-                    return std::pair<const SurfacePoint&, const Vec3&>(z.x, z.wi);
-                },
-                hit);
-        };
-        advance(next_points, [&](CameraWalker& z, std::uint32_t i) {
-            z.wo = -z.wi;
-            if (emitters.is_emitter(z.x.shape)) {
-                const Rgb emitted = emitters.emitted(z.x, z.wo);
-                if (!is_black(emitted)) {
-                    double others = counted(h, lights_.pdf(z.from, z.wi, z.x)) * z.weights.last;
-                    if (!rest) others += counted(h, emission_.density(z.x, z.wi)) * z.weights.before;
-                    found(i, Found{bounce, 0, z.beta * emitted, 1.0 / (1.0 + others)});
+                    ++count(edge.found.bounce);
+                    if (visible >> j & 1u) found(i, edge.found);
                 }
             }
-            if (z.x.is_infinite()) return false;
-            const Vec3 d = z.x.position - z.from;
-            const double cosine = std::abs(glm::dot(z.x.normal, z.wi));
-            z.weights.arrive(h, glm::dot(d, d), cosine);
-            return cosine > 0.0;
-        });
+            filter([&](CameraWalker& z, std::uint32_t i) {
+                const SurfaceSide side = scene_->materials.side(z.x, z.wo);
+                const Frame& frame = side.p.frame;
+                const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(z.wo), samplers[i].next2());
+                z.beta *= sampled.weight;
+                if (sampled.pdf == 0.0 || is_black(z.beta)) return false;
+                if (rest || settings_.roulette.kind != Roulette::Kind::none) {
+                    const double survival =
+                        settings_.roulette.probability(rest, max_component(sampled.weight), max_component(z.beta), z.kept_weight);
+                    if (survival < 1.0 && samplers[i].next() >= survival) return false;
+                    z.beta /= survival;
+                    z.kept_weight = max_component(z.beta);
+                }
+                z.wi = frame.to_world(sampled.wi);
+                z.from = z.x.position;
+                z.pdf = sampled.pdf;
+                const double cosine = std::abs(glm::dot(z.x.normal, z.wi));
+                if (sampled.pdf == delta_pdf) {
+                    z.weights.leave_by_the_only_direction(h, cosine);
+                } else {
+                    z.weights.leave(h, cosine, sampled.pdf, light_pdf(scene_->materials, z.x, z.wi, z.wo));
+                }
+                return true;
+            });
+
+            // T: the next vertices, and (0, t).
+            count(bounce) += alive.size();
+            const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
+                return T.first_hits(
+                    n,
+                    [&](std::size_t j) {
+                        const CameraWalker& z = walker[alive[k + j]];
+                        return std::pair<const SurfacePoint&, const Vec3&>(z.x, z.wi);
+                    },
+                    hit);
+            };
+            advance(next_points, [&](CameraWalker& z, std::uint32_t i) {
+                z.wo = -z.wi;
+                if (emitters.is_emitter(z.x.shape)) {
+                    const Rgb emitted = emitters.emitted(z.x, z.wo);
+                    if (!is_black(emitted)) {
+                        double others = counted(h, lights_.pdf(z.from, z.wi, z.x)) * z.weights.last;
+                        if (!rest) others += counted(h, emission_.density(z.x, z.wi)) * z.weights.before;
+                        found(i, Found{bounce, 0, z.beta * emitted * share, 1.0 / (1.0 + others)});
+                    }
+                }
+                if (z.x.is_infinite()) return false;
+                const Vec3 d = z.x.position - z.from;
+                const double cosine = std::abs(glm::dot(z.x.normal, z.wi));
+                z.weights.arrive(h, glm::dot(d, d), cosine);
+                return cosine > 0.0;
+            });
+        }
     }
-    return 0;
+    return given_up;
 }
 
 }  // namespace neumann

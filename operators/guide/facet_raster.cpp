@@ -42,7 +42,8 @@ FacetRaster::FacetRaster(const PatchSpace& space) : space_(&space) {
         grid.first = sides_.size();
         for (std::uint32_t row = 0; row < grid.rows; ++row)
             for (std::uint32_t column = 0; column < grid.columns; ++column) {
-                const Vec3 middle = grid.corner + x * ((column + 0.5) / grid.columns * size.x) + y * ((row + 0.5) / grid.rows * size.y);
+                const Vec3 middle =
+                    grid.corner + x * ((column + 0.5) / grid.columns * size.x) + y * ((row + 0.5) / grid.rows * size.y);
                 const std::uint32_t patch = patches.locate(patches.place(number, middle));
                 sides_.push_back({space.facet(patch, true), space.facet(patch, false)});
             }

@@ -37,7 +37,7 @@ private:
     }
 
     const PatchSpace* space_;
-    std::vector<Grid> grids_;                           // of each chart
+    std::vector<Grid> grids_;                          // of each chart
     std::vector<std::array<std::uint32_t, 2>> sides_;  // of each cell: facets of the front and of the back
 };
 

@@ -29,6 +29,7 @@ BidirectionalSettings bidirectional_settings(const Scene& scene, const SamplingS
     result.place = settings.walk.direct.place;
     result.heuristic = settings.walk.direct.heuristic;
     result.roulette = settings.walk.roulette;
+    result.split = settings.walk.split;
     result.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
     result.rest_probability = settings.walk.rest_probability;
     result.give_up = settings.walk.give_up;

@@ -53,7 +53,8 @@ public:
 
     using Place = const CellDistribution*;
     Place place(const SurfacePoint& x, const Vec3& wo, int wanted) const {
-        const CellDistribution* t= wanted == 0 ? nullptr : tables_->at(x, wo, wanted); return t;
+        const CellDistribution* t = wanted == 0 ? nullptr : tables_->at(x, wo, wanted);
+        return t;
     }
     Vertex at(const SurfaceSide& side, Place table) const {
         if (!table || !std::holds_alternative<Diffuse>(*side.bsdf)) return {};

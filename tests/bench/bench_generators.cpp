@@ -76,9 +76,7 @@ int main(int argc, char** argv) {
         for (Generator& g : generators) {
             Tally tally(g.sampler->quantities());
             std::optional<MomentsNode> node;
-            g.fastest = std::min(g.fastest, seconds_of([&] {
-                                     node = g.sampler->run(r, 1, tally, {}, std::move(g.memory));
-                                 }));
+            g.fastest = std::min(g.fastest, seconds_of([&] { node = g.sampler->run(r, 1, tally, {}, std::move(g.memory)); }));
             g.rays = std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0});
             g.memory = g.moments->add(std::move(*node));
         }
@@ -93,7 +91,8 @@ int main(int argc, char** argv) {
         fmt::print("{:<14} {:>12.2f} {:>8.2f} {:>14.2f} {:>12.3f} {:>10.2f}\n", g.name, rate(g) / 1e6, rate(g) / fastest,
                    static_cast<double>(g.rays) / samples, 1e6 * g.fastest / samples, g.setup);
 
-    fmt::print("\nefficiency over walk, of {:.0f} s with set-up (and variance over walk's at equal samples)\n\n{:<14}", seconds, "");
+    fmt::print("\nefficiency over walk, of {:.0f} s with set-up (and variance over walk's at equal samples)\n\n{:<14}", seconds,
+               "");
     for (int i = 1; i <= bounces; ++i) fmt::print(" {:>15}", fmt::format("bounce {}", i));
     fmt::print("\n");
     const auto walk_result = generators.front().moments->result();

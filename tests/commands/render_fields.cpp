@@ -85,9 +85,9 @@ TEST_F(RenderFields, Refusals) {
     expect_refused({"--method", "matrix", "--time", "3"},
                    "--time belongs to the methods that make paths; matrix takes --error, or --spp, --patches and --directions");
     expect_refused({"--method", "gather", "--direct", "light"},
-                   "--direct, --lights, --roulette and --split belong to --method walk, not to gather");
+                   "--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to gather");
     expect_refused({"--method", "pointwise", "--lights", "all"},
-                   "--direct, --lights, --roulette and --split belong to --method walk, not to pointwise");
+                   "--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
                    "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
     expect_refused({"--patches", "100"},

@@ -33,10 +33,10 @@ TEST_F(RenderGuided, SameSeedSameBitsOnAnyThreads) {
 
 TEST_F(RenderGuided, Refusals) {
     expect_refused({"--method", "guided", "--direct", "light"},
-                   "--direct, --lights, --roulette and --split belong to --method walk, not to guided");
+                   "--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to guided");
     for (const char* directions : {"48", "32"})
         expect_refused({"--method", "guided", "--directions", directions},
-                       std::string("--directions ") + directions + ": --method guided expects a power of two, at least 64");
+                       std::string("--directions ") + directions + ": --method guided expects a power of two, at least 256");
     expect_refused({"--method", "guided", "--patches", "0"}, "0 patches: at least one is needed");
 }
 
@@ -57,7 +57,7 @@ TEST_F(RenderGuided, MorePatchesThanMemoryHoldsAreRefused) {
     const Finished done =
         run({"render", "scene.xml", "-o", "refused", "--quiet", "--method", "guided", "--patches", "1000000000000"});
     EXPECT_EQ(done.exit_code, 2);
-    EXPECT_NE(done.err.find("1000000000000 patches of 1024 rays need about "), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find("1000000000000 patches of 2048 rays need about "), std::string::npos) << done.err;
 }
 
 }  // namespace

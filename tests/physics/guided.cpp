@@ -24,7 +24,8 @@ std::shared_ptr<const DirectionTables> tables(const Scene& scene, std::size_t pa
 
 CellDistribution::Weights lopsided_weights() {
     CellDistribution::Weights weights;
-    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = 0.2 + 1.6 * static_cast<double>(i * 29 % weights.size()) / (CellDistribution::cells - 1.0);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = 0.2 + 1.6 * static_cast<double>(i * 29 % weights.size()) / (CellDistribution::cells - 1.0);
     return weights;
 }
 

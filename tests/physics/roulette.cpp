@@ -1,4 +1,5 @@
 // In a furnace of albedo ρ a walk that goes on with probability q scores (ρ/q)^k at its k-th reflection, with probability q^k.
+#include "operators/walk/furnace_walk.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -36,6 +37,38 @@ double variance_of_sum(double rho, double q) {
 TEST(Roulette, TheFormulaGivesTheKnownVariances) {
     EXPECT_NEAR(variance_of_sum(0.9, 0.9), 90.0, 1e-6);
     EXPECT_NEAR(variance_of_sum(0.9, 0.95), 28.93, 0.005);
+}
+
+TEST(FurnaceWalk, HasTheKnownLengthsAndSecondMoments) {
+    for (const double rho : {0.3, 0.9, 0.99})
+        for (const double q : {0.985, 0.995, rho}) {
+            const Roulette roulette{q == rho ? Roulette::Kind::albedo : Roulette::Kind::fixed, q};
+            const FurnaceWalk walk = furnace_walk(roulette, rho, 8);
+            EXPECT_NEAR(walk.vertices * (1.0 - q), 1.0, 1e-12);
+            const double expected = variance_of_sum(rho, q) + 1.0 / ((1.0 - rho) * (1.0 - rho));
+            EXPECT_NEAR(walk.second_moment / expected, 1.0, 1e-9) << rho << " " << q;
+        }
+    EXPECT_TRUE(std::isinf(furnace_walk({Roulette::Kind::fixed, 0.8}, 0.9, 8).second_moment));
+    EXPECT_TRUE(std::isinf(furnace_walk({Roulette::Kind::albedo}, 1.0, 8).vertices));
+    EXPECT_EQ(furnace_walk({Roulette::Kind::albedo}, 0.0, 8).second_moment, 1.0);
+    EXPECT_EQ(furnace_walk({}, 0.0, 8).second_moment, 1.0);
+}
+
+// E[S²] where the first N vertices are certain: Σ_m P(m further ones) (Σ_{k≤N} ρ^k + ρ^N m)².
+TEST(FurnaceWalk, WithoutRouletteBeforeTheLastPicture) {
+    for (const double rho : {0.5, 0.9})
+        for (const int N : {0, 1, 8}) {
+            double sum = 0.0, second = 0.0, length = 0.0;
+            for (int k = 0; k <= N; ++k) sum += std::pow(rho, k);
+            for (int m = 0; m < 2000; ++m) {
+                const double probability = std::pow(rho, m) * (1.0 - rho), score = sum + std::pow(rho, N) * m;
+                second += probability * score * score;
+                length += probability * (N + 1 + m);
+            }
+            const FurnaceWalk walk = furnace_walk({}, rho, N);
+            EXPECT_NEAR(walk.second_moment / second, 1.0, 1e-12);
+            EXPECT_NEAR(walk.vertices / length, 1.0, 1e-12);
+        }
 }
 
 // Terms, their variances and the length of walks, 1 / (1 − q) vertices: 2 × 19 comparisons.

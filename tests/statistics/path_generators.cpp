@@ -92,6 +92,30 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
     EXPECT_GE(compared, 20);
 }
 
+// Trees in place of paths: light asked for 3 times and 2 walks from each first vertex.
+// As above, 20 comparisons: false alarm below 0.04%.
+TEST(PathGeneratorsSlow, BidirectionalTreesAgree) {
+    int compared = 0;
+    for (const Case& c : cases) {
+        const Scene scene = scene_of(c);
+        SamplingSettings settings{.method = Method::bidirectional,
+                                  .walk = {.bounces = bounces, .rest_probability = 0.0},
+                                  .seed = physics::fixed_seed};
+        const Result paths = render(scene, settings, 128);
+        settings.walk.split = {3, 2};
+        settings.seed = physics::fixed_seed + 1;
+        const Result trees = render(scene, settings, 128);
+        for (std::size_t i = 1; i <= bounces; ++i) {
+            if (paths.infinite(i) || trees.infinite(i)) continue;
+            ++compared;
+            EXPECT_LE(std::abs(z(trees.moments.mean_of_term(i), paths.moments.mean_of_term(i))), limit)
+                << c.light << ", " << c.camera << ", " << c.things << ", bounce " << i;
+        }
+        EXPECT_GT(trees.tally.rays[2], paths.tally.rays[2]);
+    }
+    EXPECT_GE(compared, 15);
+}
+
 // The scenes that are there to compare methods, each by every method that makes all of its paths: means of whole pictures of 64
 // replicates. At most 7 scenes × 3 methods × 5 bounces, 105 comparisons at |z| ≤ 4.5 with 63 degrees of freedom: false alarm below
 // 0.3%. Where the samples show an infinite variance there is no z; surface sampling is compared where nothing touches.
