@@ -9,13 +9,13 @@ class RenderGuided : public RenderTest {};
 TEST_F(RenderGuided, WritesTheFilesOfAWalkAndTheTimeOfItsSetUp) {
     write("scene.xml", plates());
     render("scene.xml", "out",
-           {"--method", "guided", "--patches", "100", "--directions", "128", "--spp", "16", "-n", "3", "--quiet"});
+           {"--method", "guided", "--patches", "100", "--directions", "256", "--spp", "16", "-n", "3", "--quiet"});
     expect_complete("out");
     expect_finite("out");
     const auto run = run_json("out");
     EXPECT_EQ(run.at("options").at("method"), "guided");
     EXPECT_EQ(run.at("options").at("patches"), 100);
-    EXPECT_EQ(run.at("options").at("directions"), 128);
+    EXPECT_EQ(run.at("options").at("directions"), 256);
     EXPECT_EQ(run.at("paths"), "all");
     const auto& timing = run.at("timing");
     const double setup = timing.at("setup_seconds"), sampling = timing.at("sampling_seconds");
