@@ -72,6 +72,10 @@ void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std:
                      "camera, weighted and by itself")
         ->type_name("BOUNCE")
         ->check(neumann::whole_from(1, 1000));
+    render->add_flag(
+        "--importance", request.importance,
+        "Of patches: pictures of K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows with "
+        "the radiance given off at each point, per area and projected solid angle (m⁻²·sr⁻¹), mean over directions");
     render
         ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
         ->type_name("DIR");

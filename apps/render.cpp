@@ -50,6 +50,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
         case RestVerdict::not_sampled:
             break;
     }
+    if (report.importance) fmt::print("These are importance, in m⁻²·sr⁻¹, not radiance.\n");
     if (subset)
         fmt::print("These are some of all paths. What is missing of a bounce is its mean over walks of all paths, less this.\n");
     if (report.infinite_variance())

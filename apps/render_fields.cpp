@@ -38,7 +38,7 @@ FieldSettings choose_settings(const RenderJob& job) {
         throw InputError("--time belongs to the methods that make paths; " + request.method +
                          " takes --error, or --spp, --patches and --directions");
     FieldSettings settings;
-    settings.method = field_method(request.method);
+    settings.method = request.importance ? FieldMethod::importance : field_method(request.method);
     settings.bounces = choose_bounces(job);
     settings.seed = request.seed;
     settings.rest = !request.only_pictures;
@@ -98,6 +98,7 @@ RenderResult render_by_fields(const RenderJob& job) {
     if (!has_given_settings(request) && run.outcome == Outcome::samples_reached)
         result.warnings.add(fmt::format("the error asked for was not reached with the largest settings: it is {:.2g}", worst));
     result.options = {{"bounces", settings.bounces}, {"method", request.method}, {"seed", settings.seed}};
+    if (request.importance) result.options["importance"] = true;
     result.samples = {{"per_pixel", run.pictures.samples},
                       {"replicates", run.settings.replicates},
                       {"patches", run.pictures.patches},

@@ -37,6 +37,10 @@ int choose_bounces(const RenderJob& job) {
 }
 
 RenderResult render_by_method(const RenderJob& job) {
+    if (job.request.importance && job.request.method != "patches")
+        throw InputError("--importance belongs to --method patches, not to " + job.request.method);
+    if (job.request.importance && job.request.tail)
+        throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
     return is_field_method(job.request.method) ? render_by_fields(job) : render_by_walk(job);
 }
 

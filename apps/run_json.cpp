@@ -73,8 +73,9 @@ Json rest_json(const Scene& scene, const RenderResult& result) {
     if (!result.rest.is_null()) json.update(result.rest);
     json["a_priori_bound"] = number(bound);
     json["a_priori_bound_note"] =
-        std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
-                             : "there is no bound: the largest albedo is at least 1";
+        report.importance      ? "there is no bound: the largest importance is infinite"
+        : std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
+                               : "there is no bound: the largest albedo is at least 1";
     if (report.bounces.back().ratio) json["ratio_estimate"] = *report.bounces.back().ratio;
     const Rgb albedo = scene.materials.largest_albedo();
     json["largest_albedo"] = {albedo.r, albedo.g, albedo.b};
@@ -100,6 +101,9 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     json["command"] = request.command_line;
     json["scene"] = {{"file", request.scene}, {"hash", scene.hash}, {"definitions", request.definitions}};
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
+    json["quantity"] = report.importance
+                           ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
+                           : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
     json["options"] = result.options;
     json["paths"] = name(series.paths);
     json["samples"] = result.samples;

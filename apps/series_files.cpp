@@ -15,8 +15,8 @@ std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
 std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
     const SeriesReport& report = series.report;
     const std::size_t N = report.bounces.size() - 1;
-    const auto attributes = [&](const char* quantity, std::size_t bounce, const Estimate& picture, bool infinite_variance) {
-        Attributes all{{"neumann:quantity", std::string(quantity)},
+    const auto attributes = [&](const std::string& quantity, std::size_t bounce, const Estimate& picture, bool infinite_variance) {
+        Attributes all{{"neumann:quantity", quantity},
                        {"neumann:bounce", static_cast<std::int64_t>(bounce)},
                        {"neumann:samples", static_cast<std::int64_t>(series.samples)},
                        {"neumann:degrees_of_freedom", series.degrees_of_freedom},
@@ -25,29 +25,31 @@ std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
         if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
         return all;
     };
+    const auto power = [&](const std::string& n) { return report.importance ? "K*^" + n + " We" : "K^" + n + " Le"; };
     std::vector<Image> terms, sums;
     bool any_infinite = false;
     for (std::size_t i = 0; i <= N; ++i) {
         Estimate term = series.term(i), sum = series.sum(i);
         any_infinite = any_infinite || report.bounces[i].infinite_variance;
-        folder.write(bounce_file(i), encode_exr(term, attributes("K^i Le", i, term, report.bounces[i].infinite_variance)));
-        folder.write(sum_file(i), encode_exr(sum, attributes("sum of K^k Le for k <= i", i, sum, any_infinite)));
+        folder.write(bounce_file(i), encode_exr(term, attributes(power("i"), i, term, report.bounces[i].infinite_variance)));
+        folder.write(sum_file(i), encode_exr(sum, attributes("sum of " + power("k") + " for k <= i", i, sum, any_infinite)));
         terms.push_back(std::move(term.mean));
         sums.push_back(std::move(sum.mean));
     }
     if (series.rest) {
-        folder.write("rest.exr", encode_exr(*series.rest,
-                                            attributes("sum of K^k Le for k > i", N, *series.rest, report.rest_infinite_variance)));
+        folder.write("rest.exr", encode_exr(*series.rest, attributes("sum of " + power("k") + " for k > i", N, *series.rest,
+                                                                     report.rest_infinite_variance)));
         terms.push_back(series.rest->mean);
     }
 
-    const char* const subset = series.paths == Paths::all ? "" : ", some paths";
+    const char* const kind = report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths";
     std::vector<LabelledPicture> term_pictures, sum_pictures;
     for (std::size_t i = 0; i < terms.size(); ++i)
-        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + subset, &terms[i]});
+        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
     for (std::size_t i = 0; i < sums.size(); ++i)
-        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(subset), &sums[i]});
-    const double exposure = exposure_for(sums.back(), terms.front());
+        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
+    // All that is seen has importance at once.
+    const double exposure = exposure_for(sums.back(), report.importance ? sums.back() : terms.front());
     const auto font = find_label_font();
     folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
     folder.write("bounces.gif", flip_book(term_pictures, sum_pictures, exposure, font));

@@ -30,6 +30,15 @@ public:
         }
     }
 
+    // All unknowns of a facet get their mean.
+    void average_over_directions() {
+        const auto stride = static_cast<Eigen::Index>(stride_);
+        for (const Facet& facet : space_->facets()) {
+            Eigen::Map<Eigen::ArrayXXf> of_facet(values_.data() + facet.first * stride_, stride, facet.cells.size());
+            of_facet.colwise() = of_facet.rowwise().mean().eval();
+        }
+    }
+
 private:
     const PatchSpace* space_;
     std::size_t stride_;

@@ -1,10 +1,14 @@
 #include "operators/matrix/traced_series.h"
 
+#include "operators/matrix/adjoint.h"
+#include "operators/matrix/camera_vector.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
 #include "operators/series/product.h"
+
+#include <optional>
 
 namespace neumann {
 
@@ -38,33 +42,26 @@ private:
     std::vector<std::uint32_t> around_;
 };
 
-template <int C>
-TracedSeries trace(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed);
-    const TransportMatrix<C> T(table);
-    const ReflectionMatrix<C> R(scene.materials, space);
-    const auto K = R * T;
+// x, K x, K² x, …; `second` stands for K x where that is found otherwise.
+template <int C, class Op>
+TracedSeries apply_powers(const Op& K, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
+                          const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings) {
     const Coarsening coarsening(space, coarser);
-
     const auto K_coarse = [&](const ExitantVector<C>& x) { return coarsening.mean<C>(K(coarsening.prolong<C>(x))); };
 
-    TracedSeries series{FieldStack(space, settings.bounces), FieldStack(coarser, settings.bounces), table.seen().size()};
-    ExitantVector<C> term = emitted_light<C>(scene, space), coarse_term = coarsening.mean<C>(term);
-    const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
-    const auto direct = [&] { return direct_light<C>(scene, R, settings.light_samples, settings.seed); };
-    if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
-    series.rays += series.light_rays;
+    TracedSeries series{FieldStack(space, settings.bounces), FieldStack(coarser, settings.bounces)};
+    ExitantVector<C> coarse_term = coarsening.mean<C>(term);
     for (int i = 0;; ++i) {
         series.fine.set<C>(i, term);
         series.coarse.set<C>(i, coarse_term);
         if (i == settings.bounces) break;
-        term = i == 0 && sample_lights ? direct() : K(std::move(term));
-        coarse_term = i == 0 && sample_lights ? coarsening.mean<C>(term) : K_coarse(coarse_term);
+        term = i == 0 && second ? *second : K(std::move(term));
+        coarse_term = i == 0 && second ? coarsening.mean<C>(term) : K_coarse(coarse_term);
     }
     if (!settings.rest) return series;
-    // Where the lights are sampled, bounce 1 is not K's.
-    const bool begin = sample_lights && settings.bounces == 0;
-    if (begin) term = direct();
+    // `second` is not K's own.
+    const bool begin = second && settings.bounces == 0;
+    if (begin) term = *second;
     auto rest = rest_of_series<C>(K, term);
     if (begin) rest.sum += term;
     series.fine.set<C>(settings.bounces + 1, rest.sum);
@@ -77,11 +74,46 @@ TracedSeries trace(const Scene& scene, const PatchSpace& space, const PatchSpace
     return series;
 }
 
+template <int C>
+TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
+                         const TracedSeriesSettings& settings) {
+    const RayTable table(space, settings.rays, settings.seed);
+    const ReflectionMatrix<C> R(scene.materials, space);
+    const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
+    std::optional<ExitantVector<C>> direct;
+    if (sample_lights) direct = direct_light<C>(scene, R, settings.light_samples, settings.seed);
+    TracedSeries series =
+        apply_powers<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings);
+    if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
+    series.rays = table.seen().size() + series.light_rays;
+    return series;
+}
+
+template <int C>
+TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
+                           const TracedSeriesSettings& settings) {
+    const RayTable table(space, settings.rays, settings.seed);
+    const ReflectionMatrix<C> R(scene.materials, space);
+    TracedSeries series =
+        apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),
+                        camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space, coarser, settings);
+    series.fine.average_over_directions();
+    series.coarse.average_over_directions();
+    series.rays = table.seen().size() + std::uint64_t{settings.camera_samples} * static_cast<std::uint64_t>(scene.film.crop_width) *
+                                            static_cast<std::uint64_t>(scene.film.crop_height);
+    return series;
+}
+
 }  // namespace
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings) {
-    return is_grey(scene) ? trace<1>(scene, space, coarser, settings) : trace<4>(scene, space, coarser, settings);
+    return is_grey(scene) ? trace_light<1>(scene, space, coarser, settings) : trace_light<4>(scene, space, coarser, settings);
+}
+
+TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
+                              const TracedSeriesSettings& settings) {
+    return is_grey(scene) ? trace_adjoint<1>(scene, space, coarser, settings) : trace_adjoint<4>(scene, space, coarser, settings);
 }
 
 }  // namespace neumann

@@ -16,7 +16,8 @@ struct TracedSeriesSettings {
     std::uint32_t rays = 32;           // of a facet; a power of two
     std::uint32_t light_samples = 16;  // of a facet; a power of two
     std::uint64_t seed = 0;
-    bool rest = true;  // Σ_{k>N} is wanted as well
+    bool rest = true;                  // Σ_{k>N} is wanted as well
+    std::uint32_t camera_samples = 2;  // of a pixel, for We; a power of two
 };
 
 struct TracedSeries {
@@ -28,5 +29,10 @@ struct TracedSeries {
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings);
+
+// The same of importance: We, K* We, …, m⁻²·sr⁻¹, each the mean over all directions of a side, so that for light alike in these
+// ⟨K*^i We, Le⟩ is the mean over the pixels of the picture of bounce i. In the coarser space K_c* = M K* P, for M is P's adjoint.
+TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
+                              const TracedSeriesSettings& settings);
 
 }  // namespace neumann

@@ -40,7 +40,7 @@ public:
     // From two renders of which the second has more samples only.
     ErrorParts(FieldMethod method, const std::vector<PictureError>& few, const std::vector<PictureError>& many, double times) {
         for (std::size_t i = 0; i < few.size(); ++i) {
-            const bool at_pixel = i < 2 && method != FieldMethod::patches;
+            const bool at_pixel = i < 2 && !shows_patches(method);
             const double fallen = (square(few[i].sampling) - square(many[i].sampling)) * times / (times - 1.0);
             by_samples_.push_back(at_pixel ? std::numeric_limits<double>::infinity()
                                            : std::clamp(fallen, 0.0, square(few[i].sampling)));

@@ -29,14 +29,17 @@ struct Workspace {
 
 // What a patch needs: its rows of T, and for all replicates the quantities of the finer and the coarser field.
 void check_memory(const FieldSettings& settings, double unknowns, double rays) {
+    // T* and R* of four channels beside the table.
+    const double bytes_of_ray = settings.method == FieldMethod::importance ? 48.0 : 4.0;
     check_patch_memory(settings.patching.patches, settings.rays,
-                       300.0 + 4.0 * rays + unknowns * (32.0 + 15.0 * settings.replicates * (settings.bounces + 2.0)));
+                       300.0 + bytes_of_ray * rays + unknowns * (32.0 + 15.0 * settings.replicates * (settings.bounces + 2.0)));
 }
 
 }  // namespace
 
 FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
-    : width_(film.crop_width),
+    : importance(settings.method == FieldMethod::importance),
+      width_(film.crop_width),
       height_(film.crop_height),
       replicates_(settings.replicates),
       quantities_(static_cast<std::size_t>(settings.bounces) + 2),
@@ -106,9 +109,10 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-        series.push_back(
-            trace_series(scene, space, coarser,
-                         {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r, settings.rest}));
+        const auto trace = result.importance ? trace_importance : trace_series;
+        series.push_back(trace(scene, space, coarser,
+                               {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r, settings.rest,
+                                settings.samples}));
         result.rays[later] += series.back().rays;
         result.rest_converges = result.rest_converges && series.back().rest_converges;
     }

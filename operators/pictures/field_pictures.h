@@ -22,7 +22,7 @@ struct FieldSettings {
     Patching patching;
     std::uint32_t rays = 32;           // of T, a facet, in one replicate; a power of two
     std::uint32_t light_samples = 16;  // of a facet, in one replicate, for b; a power of two
-    std::uint32_t samples = 2;         // of the camera, a pixel, in one replicate; a power of two
+    std::uint32_t samples = 2;         // of the camera, a pixel, in one replicate; a power of two. As many again make We
     std::uint32_t gather_rays = 4;     // a camera sample; a power of two
     std::uint32_t replicates = 4;
     std::uint64_t seed = 0;
@@ -47,6 +47,7 @@ public:
     MeanWithError mean_of_sum(std::size_t i) const { return mean(0, i); }
     MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
 
+    bool importance;  // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
     bool rest_converges = false;
     std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; those for all of them are counted for bounce 2, or the
                                       // rest where there is none

@@ -117,7 +117,7 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
 NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fields, std::span<const PixelSample> samples) const {
     std::vector<Look> looks;
     std::array<std::uint64_t, 3> rays{find_first_points(samples, looks), 0, 0};
-    if (method_ == FieldMethod::patches) {
+    if (shows_patches(method_)) {
         for (const Look& l : looks) {
             const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
             add_constant(fields.fine, l.x, l.wo, weight, l.sample->values);
@@ -160,6 +160,7 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
             if (scene_.hide_emitters && (!hit || !pass_lights(scene_.emitters, scene_.geometry, rays[i].direction, hits[i], cast)))
                 continue;
             if (!hit) {
+                if (method_ == FieldMethod::importance) continue;
                 hits[i].shape = SurfacePoint::infinity;
                 add(samples[begin + i].values, 0, samples[begin + i].weight * scene_.emitters.emitted(hits[i], -rays[i].direction));
                 continue;

@@ -3,6 +3,7 @@
 #include "operators/series/tail_bound.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace neumann {
@@ -66,13 +67,16 @@ DiscretisationReport report_discretisation(const Estimate& picture) {
 
 SeriesReport report_series(const Scene& scene, const FieldPictures& series) {
     SeriesReport report;
+    report.importance = series.importance;
     const double seconds = series.field_seconds + series.picture_seconds;
     const auto all_rays = static_cast<double>(std::accumulate(series.rays.begin(), series.rays.end(), std::uint64_t{0}));
     for (std::size_t i = 0; i <= series.bounces(); ++i) {
         BounceReport bounce;
         bounce.mean = series.mean_of_term(i);
         if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
-        bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
+        bounce.bound = series.importance
+                           ? std::numeric_limits<double>::infinity()
+                           : tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
         bounce.rays = series.rays[i];
         bounce.seconds = seconds * static_cast<double>(bounce.rays) / all_rays;
         bounce.discretisation = report_discretisation(series.term(i));

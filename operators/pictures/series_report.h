@@ -36,6 +36,7 @@ enum class RestVerdict {
 };
 
 struct SeriesReport {
+    bool importance = false;  // of K*^i We in place of K^i Le, m⁻²·sr⁻¹; then there is no bound, as ‖We‖∞ is infinite
     std::vector<BounceReport> bounces;
     MeanWithError sum;  // of Σ_{k≤N}
     std::optional<DiscretisationReport> sum_discretisation;

@@ -65,6 +65,31 @@ TEST_F(RenderFields, SameSeedSameBitsOnAnyThreads) {
     expect_same_pictures("1", "7");
 }
 
+TEST_F(RenderFields, ImportanceIsSaidInAllFiles) {
+    const std::vector<std::string> options{"--method", "patches", "--importance", "--patches", "400", "--spp", "8"};
+    render_plates("importance", options);
+    EXPECT_EQ(names("importance"), output_names(N));
+    expect_complete("importance");
+    expect_finite("importance");
+    const auto run = run_json("importance");
+    EXPECT_EQ(run.at("quantity").at("name"), "importance K*^i We, mean over directions");
+    EXPECT_EQ(run.at("quantity").at("unit"), "m^-2 sr^-1");
+    EXPECT_EQ(run.at("options").at("importance"), true);
+    EXPECT_TRUE(run.at("rest").at("a_priori_bound").is_null());
+    Attributes attributes;
+    read_exr((path("importance") / "sum_001.exr").string(), &attributes);
+    EXPECT_EQ(std::get<std::string>(attributes.at("neumann:quantity")), "sum of K*^k We for k <= i");
+    for (const char* threads : {"1", "7"}) {
+        std::vector<std::string> more = options;
+        more.insert(more.end(), {"-t", threads});
+        render_plates(threads, more);
+        expect_same_pictures("importance", threads);
+    }
+    render_plates("radiance", {"--method", "patches", "--patches", "400", "--spp", "8"});
+    EXPECT_EQ(run_json("radiance").at("quantity").at("name"), "radiance K^i Le");
+    EXPECT_FALSE(run_json("radiance").at("options").contains("importance"));
+}
+
 TEST_F(RenderFields, ReachTheErrorThatIsAskedFor) {
     render_plates("goal", {"--method", "matrix", "--error", "0.05"});
     const auto run = run_json("goal");
@@ -96,6 +121,11 @@ TEST_F(RenderFields, Refusals) {
         {"--method", "matrix", "--error", "0.1", "--spp", "4"},
         "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
     expect_refused({"--method", "matrix", "--patches", "0"}, "0 patches: at least one is needed");
+    for (const char* method : {"walk", "matrix", "gather"})
+        expect_refused({"--method", method, "--importance"},
+                       std::string("--importance belongs to --method patches, not to ") + method);
+    expect_refused({"--method", "patches", "--importance", "--tail", "0.1"},
+                   "--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
 }
 
 TEST_F(RenderFields, MorePatchesThanMemoryHoldsAreRefused) {

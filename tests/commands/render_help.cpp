@@ -33,7 +33,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
     EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o",        "-n",        "--tail",       "--spp",       "--time",
                                                     "--error",   "--method",  "--direct",  "--lights",     "--roulette",  "--split",
                                                     "--ways",    "--sampler", "--patches", "--directions", "--reference", "--seed",
-                                                    "-t",        "-D",        "--quiet",   "--json"}));
+                                                    "-t",        "-D",        "--quiet",   "--json",       "--importance"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
     // Nothing of how it is written.
