@@ -119,9 +119,20 @@ int study_command(const StudyRequest& given) {
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);
     }
+    std::string choice;
+    if (request.resume) {
+        choice = journal.plan.at("choice");
+        if (request.reference.empty()) request.reference = journal.plan.at("reference").at("method");
+    } else if (request.reference.empty()) {
+        auto chosen = choose_reference(scene, pilot, data.bounces);
+        if (!chosen) return nothing_done();
+        request.reference = chosen->method;
+        choice = chosen->why;
+    }
     if (!reference) reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces);
     if (!reference) return nothing_done();
     data.reference = std::move(*reference);
+    data.reference.choice = choice;
     for (const Estimate& picture : data.reference.pictures) PictureErrors check(picture);
     if (request.resume) {
         if (journal.plan.at("reference") != data.reference.identity)
@@ -131,6 +142,7 @@ int study_command(const StudyRequest& given) {
         expect_disk_space(data, folder.path());
         Json plan = as_json(data.plan, data.bounces);
         plan["reference"] = data.reference.identity;
+        plan["choice"] = choice;
         journal.begin(study, plan);
     }
 

@@ -17,7 +17,7 @@ struct StudyRequest {
     std::map<std::string, std::string> definitions;
     std::string output;
     std::vector<std::string> methods;  // as parse_method() reads them
-    std::string reference = "walk";    // a method that makes one, a folder of an earlier render, or values:…
+    std::string reference;             // a method that makes one, a folder of an earlier render, or values:…; empty: chosen
     std::optional<std::uint64_t> reference_samples;
     std::vector<double> budgets;         // seconds of a run; empty: chosen
     std::vector<std::uint64_t> samples;  // instead of them

@@ -116,6 +116,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
                          {"from_cache", data.reference.from_cache},
                          {"seconds", data.reference.seconds},
                          {"identity", data.reference.identity}};
+    if (!data.reference.choice.empty()) json["reference"]["choice"] = data.reference.choice;
     json["truncation"] = truncation(data);
     json["definitions"] = {
         {"mse",

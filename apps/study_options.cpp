@@ -17,9 +17,9 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
     study
         ->add_option("--reference", request.reference,
                      "What is true: the folder of an earlier render, values:A,B,... for bounces of one colour each, or an unbiased "
-                     "method that makes a reference with a seed of its own, which is kept in the cache")
-        ->type_name("R")
-        ->capture_default_str();
+                     "method that makes a reference with a seed of its own, which is kept in the cache; without it walk or "
+                     "bidirectional, whichever has less variance for as many rays in the bounce where it is worst")
+        ->type_name("R");
     study
         ->add_option("--reference-spp", request.reference_samples,
                      "Samples a pixel of a reference that is made; 16 times those of walk at the largest budget without it")

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
+#include "operators/study/reference_choice.h"
 
 #include <fmt/format.h>
 #define XXH_INLINE_ALL
@@ -25,6 +26,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* values_prefix = "values:";
+// Of each method that is tried: 4 samples a pixel, and twice as many until it has cast so many rays.
+constexpr int first_trial = 2;
+constexpr std::uint64_t trial_rays = 500'000;
 
 std::optional<fs::path> cache_folder() {
     const char* cache = std::getenv("XDG_CACHE_HOME");
@@ -136,9 +140,37 @@ StudyMethod making_method(const StudyRequest& request) {
     return method;
 }
 
+// variance_times_rays(), with a seed that is that of no run and not that of the reference.
+std::optional<std::vector<double>> try_method(const char* name, const Scene& scene, const Pilot& pilot, int bounces) {
+    for (int level = first_trial;; ++level) {
+        const auto run = run_method({name, parse_method(name)}, sampling_effort(level), bounces,
+                                    study_seed(0, reference_method, 0, 1), scene, pilot);
+        if (!run) return std::nullopt;
+        if (run->series.rays >= trial_rays || level == largest_effort) return variance_times_rays(run->series);
+    }
+}
+
+std::string in_words(double ratio) { return std::isinf(ratio) ? "∞" : fmt::format("{:.2g}", ratio); }
+
 }  // namespace
 
+std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces) {
+    if (scene.hide_emitters) return ReferenceChoice{"walk", "bidirectional cannot hide emitters, as the scene asks for"};
+    if (scene.emitters.has_delta_lights() && has_specular(scene.materials))
+        return ReferenceChoice{"bidirectional", "walk does not find what mirrors and glass throw on from a light without extent"};
+    const auto walk = try_method("walk", scene, pilot, bounces);
+    if (!walk) return std::nullopt;
+    const auto bidirectional = try_method("bidirectional", scene, pilot, bounces);
+    if (!bidirectional) return std::nullopt;
+    const VarianceRatio ratio = variance_ratio(*walk, *bidirectional);
+    return ReferenceChoice{
+        ratio.takes_first() ? "walk" : "bidirectional",
+        fmt::format("in a trial walk had {} (bounce {}) to {} (bounce {}) times the variance of bidirectional for as many rays",
+                    in_words(ratio.least), ratio.least_bounce, in_words(ratio.most), ratio.most_bounce)};
+}
+
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces) {
+    if (request.reference.empty()) return std::nullopt;
     if (request.reference.starts_with(values_prefix)) return from_values(request.reference, film, bounces);
     if (fs::is_directory(request.reference)) return from_folder(request.reference, film, bounces);
     making_method(request);

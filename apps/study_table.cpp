@@ -58,6 +58,7 @@ void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictu
         "log RMSE against log T. ±: 95% intervals. *: bias² is above 0 at 99.9%.\n"
         "Reference: {}.\n",
         data.request.repeats, data.reference.description);
+    if (!data.reference.choice.empty()) fmt::print("Chosen: {}.\n", data.reference.choice);
     for (const std::string& warning : data.warnings()) fmt::print("warning: {}\n", warning);
     fmt::print("Tables and plots are in {}\n", data.request.output);
 }

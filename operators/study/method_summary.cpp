@@ -10,8 +10,6 @@ namespace neumann {
 
 namespace {
 
-constexpr double float_rounding = 0x1p-23;
-
 double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

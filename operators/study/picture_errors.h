@@ -31,6 +31,9 @@ struct ErrorStatistics {
     double reference_error = 0.0;
 };
 
+// Errors below it, relative to √⟨r̂²⟩, are those of rounding to floats.
+constexpr double float_rounding = 0x1p-23;
+
 class PictureErrors {
 public:
     // An empty standard error of the reference counts as none: an answer known exactly. Throws InputError where it is not finite.

@@ -140,6 +140,44 @@ TEST_F(StudyCommand, ARunIsRepeatedByRender) {
     }
 }
 
+// A caustic is judged by what finds it, whatever the seed of the study; what was chosen is stated. There is no trial where one of
+// the methods is refused or lacks paths.
+TEST_F(StudyCommand, ChosenReference) {
+    using Choice = std::pair<std::string, std::string>;
+    const auto chosen = [&](const std::string& scene, const Strings& more) {
+        const Finished done =
+            run(joined({"study", scene, "-o", "a", "--methods", "walk", "--samples", "4,8", "--repeats", "2", "-n", "3"}, more));
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        const nlohmann::json reference = study_json("a").at("reference");
+        const std::string method = reference.at("identity").at("method"), why = reference.value("choice", "");
+        EXPECT_TRUE(reference.at("description").get<std::string>().starts_with(method + " with 256 samples a pixel"));
+        EXPECT_EQ(done.out.find("\nChosen: " + why + ".\n") != std::string::npos, !why.empty()) << done.out;
+        EXPECT_NE(text_of(path("a/index.html")).find(why), std::string::npos);
+        std::filesystem::remove_all(path("a"));
+        return Choice{method, why};
+    };
+    const std::string glass = scene_file("glass-ball");
+    const auto [method, why] = chosen(glass, {"-D", "res=16"});
+    EXPECT_EQ(method, "bidirectional");
+    EXPECT_NE(why.find("(bounce 3) times the variance of bidirectional for as many rays"), std::string::npos) << why;
+    EXPECT_EQ(chosen(glass, {"-D", "res=16", "--seed", "7"}), (Choice{method, why}));
+    EXPECT_EQ(chosen(glass, {"-D", "res=16", "--reference", "walk"}), (Choice{"walk", ""}));
+    EXPECT_EQ(chosen(scene_file("cornell-box"), {"-D", "res=16"}).second.find("in a trial walk had "), 0u);
+
+    const auto with = [&](const std::string& what) {
+        std::string text = plates("width=\"41\" height=\"3\"");
+        text.insert(text.find("<sensor"), what);
+        write("scene.xml", text);
+        return "scene.xml";
+    };
+    EXPECT_EQ(chosen(with("<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>"), {}),
+              (Choice{"walk", "bidirectional cannot hide emitters, as the scene asks for"}));
+    EXPECT_EQ(chosen(with("<emitter type='point'><point name='position' x='1' y='0' z='.9'/></emitter>"
+                          "<shape type='sphere'><float name='radius' value='.2'/><bsdf type='dielectric'/></shape>"),
+                     {}),
+              (Choice{"bidirectional", "walk does not find what mirrors and glass throw on from a light without extent"}));
+}
+
 TEST_F(StudyCommand, ExactAnswers) {
     write("scene.xml", closed_room("0.5"));
     study("a", {"--methods", "walk:direct=bsdf,walk", "--samples", "2,4", "--repeats", "4", "-n", "2", "--reference",
@@ -230,8 +268,8 @@ TEST_F(StudyCommand, Refused) {
 
 // Killed or interrupted, and gone on with, it finds what it would have found at once.
 TEST_F(StudyCommand, Resumed) {
-    const Strings options{"--methods", "walk,patches:patches=100:directions=64", "--samples", "1024,4096", "--repeats", "6", "-n",
-                          "1"};
+    const Strings options = joined({"--methods", "walk,patches:patches=100:directions=64", "--samples", "1024,4096"},
+                                   {"--repeats", "6", "-n", "1", "--reference-spp", "1024"});
     const auto begun = [&] {
         for (int i = 0; i < 3000; ++i) {
             if (text_of(path("a/study.journal")).find("\"run\"") != std::string::npos) return true;
@@ -280,7 +318,8 @@ TEST_F(StudyCommand, InfiniteVariance) {
     touching.replace(touching.find(from), from.size(),
                      "<scale value=\".5\"/><rotate x=\"1\" angle=\"180\"/><translate x=\"-1.5\" z=\"1\"/>");
     write("scene.xml", touching);
-    study("a", {"--methods", "walk,walk:direct=light:sampler=independent", "--samples", "64,256", "--repeats", "4", "-n", "1"});
+    study("a", {"--methods", "walk,walk:direct=light:sampler=independent", "--samples", "64,256", "--repeats", "4", "-n", "1",
+                "--reference-spp", "256"});
     const nlohmann::json json = study_json("a");
     for (const char* bounce : {"1", "sum"}) {
         EXPECT_EQ(method(json, bounce, "walk:direct=light:sampler=independent").at("infinite_variance"), true) << bounce;
