@@ -25,16 +25,30 @@ Effort effort_of(const StudyMethod& method, int level) {
     return is_field_method(method.request.method) ? field_effort(level) : sampling_effort(level);
 }
 
-// The seconds of a run at the first levels, until they are `enough`.
-std::optional<std::vector<double>> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed,
-                                           const Scene& scene, const Pilot& pilot) {
+// What runs take: what grows with the level, of the first levels, and what does not, of one run.
+struct Measurement {
     std::vector<double> seconds;
+    double setup = 0.0;
+};
+
+// Until the seconds are `enough`. What fields set up grows with their patches.
+std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
+                                   const Pilot& pilot) {
+    Measurement result;
+    auto& [seconds, setup] = result;
     do {
         const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot);
         if (!run) return std::nullopt;
-        seconds.push_back(run->series.seconds);
+        setup = is_field_method(method.request.method) ? 0.0 : run->series.setup_seconds;
+        seconds.push_back(run->series.seconds - setup);
     } while (seconds.back() < enough && static_cast<int>(seconds.size()) < largest_effort);
-    return seconds;
+    return result;
+}
+
+// For each budget the level that a run of it can afford.
+std::vector<int> affordable_levels(const Measurement& measured, std::vector<double> budgets) {
+    for (double& budget : budgets) budget = std::max(budget - measured.setup, measured.seconds.front());
+    return choose_levels(measured.seconds, budgets);
 }
 
 }  // namespace
@@ -95,28 +109,29 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         most_samples = request.samples.back();
     } else {
         const double largest = request.budgets.empty() ? 0.0 : request.budgets.back();
-        std::vector<std::vector<double>> measured;
+        std::vector<Measurement> measured;
         double least = least_default_budget;
         for (const StudyMethod& method : methods) {
             // Levels of fields do not double exactly, so that more of them are measured.
             const double enough =
                 is_field_method(method.request.method) ? std::max(shortest_measurement, 0.25 * largest) : shortest_measurement;
-            auto seconds = measure(method, enough, bounces, request.seed, scene, pilot);
-            if (!seconds) return std::nullopt;
-            least = std::max(least, is_field_method(method.request.method) ? seconds->front() : 4.0 * seconds->front());
-            measured.push_back(std::move(*seconds));
+            auto run = measure(method, enough, bounces, request.seed, scene, pilot);
+            if (!run) return std::nullopt;
+            const double first = run->seconds.front();
+            least = std::max(least, is_field_method(method.request.method) ? first : run->setup + 4.0 * first);
+            measured.push_back(std::move(*run));
         }
         plan.budgets = request.budgets;
         if (plan.budgets.empty())
             for (int b = 0; b < default_budgets; ++b) plan.budgets.push_back(std::ldexp(least, b));
         for (std::size_t m = 0; m < methods.size(); ++m) {
             std::vector<Effort>& efforts = plan.efforts.emplace_back();
-            for (const int level : choose_levels(measured[m], plan.budgets)) efforts.push_back(effort_of(methods[m], level));
+            for (const int level : affordable_levels(measured[m], plan.budgets)) efforts.push_back(effort_of(methods[m], level));
         }
         const StudyMethod walk{"walk", {}};
-        const auto seconds = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
-        if (!seconds) return std::nullopt;
-        most_samples = sampling_effort(choose_levels(*seconds, std::vector{plan.budgets.back()}).back()).samples;
+        const auto measured_walk = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
+        if (!measured_walk) return std::nullopt;
+        most_samples = sampling_effort(affordable_levels(*measured_walk, {plan.budgets.back()}).back()).samples;
     }
     plan.reference_samples =
         request.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
