@@ -7,6 +7,7 @@
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 

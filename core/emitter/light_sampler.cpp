@@ -4,6 +4,7 @@
 #include "core/sampling/spherical_triangle.h"
 #include "core/sampling/warp.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace neumann {
@@ -42,7 +43,11 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
 
 LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
                            const std::vector<double>& share)
-    : geometry_(&geometry), emitters_(&emitters), choice_(choice), place_(place), table_(geometry, emitters, share,
+    : geometry_(&geometry),
+      emitters_(&emitters),
+      choice_(choice),
+      place_(place),
+      table_(geometry, emitters, share,
              place == LightPlace::solid_angle ? LightTable::Rectangles::whole : LightTable::Rectangles::as_triangles) {
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0

@@ -1,5 +1,7 @@
 #include "core/emitter/light_table.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 LightTable::LightTable(const Geometry& geometry, const Emitters& emitters, const std::vector<double>& share, Rectangles rectangles)

@@ -1,5 +1,7 @@
 #include "core/geometry/triangle.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 Triangle::Triangle(const Vec3& vertex, const Edges& edges, double error) : vertex_(vertex), error_(error) {

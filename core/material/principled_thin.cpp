@@ -5,6 +5,8 @@
 #include "core/material/measured_albedo.h"
 #include "core/sampling/choose.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 namespace {

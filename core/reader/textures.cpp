@@ -6,6 +6,7 @@
 #include "core/texture/uv_transform.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace neumann::reader {
 

@@ -7,6 +7,7 @@
 #include "operators/patches/patch_memory.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
 
 namespace neumann {
 

@@ -4,6 +4,7 @@
 #include "operators/patches/facing.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <limits>
 
 namespace neumann {

@@ -1,6 +1,8 @@
 // `neumann solve`: what the solvers say agrees with LU, or they say why it does not.
 #include "tests/commands/render_output.h"
 
+#include <algorithm>
+
 namespace neumann {
 namespace {
 

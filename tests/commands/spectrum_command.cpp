@@ -1,6 +1,8 @@
 // `neumann spectrum` on scenes whose spectra are known.
 #include "tests/commands/render_output.h"
 
+#include <algorithm>
+
 namespace neumann {
 namespace {
 

@@ -6,6 +6,7 @@
 #include "tests/physics/enclosures.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <numeric>
 
 namespace neumann {

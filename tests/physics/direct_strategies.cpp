@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 
 namespace neumann::physics {

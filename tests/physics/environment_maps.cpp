@@ -7,6 +7,7 @@
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 

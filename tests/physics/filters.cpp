@@ -4,6 +4,7 @@
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace neumann::physics {

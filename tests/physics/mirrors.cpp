@@ -6,6 +6,7 @@
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 namespace neumann::physics {
 namespace {

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <mutex>

@@ -3,6 +3,7 @@
 #include "core/base/frame.h"
 #include "core/sampling/warp.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 

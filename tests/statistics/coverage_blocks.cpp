@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <boost/math/quadrature/gauss.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
