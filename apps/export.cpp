@@ -8,6 +8,7 @@
 #include "core/base/memory.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 

@@ -2,6 +2,7 @@
 #include "apps/spectrum_report.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

@@ -4,6 +4,8 @@
 
 #include "core/sampling/warp.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 class Gtr1 {

@@ -6,6 +6,8 @@
 #include "core/material/measured_albedo.h"
 #include "core/sampling/choose.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 namespace {

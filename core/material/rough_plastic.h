@@ -12,6 +12,7 @@
 #include "core/material/ggx.h"
 #include "core/material/plastic.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 

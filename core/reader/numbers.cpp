@@ -1,5 +1,6 @@
 #include "core/reader/numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include "core/reader/mesh_file.h"
 #include "core/reader/mesh_text.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 

@@ -11,6 +11,8 @@
 #include "core/sampling/third_number.h"
 #include "core/sampling/warp.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 // fs(ωi → ωo) |ωi·ns| / |ωi·ng|, that is R's kernel against the geometric projected solid angle of ωi.

@@ -12,6 +12,8 @@
 #include "operators/bidirectional/joining_edges.h"
 #include "operators/walk/walk.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 struct BidirectionalSettings {

@@ -3,6 +3,8 @@
 
 #include "operators/bidirectional/light_walk.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 // One vertex as the camera sees it, before it is known whether anything stands in between.

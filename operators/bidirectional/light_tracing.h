@@ -4,6 +4,8 @@
 
 #include "operators/bidirectional/film_splats.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 struct LightTracingWork {

@@ -4,6 +4,7 @@
 
 #include "operators/patches/patch_space.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>

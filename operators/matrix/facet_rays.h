@@ -4,6 +4,7 @@
 #include "core/sampling/sobol_sampler.h"
 #include "operators/patches/patch_space.h"
 
+#include <algorithm>
 #include <array>
 
 namespace neumann {

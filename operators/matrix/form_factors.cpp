@@ -2,6 +2,7 @@
 
 #include <boost/math/special_functions/legendre.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

@@ -5,6 +5,7 @@
 
 #include "operators/patches/patch_space.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include "core/sampling/sobol_sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
 #include <map>
 #include <utility>
 

@@ -3,6 +3,7 @@
 
 #include "core/geometry/geometry.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>

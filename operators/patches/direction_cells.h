@@ -4,6 +4,7 @@
 
 #include "core/sampling/warp.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace neumann {

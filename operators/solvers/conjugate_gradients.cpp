@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace neumann {
 
 SolverResult solve_conjugate_gradients(const Problem& problem) {

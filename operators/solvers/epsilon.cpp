@@ -1,6 +1,7 @@
 #include "operators/solvers/extrapolation.h"
 #include "operators/solvers/series_solvers.h"
 
+#include <algorithm>
 #include <array>
 #include <deque>
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace neumann {
 
 SolverResult solve_gauss_seidel(const Problem& problem) { return solve_sor(problem, 1.0); }

@@ -1,5 +1,6 @@
 #include "operators/spectrum/closure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

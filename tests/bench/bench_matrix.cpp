@@ -23,6 +23,7 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>

@@ -1,6 +1,8 @@
 // render --method patches, matrix and gather: the same files, with the error of the patches beside the noise.
 #include "tests/commands/render_output.h"
 
+#include <algorithm>
+
 namespace neumann {
 namespace {
 

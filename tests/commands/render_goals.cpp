@@ -1,6 +1,7 @@
 // When a render ends: --error, --tail, --spp with them, and without any.
 #include "tests/commands/render_output.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace neumann {

@@ -1,6 +1,8 @@
 // The scenes that come along render, and give the answers that their READMEs state.
 #include "tests/commands/render_output.h"
 
+#include <algorithm>
+
 namespace neumann {
 namespace {
 

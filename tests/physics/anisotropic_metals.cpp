@@ -2,6 +2,8 @@
 #include "core/base/frame.h"
 #include "tests/physics/material_laws.h"
 
+#include <algorithm>
+
 namespace neumann::physics {
 namespace {
 

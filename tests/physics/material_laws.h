@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include <algorithm>
+
 namespace neumann::physics {
 
 // ∫ f(ω) dω over z and φ between bounds: Gauss's rule of 20 × 20 points.

@@ -2,6 +2,8 @@
 // promise.
 #include "tests/physics/material_laws.h"
 
+#include <algorithm>
+
 namespace neumann::physics {
 namespace {
 

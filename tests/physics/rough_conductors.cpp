@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include <algorithm>
+
 namespace neumann::physics {
 namespace {
 

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
+
 namespace neumann::physics {
 namespace {
 

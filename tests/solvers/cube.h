@@ -3,6 +3,7 @@
 
 #include "operators/matrix/form_factors.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>

@@ -3,6 +3,7 @@
 
 #include "operators/solvers/matrix_channel.h"
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace neumann {
