@@ -148,7 +148,7 @@ int export_command(const ExportRequest& request) {
     files.write("Le.mtx", columns(channels, [&](int c) { return system.emitted(c); }), "emitted radiance, W/(m^2 sr)");
     files.write("b.mtx", columns(channels, [&](int c) { return system.direct(c); }), how);
     files.write("measure.mtx", columns(1, [&](int) { return system.transport().measure(); }),
-                "area times projected solid angle of an unknown");
+                "n^2 times area times projected solid angle of an unknown");
     files.write("ray_measure.mtx", columns(1, [&](int) { return ray_measures(system.table()); }), "the same of a ray");
     files.add("patches.csv", patches_table(system.space()), fmt::format("{} rows", system.space().facets().size()),
               "first unknown of a side, how many directions, patch, shape, …");

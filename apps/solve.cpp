@@ -3,7 +3,9 @@
 #include "apps/interrupt.h"
 #include "apps/options.h"
 #include "core/base/error.h"
+#include "operators/matrix/scene_patches.h"
 #include "operators/solvers/side_by_side.h"
+#include "operators/spectrum/convergence.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
@@ -18,6 +20,7 @@ namespace {
 struct Chosen {
     int channel = 0;
     double radius = 0.0;
+    bool traps_light = false;   // within glass: the radius is 1, and says nothing of light that does not get there
     double applications = 0.0;  // to find the radius, of all channels looked at
     std::string why;
 };
@@ -37,9 +40,10 @@ Chosen choose(const PatchScene& scene, const std::string& wanted) {
         const Eigenpairs leading = leading_eigenpairs(scene.system().channel(c), 1);
         applications += leading.applications;
         const double radius = leading.pairs.empty() ? std::numeric_limits<double>::quiet_NaN() : std::abs(leading.pairs[0].value);
-        if (given || c == 0 || radius > chosen.radius) chosen = {c, radius, 0.0, ""};
+        if (given || c == 0 || radius > chosen.radius) chosen = {c, radius, false, 0.0, ""};
     }
     chosen.applications = applications;
+    chosen.traps_light = has_glass(scene.system().space()) && judge(chosen.radius, 0.0) == Convergence::at_one;
     chosen.why = channels == 1 ? "the scene is grey" : given ? "as asked for" : "it has the largest spectral radius";
     return chosen;
 }
@@ -98,6 +102,9 @@ void print_table(const PatchScene& scene, const SolveRequest& request, const Cho
     fmt::print("{}\n", scene.title());
     fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n", scene.channel_name(chosen.channel),
                chosen.why, chosen.radius, applications_text(chosen.applications));
+    if (chosen.traps_light)
+        fmt::print("Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
+                   "all the same: residuals alone are looked at.\n");
     if (scene.system().samples_lights())
         fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
     if (!all.no_reference.empty())
@@ -189,7 +196,7 @@ int solve_command(const SolveRequest& request) {
     problem.Le = scene.system().samples_lights() ? scene.system().direct(chosen.channel) : scene.system().emitted(chosen.channel);
     problem.tolerance = request.tolerance;
     problem.most = request.most;
-    if (std::isfinite(chosen.radius)) problem.radius = chosen.radius;
+    if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
     problem.reflectance = &K.reflectance();
     const SideBySide all = solve_side_by_side(problem, {request.csv || request.patches.json, interrupted});
 

@@ -2,6 +2,7 @@
 
 #include "apps/options.h"
 #include "apps/spectrum_report.h"
+#include "operators/matrix/scene_patches.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/remaining.h"
 #include "operators/spectrum/rounding.h"
@@ -17,6 +18,9 @@ namespace {
 // Where the bounces are counted to, well below what is asked for.
 constexpr double power_left = 1e-6;
 
+constexpr const char* trapped_light =
+    "light that total reflection keeps within glass has the eigenvalue 1; where none gets there, the series converges all the same";
+
 ChannelSpectrum channel_spectrum(const PatchScene& scene, int c, int eigenvalues, const std::vector<RefinementRow>& coarser) {
     const TracedSystem& system = scene.system();
     const TracedChannel K = system.channel(c);
@@ -28,6 +32,7 @@ ChannelSpectrum channel_spectrum(const PatchScene& scene, int c, int eigenvalues
     s.radius = s.leading.pairs.empty() ? std::numeric_limits<double>::quiet_NaN() : std::abs(s.leading.pairs.front().value);
     s.shift = radius_shift(coarser, static_cast<std::size_t>(c), s.radius);
     s.convergence = judge(s.radius, s.shift);
+    if (s.convergence == Convergence::at_one && has_glass(system.space())) s.convergence = Convergence::undecided;
     if (s.convergence == Convergence::converges) {
         const auto rows = power_rows(K, system.emitted(c), system.direct(c), power_left, SpectrumReport::most_bounces);
         for (std::size_t i = 0; i < s.bounces.size(); ++i) s.bounces[i] = bounces_until(rows, SpectrumReport::remaining[i]);
@@ -63,6 +68,7 @@ SpectrumReport spectrum_report(const PatchScene& scene, int eigenvalues) {
                             "radius to say",
                             s.name, s.norms.sup));
     }
+    if (has_glass(system.space())) report.warnings.push_back(trapped_light);
     return report;
 }
 

@@ -53,7 +53,7 @@ void print_norms(const SpectrumReport& report) {
             fmt::print("{}: diverges, the spectral radius is {:.6f}: K^i Le grows without end.\n", s.name, s.radius);
         if (s.convergence == Convergence::at_one)
             fmt::print("{}: does not converge (albedo 1 in a closed room): the spectral radius is 1, no light is lost.\n", s.name);
-        if (s.convergence == Convergence::undecided && std::isfinite(s.radius))
+        if (s.convergence == Convergence::undecided && s.shift > 0.0)
             fmt::print("{}: undecided, the spectral radius is as near to 1 as it moves with the mesh or the rays, {:.1e}.\n",
                        s.name, s.shift);
     }

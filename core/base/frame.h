@@ -10,7 +10,7 @@ namespace neumann {
 struct Frame {
     Vec3 s, t, n;
 
-    // Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+    // Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017. Frame(−n) is (s, −t, −n).
     explicit Frame(const Vec3& normal) : n(normal) {
         const double sign = std::copysign(1.0, n.z);
         const double a = -1.0 / (sign + n.z);

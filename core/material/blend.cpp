@@ -59,6 +59,11 @@ Rgb Blend::largest_basic_albedo() const {
     return bound([](const Bsdf& b) { return neumann::largest_basic_albedo(b); });
 }
 
+double Blend::refractive_ratio() const {
+    for (const auto& part : {first_, second_})
+        if (part && neumann::refractive_ratio(*part) != 1.0) return neumann::refractive_ratio(*part);
+    return 1.0;
+}
 bool Blend::transmits() const {
     return any([](const Bsdf& b) { return neumann::transmits(b); });
 }

@@ -27,6 +27,8 @@ public:
     Rgb largest_albedo() const;
     Rgb largest_basic_albedo() const;
     bool transmits() const;
+    // The first one's that has one.
+    double refractive_ratio() const;
     bool is_constant() const;
     bool needs_coordinates() const;
     bool is_grey() const;

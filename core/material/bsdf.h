@@ -74,6 +74,17 @@ inline bool transmits(const Bsdf& bsdf) {
         },
         bsdf);
 }
+// Of a boundary between two media, also where it is but a part: the refractive index beyond it over that on this side. Else 1.
+inline double refractive_ratio(const Bsdf& bsdf) {
+    return std::visit(
+        [](const auto& b) {
+            if constexpr (requires { b.refractive_ratio(); })
+                return b.refractive_ratio();
+            else
+                return 1.0;
+        },
+        bsdf);
+}
 inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
 }

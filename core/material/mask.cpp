@@ -31,6 +31,7 @@ Rgb Mask::bound(const Rgb& nested) const {
 Rgb Mask::largest_albedo() const { return bound(nested_ ? neumann::largest_albedo(*nested_) : Rgb(0.0)); }
 Rgb Mask::largest_basic_albedo() const { return bound(nested_ ? neumann::largest_basic_albedo(*nested_) : Rgb(0.0)); }
 
+double Mask::refractive_ratio() const { return nested_ ? neumann::refractive_ratio(*nested_) : 1.0; }
 bool Mask::is_constant() const { return opacity_.is_constant() && (!nested_ || neumann::is_constant(*nested_)); }
 bool Mask::needs_coordinates() const { return !opacity_.is_constant() || (nested_ && neumann::needs_coordinates(*nested_)); }
 bool Mask::is_lawful() const { return !nested_ || neumann::is_lawful(*nested_); }

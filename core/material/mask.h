@@ -27,6 +27,7 @@ public:
     Rgb largest_albedo() const;
     Rgb largest_basic_albedo() const;
     bool transmits() const { return true; }
+    double refractive_ratio() const;
     bool is_constant() const;
     bool needs_coordinates() const;
     bool is_grey() const;

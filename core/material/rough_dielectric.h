@@ -60,6 +60,7 @@ public:
     Rgb largest_albedo() const { return glm::max(reflectance_.upper_bound(), transmittance_.upper_bound() / (eta_ * eta_)); }
     Rgb largest_basic_albedo() const { return glm::max(reflectance_.upper_bound(), transmittance_.upper_bound()); }
     bool transmits() const { return true; }
+    double refractive_ratio() const { return eta_; }
     bool is_constant() const { return reflectance_.is_constant() && transmittance_.is_constant() && roughness_.is_constant(); }
     bool needs_coordinates() const { return !is_constant() || !roughness_.is_isotropic(); }
     bool is_grey() const { return reflectance_.is_grey() && transmittance_.is_grey(); }

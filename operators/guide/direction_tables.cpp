@@ -2,7 +2,7 @@
 
 #include "core/base/hot.h"
 #include "operators/matrix/facet_rays.h"
-#include "operators/matrix/sides.h"
+#include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/patches/patch_memory.h"
 
@@ -29,7 +29,7 @@ void check_memory(const GuideSettings& settings, double unknowns, double facets)
 
 PatchSpace make_space(const Scene& scene, const GuideSettings& settings) {
     check_memory(settings, 1.0, 1.0);
-    PatchSpace space(scene.geometry, {.patches = settings.patches}, side_directions(scene));
+    PatchSpace space = scene_patches(scene, {.patches = settings.patches});
     const auto patches = static_cast<double>(space.patches().size());
     check_memory(settings, space.size() / patches, static_cast<double>(space.facets().size()) / patches);
     return space;

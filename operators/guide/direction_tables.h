@@ -34,7 +34,7 @@ public:
     // Tables for 1, 2, … bounces that are still wanted; the last is for more, too.
     static constexpr int most_tables = 2;
 
-    // The scene is kept by reference. Throws InputError as PatchSpace and side_directions() do, and where more is asked for than
+    // The scene is kept by reference. Throws InputError as scene_patches() does, and where more is asked for than
     // memory holds.
     DirectionTables(const Scene& scene, const GuideSettings& settings);
 

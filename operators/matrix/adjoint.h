@@ -42,7 +42,7 @@ public:
 
     Range operator()(const Domain& g) const {
         Range result(*table_);
-        const ExitantVector<C> worth = R_->of_means(g);  // B = Bᵀ
+        const ExitantVector<C> worth = R_->of_means(g);  // R = R*
         for (std::uint32_t f = 0; f < table_->space().facets().size(); ++f)
             for (std::size_t ray = table_->first_ray(f); ray < table_->first_ray(f + 1); ++ray)
                 result[ray] = worth.col(table_->arrives_in(f, ray));

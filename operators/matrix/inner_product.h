@@ -1,4 +1,4 @@
-// ⟨f, g⟩ = ∫∫ f g |cos θ| dω dA, in which T and R have their adjoints: over unknowns, and over the rays of a table.
+// ⟨f, g⟩ = ∫∫ f g n² |cos θ| dω dA, in which T and R have their adjoints: over unknowns, and over the rays of a table.
 #pragma once
 
 #include "operators/matrix/transport_matrix.h"

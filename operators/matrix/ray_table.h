@@ -33,9 +33,10 @@ public:
         const Facet& of = space_->facets()[facet];
         return of.first + static_cast<std::uint32_t>((ray - first_[facet]) * of.cells.size() / row(facet).size());
     }
-    // Area times projected solid angle that a ray of a facet stands for.
+    // Étendue that a ray of a facet stands for.
     double measure(std::uint32_t facet) const {
-        return space_->patches().area(space_->facets()[facet].patch) * pi / static_cast<double>(row(facet).size());
+        const Facet& of = space_->facets()[facet];
+        return space_->measure(of) * of.cells.size() / static_cast<double>(row(facet).size());
     }
 
 private:

@@ -6,7 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <map>
-#include <utility>
+#include <tuple>
 
 namespace neumann {
 
@@ -93,14 +93,22 @@ ReflectionMatrix<C>::ReflectionMatrix(const Materials& materials, const PatchSpa
         if (const Bsdf* bsdf = bsdf_of(facet))
             reflectance_.col(f) = to_channels<C>(mean_reflectance(*bsdf, space, facet, points, f));
     });
-    std::map<std::pair<const Bsdf*, std::uint32_t>, std::shared_ptr<const ReflectionBlock>> known;
+    std::map<std::tuple<const Bsdf*, const Bsdf*, std::uint32_t>, std::shared_ptr<const ReflectionBlock>> known;
     for (std::size_t f = 0; f < blocks_.size(); ++f) {
         const Facet& facet = space.facets()[f];
         const Bsdf* bsdf = bsdf_of(facet);
         if (facet.cells.k == 1 || !bsdf) continue;
-        auto& block = known[{bsdf, facet.cells.k}];
+        if (f + 1 < blocks_.size() && space.facets()[f + 1].patch == facet.patch && transmits(*bsdf)) {
+            const Facet& other = space.facets()[f + 1];
+            auto& block = known[{bsdf, bsdf_of(other), facet.cells.k}];
+            if (!block) block = std::make_shared<ReflectionBlock>(*bsdf, facet.cells, *bsdf_of(other), other.cells);
+            blocks_[f] = blocks_[f + 1] = {block, facet.first};
+            ++f;
+            continue;
+        }
+        auto& block = known[{bsdf, nullptr, facet.cells.k}];
         if (!block) block = std::make_shared<ReflectionBlock>(*bsdf, facet.cells);
-        blocks_[f] = block;
+        blocks_[f] = {block, facet.first};
     }
 }
 
@@ -111,7 +119,7 @@ ReflectionMatrix<C> ReflectionMatrix<C>::identity(const PatchSpace& space) {
     for (const Facet& facet : space.facets()) {
         auto& block = known[facet.cells.k];
         if (facet.cells.k > 1 && !block) block = std::make_shared<ReflectionBlock>(facet.cells);
-        blocks.push_back(block);
+        blocks.push_back({block, facet.first});
     }
     return {space, Reflectance::Ones(C, static_cast<Eigen::Index>(space.facets().size())), std::move(blocks), 0};
 }
@@ -121,26 +129,30 @@ ReflectionMatrix<1> ReflectionMatrix<C>::channel(int c) const {
     return {*space_, reflectance_.row(C == 1 ? 0 : c), blocks_, channel_ + c};
 }
 
-// In place.
+// In place, with the back where it goes with the front.
 template <int C>
 void ReflectionMatrix<C>::reflect_cells(std::uint32_t f, double* values) const {
-    const auto cells = static_cast<Eigen::Index>(space_->facets()[f].cells.size());
-    Eigen::Map<Eigen::Array<double, C, Eigen::Dynamic>> of_facet(values, C, cells);
-    if (cells == 1) {
-        of_facet.col(0) *= reflectance_.col(f);
+    const Facet& facet = space_->facets()[f];
+    if (facet.cells.k == 1) {
+        Eigen::Map<Eigen::Array<double, C, 1>>(values) *= reflectance_.col(f);
         return;
     }
+    const auto front = static_cast<Eigen::Index>(facet.cells.size());
+    const Eigen::Index all = blocks_[f].block ? blocks_[f].block->matrix(0).rows() : front;
+    Eigen::Map<Eigen::Array<double, C, Eigen::Dynamic>> cells(values, C, all);
     for (int c = 0; c < std::min(C, 3); ++c) {
-        Eigen::VectorXd means = of_facet.row(c).transpose();
+        Eigen::VectorXd means = cells.row(c).transpose();
         if (const auto* B = block(f, c)) means = *B * means;
-        of_facet.row(c) = means.transpose() * reflectance_(c, f);
+        means.head(front) *= reflectance_(c, f);
+        if (all > front) means.tail(all - front) *= reflectance_(c, f + 1);
+        cells.row(c) = means.transpose();
     }
 }
 
 template <int C>
 ExitantVector<C> ReflectionMatrix<C>::of_means(Range means) const {
     for (std::uint32_t f = 0; f < space_->facets().size(); ++f)
-        reflect_cells(f, means.data() + C * std::size_t{space_->facets()[f].first});
+        if (!goes_with_front(f)) reflect_cells(f, means.data() + C * std::size_t{space_->facets()[f].first});
     return means;
 }
 
@@ -151,9 +163,12 @@ ExitantVector<C> ReflectionMatrix<C>::operator()(const Domain& g) const {
     ExitantVector<C> result(C, space_->size() + 1);
     result.col(space_->nothing()).setZero();
     const auto work = [&](std::uint32_t begin, std::uint32_t end) {
+        // Both sides of a patch are reflected together.
+        for (std::uint32_t* f : {&begin, &end})
+            if (*f < facets && goes_with_front(*f)) ++*f;
         find_means<C>(table, g.source().data(), reflectance_.data(), begin, end, result.data());
         for (std::uint32_t f = begin; f < end; ++f)
-            if (const Facet& facet = space_->facets()[f]; facet.cells.k > 1)
+            if (const Facet& facet = space_->facets()[f]; facet.cells.k > 1 && !goes_with_front(f))
                 reflect_cells(f, result.data() + C * std::size_t{facet.first});
     };
     if (table.seen().size() <= rays_at_once) {

@@ -20,6 +20,15 @@ std::uint32_t directions_of(const Bsdf& bsdf) {
     return k;
 }
 
+// Light does not go through, or both sides have reciprocal laws for what does, with one refractive index beyond.
+bool passes_as_glass(const Bsdf& bsdf) {
+    const bool mixes = std::holds_alternative<Mask>(bsdf) || std::holds_alternative<Blend>(bsdf);
+    return !transmits(bsdf) || (is_lawful(bsdf) && !(mixes && refractive_ratio(bsdf) != 1.0));
+}
+
+// Of the medium that a side faces, 1 where it is the thinner one.
+double refractive_index(const Bsdf* bsdf) { return bsdf ? std::max(1.0, 1.0 / refractive_ratio(*bsdf)) : 1.0; }
+
 [[noreturn]] void refuse(const Scene& scene, std::uint32_t shape, const std::string& why) {
     if (shape >= scene.origins.size()) throw InputError(fmt::format("the material of shape {} {}", shape, why));
     const Origin& origin = scene.origins[shape];
@@ -31,7 +40,9 @@ void check(const Scene& scene) {
         for (const bool front : {true, false}) {
             const Bsdf* bsdf = scene.materials.at(shape, front);
             if (!bsdf) continue;
-            if (transmits(*bsdf)) refuse(scene, shape, "lets light through, which patches do not hold; 'render --method walk' can");
+            if (!passes_as_glass(*bsdf))
+                refuse(scene, shape,
+                       "lets light through otherwise than glass does, which patches do not hold; 'render --method walk' can");
             if (!factors(*bsdf))
                 refuse(scene, shape,
                        "varies by more than a factor of its reflectance, which patches do not hold; 'render --method walk' can");
@@ -52,7 +63,8 @@ std::vector<SideDirections> side_directions(const Scene& scene) {
         sides.push_back({front   ? directions_of(*front)
                          : emits ? 1u
                                  : 0u,
-                         back ? directions_of(*back) : 0u, emits, lit_from_elsewhere});
+                         back ? directions_of(*back) : 0u, emits, lit_from_elsewhere, refractive_index(front),
+                         refractive_index(back)});
     }
     return sides;
 }

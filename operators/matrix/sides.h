@@ -9,7 +9,8 @@
 namespace neumann {
 
 // One direction for a side that is diffuse in all it does, cells a quarter as wide as the lobe for a rough one, the finest for a
-// mirror. Throws InputError where a material lets light through, changes from point to point otherwise than by a factor, or is
+// mirror or glass. The refractive index is 1 on the thinner side of a boundary, and where there is none. Throws InputError where a
+// material lets light through but is neither glass nor holes, changes from point to point otherwise than by a factor, or is
 // anisotropic: patches have one matrix of reflection for a material.
 std::vector<SideDirections> side_directions(const Scene& scene);
 

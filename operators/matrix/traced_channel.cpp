@@ -25,25 +25,31 @@ std::span<const std::uint32_t> rays_in_cell(const RayTable& table, std::uint32_t
     return table.row(f).subspan((arriving - facet.first) * each, each);
 }
 
-// Calls each(v, R_uv) for the unknowns v of facet f in whose cells arrives what u sends.
+// Calls each(v, g, R_uv) for the unknowns v, of facet g, in whose cells arrives what u, of facet f, sends.
 template <class Each>
 void for_row(const ReflectionMatrix<1>& R, std::uint32_t f, std::uint32_t u, const Each& each) {
     const double rho = R.reflectance()(0, f);
-    const std::uint32_t first = R.space().facets()[f].first;
-    if (const auto* B = R.block(f))
-        for (ReflectionBlock::Matrix::InnerIterator entry(*B, u - first); entry; ++entry)
-            each(first + static_cast<std::uint32_t>(entry.col()), rho * entry.value());
-    else
-        each(u, rho);
+    const ReflectionBlock::Matrix* const B = R.block(f);
+    if (!B) {
+        each(u, f, rho);
+        return;
+    }
+    const Facet& facet = R.space().facets()[f];
+    const std::uint32_t first = R.first_of_block(f);
+    for (ReflectionBlock::Matrix::InnerIterator entry(*B, u - first); entry; ++entry) {
+        const std::uint32_t v = first + static_cast<std::uint32_t>(entry.col());
+        const std::uint32_t g = v < facet.first ? f - 1 : v < facet.first + facet.cells.size() ? f : f + 1;
+        each(v, g, rho * entry.value());
+    }
 }
 
-// Calls each(u, v, f, R_uv) for all facets.
+// Calls each(u, v, g, R_uv) for all facets.
 template <class Each>
 void for_entries(const RayTable& table, const ReflectionMatrix<1>& R, const Each& each) {
     for (std::uint32_t f = 0; f < facets(table); ++f) {
         const Facet& facet = table.space().facets()[f];
         for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u)
-            for_row(R, f, u, [&](std::uint32_t v, double a) { each(u, v, f, a); });
+            for_row(R, f, u, [&](std::uint32_t v, std::uint32_t g, double a) { each(u, v, g, a); });
     }
 }
 
@@ -80,7 +86,7 @@ double TracedChannel::mean(std::uint32_t arriving, const Vector& x) const {
 double TracedChannel::row(Eigen::Index u, const Vector& x) const {
     double sum = 0.0;
     for_row(*R_, facet_of_unknown_[static_cast<std::size_t>(u)], static_cast<std::uint32_t>(u),
-            [&](std::uint32_t v, double a) { sum += a * mean(v, x); });
+            [&](std::uint32_t v, std::uint32_t, double a) { sum += a * mean(v, x); });
     return sum;
 }
 
@@ -94,7 +100,7 @@ void TracedChannel::apply_adjoint(const Vector& x, Vector& y) const {
     y.resize(size());
     ExitantVector<1> f(1, size() + 1);
     f << x.transpose().array(), 0.0;
-    const ExitantVector<1> worth = R_->of_means(std::move(f));  // B = Bᵀ
+    const ExitantVector<1> worth = R_->of_means(std::move(f));  // R = R*
     in_blocks(size(), [&](Eigen::Index u) {
         double sum = 0.0;
         for (const std::uint64_t ray : seers_.of(static_cast<std::uint32_t>(u))) {
@@ -108,8 +114,8 @@ void TracedChannel::apply_adjoint(const Vector& x, Vector& y) const {
 double TracedChannel::diagonal(Eigen::Index u) const {
     const std::uint32_t f = facet_of_unknown_[static_cast<std::size_t>(u)];
     double sum = 0.0;
-    for_row(*R_, f, static_cast<std::uint32_t>(u), [&](std::uint32_t v, double a) {
-        const auto seen = rays_in_cell(*table_, f, v);
+    for_row(*R_, f, static_cast<std::uint32_t>(u), [&](std::uint32_t v, std::uint32_t g, double a) {
+        const auto seen = rays_in_cell(*table_, g, v);
         sum += a * static_cast<double>(std::count(seen.begin(), seen.end(), static_cast<std::uint32_t>(u))) /
                static_cast<double>(seen.size());
     });
@@ -120,7 +126,8 @@ void TracedChannel::add_column(Eigen::Index u, double a, Vector& y) const {
     for (const std::uint64_t ray : seers_.of(static_cast<std::uint32_t>(u))) {
         const std::uint32_t v = arrives_in_[ray], f = facet_of_unknown_[v];
         const double part = a / static_cast<double>(rays_in_cell(*table_, f, v).size());
-        for_row(*R_, f, v, [&](std::uint32_t w, double b) { y[w] += part * b; });  // B = Bᵀ
+        // R = R*: a column is a row but for the étendue.
+        for_row(*R_, f, v, [&](std::uint32_t w, std::uint32_t, double b) { y[w] += part * b * (measure_[v] / measure_[w]); });
     }
 }
 
@@ -138,8 +145,8 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& t
     Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(table.space().size(), static_cast<Eigen::Index>(table.seen().size()));
     Triplets all;
     all.reserve(reflection_entries(table, R));
-    for_entries(table, R, [&](std::uint32_t u, std::uint32_t v, std::uint32_t f, double a) {
-        const auto seen = rays_in_cell(table, f, v);
+    for_entries(table, R, [&](std::uint32_t u, std::uint32_t v, std::uint32_t g, double a) {
+        const auto seen = rays_in_cell(table, g, v);
         const auto first = static_cast<std::size_t>(seen.data() - table.seen().data());
         for (std::size_t ray = first; ray < first + seen.size(); ++ray)
             all.emplace_back(static_cast<int>(u), static_cast<int>(ray), a / static_cast<double>(seen.size()));
@@ -151,7 +158,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& t
 std::size_t reflection_entries(const RayTable& table, const ReflectionMatrix<1>& R) {
     std::size_t count = 0;
     for_entries(table, R,
-                [&](std::uint32_t, std::uint32_t v, std::uint32_t f, double) { count += rays_in_cell(table, f, v).size(); });
+                [&](std::uint32_t, std::uint32_t v, std::uint32_t g, double) { count += rays_in_cell(table, g, v).size(); });
     return count;
 }
 

@@ -36,7 +36,8 @@ public:
     // T alone: a row is the mean of its rays, as 1 in T 1 for a closed scene.
     TracedChannel transport() const { return {table_, identity_}; }
 
-    double largest_albedo(int c) const { return scene_->materials.largest_albedo()[c]; }
+    // Of basic radiance, as all on patches.
+    double largest_albedo(int c) const { return scene_->materials.largest_basic_albedo()[c]; }
     Vector emitted(int c) const { return emitted_.row(c).transpose(); }
     // b = K Le; sampled on the lights where the rays of T hardly meet them.
     Vector direct(int c) const { return direct_.row(c).transpose(); }

@@ -27,7 +27,8 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
         for (const bool front : {true, false}) {
             const std::uint32_t k = directions.of(front);
             if (k == 0) continue;
-            facets_.push_back({patch, front, {k}, static_cast<std::uint32_t>(unknowns)});
+            facets_.push_back({patch, front, {k}, static_cast<std::uint32_t>(unknowns),
+                               front ? directions.front_index : directions.back_index});
             unknowns += DirectionCells{k}.size();
         }
     }

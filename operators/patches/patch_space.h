@@ -1,6 +1,7 @@
 // The space that T and R become matrices on. Its unknowns are the exitant radiance of each side of each patch in each cell of its
-// directions; a side that neither reflects nor emits has none, nor has one that faces nothing. Geometry only: how many directions a
-// side needs is told by whoever knows the materials (operators/matrix/sides.h).
+// directions; a side that neither reflects nor emits has none, nor has one that faces nothing. It is basic radiance L/n², which glass
+// does not change, with the refractive index n of the medium that the side faces. Geometry only: how many directions a side needs,
+// and n, is told by whoever knows the materials (operators/matrix/sides.h).
 #pragma once
 
 #include "core/base/frame.h"
@@ -16,6 +17,7 @@ struct SideDirections {
     std::uint32_t front = 1, back = 0;
     bool emits = false;               // the front does
     bool lit_from_elsewhere = false;  // by more than surfaces: what faces no surface may be lit
+    double front_index = 1.0, back_index = 1.0;  // n
     std::uint32_t of(bool front_side) const { return front_side ? front : back; }
 };
 
@@ -24,7 +26,8 @@ struct Facet {
     std::uint32_t patch;
     bool front;
     DirectionCells cells;
-    std::uint32_t first;  // of its unknowns
+    std::uint32_t first;  // of its unknowns; those of the back follow those of the front
+    double index = 1.0;   // n
 };
 
 class PatchSpace {
@@ -45,8 +48,11 @@ public:
     // What is seen where there is no unknown: its radiance is zero. One past the last unknown.
     std::uint32_t nothing() const { return size_; }
 
-    // Area times projected solid angle of each unknown: ⟨f, g⟩ = Σ measure f g.
-    double measure(const Facet& facet) const { return patches_.area(facet.patch) * pi / facet.cells.size(); }
+    // Étendue of each unknown, n² times area times projected solid angle: ⟨f, g⟩ = Σ measure f g, and of basic radiance Σ measure f
+    // is power.
+    double measure(const Facet& facet) const {
+        return facet.index * facet.index * patches_.area(facet.patch) * pi / facet.cells.size();
+    }
 
     // The facet of a side of a patch; facets().size() where there is none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[2 * patch + (front ? 0 : 1)]; }

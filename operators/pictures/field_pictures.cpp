@@ -2,7 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "operators/matrix/ray_table.h"
-#include "operators/matrix/sides.h"
+#include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/patches/patch_memory.h"
 
@@ -100,7 +100,8 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                                            const std::function<bool()>& interrupted) {
     const Stopwatch field_watch;
     check_memory(settings, 1.0, settings.rays);
-    const PatchSpace space(scene.geometry, settings.patching, side_directions(scene)), coarser = space.coarser();
+    const PatchSpace space = scene_patches(scene, settings.patching), coarser = space.coarser();
+    check_camera(scene, space);
     const auto patches = static_cast<double>(space.patches().size());
     check_memory(settings, space.size() / patches, static_cast<double>(RayTable::size(space, settings.rays)) / patches);
     FieldPictures result(scene.film, settings);

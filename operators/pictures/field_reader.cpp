@@ -74,12 +74,13 @@ struct FieldReader::Look {
     std::uint32_t mirrors = 0;
     bool goes_on;
 
-    // Draws wi, with its weight and pdf, from the material; false where nothing is reflected.
+    // Draws wi, with its pdf and the weight of basic radiance, from the material; false where nothing is reflected.
     bool choose_direction(const Materials& materials, SobolSampler& sampler) {
         const SurfaceSide side = materials.side(x, wo);
         const BsdfSample sampled = neumann::sample(*side.bsdf, side.p, side.p.frame.to_local(wo), sampler.next2());
         wi = side.p.frame.to_world(sampled.wi);
-        weight = sampled.weight;
+        const double ratio = sampled.wi.z < 0.0 ? refractive_ratio(*side.bsdf) : 1.0;
+        weight = sampled.weight * (ratio * ratio);
         pdf = sampled.pdf;
         return pdf != 0.0;
     }

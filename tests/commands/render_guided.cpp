@@ -40,14 +40,15 @@ TEST_F(RenderGuided, Refusals) {
     expect_refused({"--method", "guided", "--patches", "0"}, "0 patches: at least one is needed");
 }
 
-TEST_F(RenderGuided, RefusesGlass) {
+TEST_F(RenderGuided, RefusesLightsInGlass) {
     write("glass.xml",
           "<scene version='3.0.0'><sensor type='perspective'/><shape type='sphere'><emitter type='area'><rgb name='radiance' "
           "value='1'/></emitter></shape>\n"
           "<shape type='sphere'><float name='radius' value='5'/><bsdf type='dielectric'/></shape></scene>");
     const Finished done = run({"render", "glass.xml", "-o", "refused", "--quiet", "--method", "guided", "-n", "2"});
     EXPECT_EQ(done.exit_code, 2);
-    EXPECT_NE(done.err.find("lets light through, which patches do not hold; 'render --method walk' can\n"), std::string::npos)
+    EXPECT_NE(done.err.find("glass.xml:2:1: a light stands within glass, which patches do not hold; 'render --method walk' can"),
+              std::string::npos)
         << done.err;
     EXPECT_FALSE(std::filesystem::exists(path("refused")));
 }

@@ -60,7 +60,8 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
 
 INSTANTIATE_TEST_SUITE_P(, FieldPicturesSlow,
                          testing::Combine(testing::Values(FieldMethod::matrix, FieldMethod::gather),
-                                          testing::Values(std::string("cornell-box"), std::string("metal-room"))),
+                                          testing::Values(std::string("cornell-box"), std::string("metal-room"),
+                                                          std::string("glass-ball"))),
                          [](const auto& test) {
                              std::string name = std::get<1>(test.param);
                              std::replace(name.begin(), name.end(), '-', '_');

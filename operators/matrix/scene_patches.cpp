@@ -1,0 +1,70 @@
+#include "operators/matrix/scene_patches.h"
+
+#include "core/base/error.h"
+#include "core/emitter/emission_sampler.h"
+#include "core/sampling/sobol_sampler.h"
+#include "operators/matrix/sides.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint32_t rays = 256;
+
+// What is met by a ray of `what`, which sets out along w, is to face a medium of index 1.
+void check(const Scene& scene, const PatchSpace& space, const SurfacePoint& met, const Vec3& w, const std::string& what) {
+    const bool front = glm::dot(met.normal, w) < 0.0;
+    const std::uint32_t f = space.facet(space.patches().locate(met), front);
+    if (f == space.facets().size() || space.facets()[f].index == 1.0) return;
+    const std::string why = what + " stands within glass, which patches do not hold; 'render --method walk' can";
+    if (met.shape >= scene.origins.size()) throw InputError(why);
+    throw InputError(scene.origins[met.shape].place, fmt::format("{}: in {}", why, scene.origins[met.shape].shape));
+}
+
+}  // namespace
+
+bool has_glass(const PatchSpace& space) {
+    return std::any_of(space.facets().begin(), space.facets().end(), [](const Facet& f) { return f.index > 1.0; });
+}
+
+PatchSpace scene_patches(const Scene& scene, const Patching& patching) {
+    PatchSpace space(scene.geometry, patching, side_directions(scene));
+    if (scene.emitters.empty() || !has_glass(space)) return space;
+    const EmissionSampler lights(scene.geometry, scene.emitters);
+    const SobolPoints points(rays);
+    SobolSampler sampler(points, 0, 0);
+    for (std::uint32_t i = 0; i < rays && !lights.empty(); ++i) {
+        sampler.start(i);
+        const Vec2 place = sampler.next2();
+        const Emission light = lights.sample(place, sampler.next2());
+        SurfacePoint met;
+        if (light.from.is_infinite()
+                ? scene.geometry.first_hit(light.from.position, light.w, std::numeric_limits<double>::infinity(), met)
+                : scene.geometry.first_hit(light.from, light.w, met))
+            check(scene, space, met, light.w, "a light");
+    }
+    return space;
+}
+
+void check_camera(const Scene& scene, const PatchSpace& space) {
+    if (!has_glass(space)) return;
+    const SobolPoints points(rays);
+    SobolSampler sampler(points, 0, 0);
+    for (std::uint32_t i = 0; i < rays; ++i) {
+        sampler.start(i);
+        const Vec2 u = sampler.next2();
+        const Film& film = scene.film;
+        const FilmSample pixel =
+            film.sample(sampler.next2(), film.crop_x + std::min(static_cast<int>(u.x * film.crop_width), film.crop_width - 1),
+                        film.crop_y + std::min(static_cast<int>(u.y * film.crop_height), film.crop_height - 1));
+        const Ray ray = scene.camera.sample_ray(pixel.position, sampler);
+        SurfacePoint met;
+        if (scene.geometry.first_hit(ray.origin, ray.direction, ray.length, met)) check(scene, space, met, ray.direction, "the camera");
+    }
+}
+
+}  // namespace neumann
