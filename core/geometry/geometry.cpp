@@ -152,14 +152,23 @@ void hit_sphere(const Sphere& s, const Vec3& origin, const Vec3& direction, doub
     put_on_sphere(s, origin + direction * (distance < middle ? middle - half : middle + half), error, p);
 }
 
-void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double error, SurfacePoint& p) {
-    p.position = origin + direction * (glm::dot(d.normal, d.center - origin) / glm::dot(d.normal, direction));
+// Points keep clear of rims as hits of triangles do of edges, so that rounding cannot push them past what meets the rim.
+void put_on_disk(const Disk& d, const Vec3& position, double error, SurfacePoint& p) {
+    const Vec3 from_center = position - d.center;
+    const double uu = glm::dot(d.u, d.u), uv = glm::dot(d.u, d.v), vv = glm::dot(d.v, d.v), gram = uu * vv - uv * uv;
+    const double a = glm::dot(from_center, (d.u * vv - d.v * uv) / gram), b = glm::dot(from_center, (d.v * uu - d.u * uv) / gram);
+    const double radius = std::sqrt(a * a + b * b);  // 1 at the rim
+    const double most = 1.0 - std::min(error * std::sqrt(std::max(uu, vv) / gram), 0.5);
+    p.position = radius > most ? d.center + from_center * (most / radius) : position;
     p.normal = d.normal;
     p.error = error;
 }
 
-// `across`: of any length, perpendicular to the axis. Points keep clear of the rims as hits of triangles do of edges, so that
-// rounding cannot push them past a disc that closes the end.
+void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double error, SurfacePoint& p) {
+    put_on_disk(d, origin + direction * (glm::dot(d.normal, d.center - origin) / glm::dot(d.normal, direction)), error, p);
+}
+
+// `across`: of any length, perpendicular to the axis.
 void put_on_cylinder(const Cylinder& c, double along, const Vec3& across, double error, SurfacePoint& p) {
     const Vec3 n = glm::normalize(across);
     const double margin = std::min(error, 0.5 * c.length);
@@ -245,7 +254,7 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
     } else {
         const Disk& disk = std::get<Disk>((*shapes_)[shape]);
         const Vec2 d = uniform_disk(uv);
-        p = {disk.center + disk.u * d.x + disk.v * d.y, disk.normal, error_[shape], 0, 0};
+        put_on_disk(disk, disk.center + disk.u * d.x + disk.v * d.y, error_[shape], p);
     }
     p.shape = shape;
     return p;

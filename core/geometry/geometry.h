@@ -95,11 +95,10 @@ public:
         return {t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
     }
 
-    // A point in the plane of a triangle as one on the triangle.
+    // A point near the plane of a triangle as one on the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         const Triangle& t = triangles_[shape][primitive];
-        const Vec2 weights = t.weights(position);
-        return {t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
+        return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
     }
     // The inverse of point() on a sphere or a disc: the (u, v) of a point there.
     Vec2 round_coordinates(std::uint32_t shape, const Vec3& position) const;

@@ -21,6 +21,13 @@ public:
     Vec3 at(double u, double v, const Edges& edges) const {
         return std::min({u, v, 1.0 - u - v}) >= margin_ ? vertex_ + edges.first * u + edges.second * v : at_edge(u, v, edges);
     }
+    // The point of the triangle's plane nearest to p, or one beside it where that is too near an edge. `edges()` is called only then.
+    template <class EdgesOf>
+    Vec3 at(const Vec3& p, const EdgesOf& edges) const {
+        const Vec2 w = weights(p);
+        const bool inside = std::min({w.x, w.y, 1.0 - w.x - w.y}) >= margin_;
+        return inside ? p - normal_ * glm::dot(p - vertex_, normal_) : at_edge(w.x, w.y, edges());
+    }
     // The barycentric weights of the second and third vertex for a point in the triangle's plane.
     Vec2 weights(const Vec3& p) const { return {glm::dot(p - vertex_, dual1_), glm::dot(p - vertex_, dual2_)}; }
     const Vec3& normal() const { return normal_; }

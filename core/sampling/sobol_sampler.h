@@ -23,10 +23,11 @@ public:
     explicit SobolPoints(std::uint32_t size);
 
     std::uint32_t size() const { return size_; }
+    std::uint32_t log2_size() const { return log2_size_; }
     std::uint32_t reversed(std::uint32_t dimension, std::uint32_t index) const { return reversed_[dimension * size_ + index]; }
 
 private:
-    std::uint32_t size_;
+    std::uint32_t size_, log2_size_;
     std::vector<std::uint32_t> reversed_;
 };
 
@@ -37,10 +38,10 @@ public:
         : points_(&points), random_(seed, pixel), scrambles_(std::make_shared<Scrambles>()) {}
 
     void start(std::uint64_t sample) {
-        const std::uint32_t size = points_->size();
-        const std::uint64_t replicate = sample / size;
+        const std::uint32_t size = points_->size(), bits = points_->log2_size();
+        const std::uint64_t replicate = sample >> bits;
         // The index as a fraction of the size, bits reversed.
-        reversed_index_ = reverse(static_cast<std::uint32_t>((sample % size << 32) / size));
+        reversed_index_ = reverse(static_cast<std::uint32_t>((sample & (size - 1)) << 32 >> bits));
         if (replicate != scrambles_->replicate) scrambles_->known = 0;
         scrambles_->replicate = replicate;
         sample_ = sample;

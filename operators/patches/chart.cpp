@@ -20,14 +20,15 @@ QuadMap::QuadMap(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, con
     f_ = in_plane(d - a);
     g_ = in_plane((a - b) + (c - d));
     // A parallelogram's rounding error would only cost digits.
-    if (glm::length(g_) < 1e-14 * (glm::length(e_) + glm::length(f_))) g_ = Vec2(0.0);
+    is_parallelogram_ = glm::length(g_) < 1e-14 * (glm::length(e_) + glm::length(f_));
+    if (is_parallelogram_) g_ = Vec2(0.0);
     j0_ = cross(e_, f_);
     js_ = cross(e_, g_);
     jt_ = cross(g_, f_);
+    of_area_ = 1.0 / j0_;
 }
 
-Vec2 QuadMap::uniform(const Cell& cell, const Vec2& u) const {
-    if (g_ == Vec2(0.0)) return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
+Vec2 QuadMap::uniform_in_trapezoids(const Cell& cell, const Vec2& u) const {
     const double middle = j0_ + 0.5 * jt_ * (cell.t0 + cell.t1);
     const double s = cell.s0 + (cell.s1 - cell.s0) * sample_linear(u.x, middle + js_ * cell.s0, middle + js_ * cell.s1);
     const double at_s = j0_ + js_ * s;
@@ -55,16 +56,5 @@ Chart::Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3
       lower_(lower),
       upper_(upper),
       lengths_(quad_->lengths()) {}
-
-SurfacePoint Chart::point(const Geometry& geometry, const Vec2& st) const {
-    if (!quad_) return geometry.point(shape_, 0, st);
-    const Vec3 p = quad_->position(st);
-    return geometry.point_on_triangle(shape_, glm::dot(p - corners_[0], up_) > 0.0 ? upper_ : lower_, p);
-}
-
-Vec2 Chart::uniform(const Cell& cell, const Vec2& u) const {
-    if (quad_) return quad_->uniform(cell, u);
-    return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
-}
 
 }  // namespace neumann

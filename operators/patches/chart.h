@@ -28,6 +28,7 @@ public:
     }
     Vec2 coordinates(const Vec3& position) const {
         const Vec2 h(glm::dot(position - a_, x_), glm::dot(position - a_, y_));
+        if (is_parallelogram_) return {cross(h, f_) * of_area_, cross(e_, h) * of_area_};
         const double k1 = j0_ + cross(h, g_), k0 = cross(h, e_);
         const double t = -2.0 * k0 / (k1 + std::sqrt(std::max(k1 * k1 - 4.0 * k0 * jt_, 0.0)));
         const Vec2 across = e_ + g_ * t;
@@ -39,16 +40,22 @@ public:
         return (c.s1 - c.s0) * (c.t1 - c.t0) * (j0_ + 0.5 * (js_ * (c.s0 + c.s1) + jt_ * (c.t0 + c.t1)));
     }
     // Uniform by area for uniform u in [0, 1)².
-    Vec2 uniform(const Cell& cell, const Vec2& u) const;
+    Vec2 uniform(const Cell& cell, const Vec2& u) const {
+        if (is_parallelogram_) return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
+        return uniform_in_trapezoids(cell, u);
+    }
     // Of the lines through the middle.
     Vec2 lengths() const { return {glm::length(e_ + 0.5 * g_), glm::length(f_ + 0.5 * g_)}; }
 
 private:
     static double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+    Vec2 uniform_in_trapezoids(const Cell& cell, const Vec2& u) const;
 
     Vec3 a_, x_, y_;       // an orthonormal basis of the plane
     Vec2 e_, f_, g_;       // b − a, d − a, a − b + c − d in it
     double j0_, js_, jt_;  // |∂P/∂s × ∂P/∂t| = j0 + js s + jt t
+    double of_area_;       // 1 / j0
+    bool is_parallelogram_;
 };
 
 class Chart {
@@ -66,9 +73,16 @@ public:
     Vec2 coordinates(const Geometry& geometry, const Vec3& position) const {
         return quad_ ? quad_->coordinates(position) : geometry.round_coordinates(shape_, position);
     }
-    SurfacePoint point(const Geometry& geometry, const Vec2& st) const;
+    SurfacePoint point(const Geometry& geometry, const Vec2& st) const {
+        if (!quad_) return geometry.point(shape_, 0, st);
+        const Vec3 p = quad_->position(st);
+        return geometry.point_on_triangle(shape_, glm::dot(p - corners_[0], up_) > 0.0 ? upper_ : lower_, p);
+    }
     double area(const Cell& cell) const { return quad_ ? quad_->area(cell) : area_ * (cell.s1 - cell.s0) * (cell.t1 - cell.t0); }
-    Vec2 uniform(const Cell& cell, const Vec2& u) const;
+    Vec2 uniform(const Cell& cell, const Vec2& u) const {
+        if (quad_) return quad_->uniform(cell, u);
+        return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
+    }
     // How long lines of constant t and of constant s are, about.
     Vec2 lengths() const { return lengths_; }
     // t = 0 and t = 1 are the same line.

@@ -37,7 +37,12 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
             fmt::format("{} patches have {} unknowns, more than can be numbered; take fewer patches", patches_.size(), unknowns));
     size_ = static_cast<std::uint32_t>(unknowns);
     std::fill(facet_of_side_.begin(), facet_of_side_.end(), static_cast<std::uint32_t>(facets_.size()));
-    for (std::uint32_t f = 0; f < facets_.size(); ++f) facet_of_side_[2 * facets_[f].patch + (facets_[f].front ? 0 : 1)] = f;
+    first_of_side_.assign(facet_of_side_.size(), nothing());
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+        const std::size_t of = side(facets_[f].patch, facets_[f].front);
+        facet_of_side_[of] = f;
+        first_of_side_[of] = facets_[f].first;
+    }
 }
 
 PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::Place& place, const Vec3& w) const {
@@ -46,9 +51,8 @@ PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::Place
     if (sides_[p.shape].of(front) == 0) return reading;
     const Patches::Reading patches = patches_.interpolate(place);
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::uint32_t f = facet(patches.patch[i], front);
-        if (f == facets_.size()) return reading;
-        reading.unknown[i] = unknown(facets_[f], p, w);
+        reading.unknown[i] = unknown(patches.patch[i], front, p, w);
+        if (reading.unknown[i] == nothing()) return reading;
         reading.weight[i] = patches.weight[i];
     }
     return reading;

@@ -55,20 +55,16 @@ public:
     }
 
     // The facet of a side of a patch; facets().size() where there is none.
-    std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[2 * patch + (front ? 0 : 1)]; }
+    std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 
     // The unknown that holds what leaves p along w.
     std::uint32_t unknown(const SurfacePoint& p, const Vec3& w) const {
         const bool front = glm::dot(p.normal, w) > 0.0;
         if (sides_[p.shape].of(front) == 0) return nothing();
-        const std::uint32_t f = facet(patches_.locate(p), front);
-        return f == facets_.size() ? nothing() : unknown(facets_[f], p, w);
-    }
-    static std::uint32_t unknown(const Facet& facet, const SurfacePoint& p, const Vec3& w) {
-        return facet.cells.k == 1 ? facet.first : facet.first + facet.cells.cell(frame(facet, p).to_local(w));
+        return unknown(patches_.locate(p), front, p, w);
     }
     // z points away from the facet's side.
-    static Frame frame(const Facet& facet, const SurfacePoint& p) { return Frame(facet.front ? p.normal : -p.normal); }
+    static Frame frame(const Facet& facet, const SurfacePoint& p) { return frame(facet.front, p); }
 
     // What leaves p along w, of a field that is linear between the patches of a surface: Σ weight · field[unknown]. A weight is 0
     // where there is no unknown.
@@ -81,11 +77,18 @@ public:
 
 private:
     PatchSpace(Patches patches, std::vector<SideDirections> sides);
+    static Frame frame(bool front, const SurfacePoint& p) { return Frame(front ? p.normal : -p.normal); }
+    std::uint32_t unknown(std::uint32_t patch, bool front, const SurfacePoint& p, const Vec3& w) const {
+        const std::uint32_t first = first_of_side_[side(patch, front)];
+        const DirectionCells cells{sides_[p.shape].of(front)};
+        return cells.k == 1 || first == nothing() ? first : first + cells.cell(frame(front, p).to_local(w));
+    }
+    static std::size_t side(std::uint32_t patch, bool front) { return 2 * std::size_t{patch} + (front ? 0 : 1); }
 
     Patches patches_;
     std::vector<SideDirections> sides_;
     std::vector<Facet> facets_;
-    std::vector<std::uint32_t> facet_of_side_;
+    std::vector<std::uint32_t> facet_of_side_, first_of_side_;  // front and back of each patch; first: unknown, or nothing()
     std::uint32_t size_ = 0;
 };
 

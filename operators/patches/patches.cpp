@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace neumann {
 
@@ -72,7 +73,8 @@ Patches::Patches(const Geometry& geometry, const Patching& patching)
 
 void Patches::add_grid(Axis s, Axis t) {
     const auto chart = static_cast<std::uint32_t>(grids_.size());
-    const Grid& grid = grids_.emplace_back(Grid{std::move(s), std::move(t), static_cast<std::uint32_t>(first_of_cell_.size()) - 1});
+    Grid& grid = grids_.emplace_back(Grid{std::move(s), std::move(t), static_cast<std::uint32_t>(first_of_cell_.size()) - 1,
+                                          static_cast<std::uint32_t>(patches_.size())});
     std::vector<Cell> cells;
     for (std::size_t j = 0; j < size_of(grid.t); ++j)
         for (std::size_t i = 0; i < size_of(grid.s); ++i)
@@ -82,7 +84,10 @@ void Patches::add_grid(Axis s, Axis t) {
         oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
             parts[i] = find_parts(*geometry_, charts()[chart], footprints_[chart], cells[i]);
         });
-    for (std::size_t i = 0; i < cells.size(); ++i) add_cell(chart, cells[i], std::move(parts[i]));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        grid.whole = grid.whole && parts[i].size() < 2;
+        add_cell(chart, cells[i], std::move(parts[i]));
+    }
 }
 
 void Patches::add_cell(std::uint32_t chart, const Cell& cell, Parts parts) {
@@ -137,10 +142,12 @@ Patches Patches::coarser() const {
                 for (std::uint32_t patch = first_of_cell_[fine]; patch < first_of_cell_[fine + 1]; ++patch)
                     areas[coarser(patches_[patch].region)] += patches_[patch].area;
             }
-        result.grids_.push_back({s, t, static_cast<std::uint32_t>(result.first_of_cell_.size()) - 1});
+        Grid& coarse = result.grids_.emplace_back(Grid{s, t, static_cast<std::uint32_t>(result.first_of_cell_.size()) - 1,
+                                                       static_cast<std::uint32_t>(result.patches_.size())});
         for (std::uint32_t j = 0; j < size_of(t); ++j)
             for (std::uint32_t i = 0; i < size_of(s); ++i) {
                 const Cell cell{s.ends[i], s.ends[i + 1], t.ends[j], t.ends[j + 1]};
+                coarse.whole = coarse.whole && area_of_region[j * size_of(s) + i].size() < 2;
                 for (const auto& [region, area] : area_of_region[j * size_of(s) + i])
                     result.patches_.push_back({cell, area, chart, whole, region});
                 result.first_of_cell_.push_back(static_cast<std::uint32_t>(result.patches_.size()));
@@ -174,13 +181,15 @@ Patches::Axis Patches::axis(std::size_t cells, double grading, bool closed) {
 }
 
 Patches::Axis Patches::axis(std::vector<double> ends, bool closed) {
-    Axis axis{std::move(ends), {}, {}, closed};
+    Axis axis{std::move(ends), {}, {}, {}, closed};
     for (std::size_t i = 0; i + 1 < axis.ends.size(); ++i) axis.middles.push_back(0.5 * (axis.ends[i] + axis.ends[i + 1]));
     const std::size_t parts = 2 * axis.middles.size();
     for (std::size_t k = 0, i = 0; k < parts; ++k) {
         while (i + 1 < axis.middles.size() && axis.ends[i + 1] * static_cast<double>(parts) < static_cast<double>(k)) ++i;
         axis.first.push_back(static_cast<std::uint32_t>(i));
     }
+    axis.next.assign(axis.ends.begin() + 1, axis.ends.end() - 1);
+    axis.next.resize(axis.next.size() + 3, std::numeric_limits<double>::infinity());
     return axis;
 }
 
@@ -195,13 +204,6 @@ Patches::Axis Patches::coarser(const Axis& fine) {
 
 std::uint32_t Patches::coarser_cell(const Axis& axis, std::uint32_t cell) {
     return std::min(cell / 2, std::max(size_of(axis) / 2, 1u) - 1);
-}
-
-std::uint32_t Patches::cell(const Axis& axis, double x) {
-    const auto parts = static_cast<double>(axis.first.size());
-    std::uint32_t i = axis.first[static_cast<std::size_t>(std::clamp(x * parts, 0.0, parts - 1.0))];
-    while (i + 1 < size_of(axis) && x >= axis.ends[i + 1]) ++i;
-    return i;
 }
 
 Patches::Neighbours Patches::neighbours(const Axis& axis, double x) {

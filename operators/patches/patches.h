@@ -46,14 +46,12 @@ public:
     }
     Place place(const SurfacePoint& p) const { return place(chart_of(p), p.position); }
     std::uint32_t locate(const Place& p) const {
-        const std::uint32_t c = cell(p.chart, p.st), first = first_of_cell_[c];
-        return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(p.region));
+        return locate(p.chart, p.st, [&] { return p.region; });
     }
     std::uint32_t locate(const SurfacePoint& p) const {
         const std::uint32_t chart = chart_of(p);
         const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
-        const std::uint32_t c = cell(chart, st), first = first_of_cell_[c];
-        return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(footprints_[chart].region(st, p.position)));
+        return locate(chart, st, [&] { return footprints_[chart].region(st, p.position); });
     }
     // Uniform by area for uniform u in [0, 1)².
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
@@ -78,11 +76,13 @@ private:
     struct Axis {
         std::vector<double> ends, middles;  // of the cells
         std::vector<std::uint32_t> first;   // cell in each of as many equal parts of [0, 1], to start looking from
+        std::vector<double> next;           // where the cell after each begins; ∞ for the last, and twice more
         bool closed = false;                // the last cell is beside the first
     };
     struct Grid {
         Axis s, t;
-        std::uint32_t first;  // cell
+        std::uint32_t first, first_patch;  // cell and patch
+        bool whole = true;                 // every cell is one patch
     };
     // A cell, or the part of a cell that is in one region of Footprints.
     struct Patch {
@@ -105,10 +105,26 @@ private:
     static Axis coarser(const Axis& axis);
     static std::uint32_t coarser_cell(const Axis& axis, std::uint32_t cell);
     static std::uint32_t size_of(const Axis& axis) { return static_cast<std::uint32_t>(axis.middles.size()); }
-    static std::uint32_t cell(const Axis& axis, double x);
+    static std::uint32_t cell(const Axis& axis, double x) {
+        const auto parts = static_cast<double>(axis.first.size());
+        std::uint32_t i = axis.first[static_cast<std::size_t>(std::clamp(x * parts, 0.0, parts - 1.0))];
+        // Nearly always enough, and no branch to guess.
+        i += x >= axis.next[i];
+        i += x >= axis.next[i];
+        while (x >= axis.next[i]) ++i;
+        return i;
+    }
     std::uint32_t cell(std::uint32_t chart, const Vec2& st) const {
         const Grid& grid = grids_[chart];
         return grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
+    }
+    // The tables are large and met at random: as few of them as can be are asked.
+    template <class RegionAt>
+    std::uint32_t locate(std::uint32_t chart, const Vec2& st, const RegionAt& region) const {
+        const std::uint32_t c = cell(chart, st);
+        if (const Grid& grid = grids_[chart]; grid.whole) return grid.first_patch + (c - grid.first);
+        const std::uint32_t first = first_of_cell_[c];
+        return first_of_cell_[c + 1] == first + 1 ? first : nearest(c, at_this_level(region()));
     }
     static Neighbours neighbours(const Axis& axis, double x);
     void add_grid(Axis s, Axis t);

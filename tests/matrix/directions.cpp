@@ -3,9 +3,8 @@
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
-#include "operators/matrix/traced_system.h"
 #include "operators/series/neumann_series.h"
-#include "operators/spectrum/closure.h"
+#include "tests/matrix/one_matrix.h"
 #include "tests/physics/enclosures.h"
 
 #include <gtest/gtest.h>
@@ -141,32 +140,13 @@ TEST(Directions, DotTestsHold) {
     }
 }
 
-// Rows, columns and the diagonal are those of the K that is applied, and of R T as matrices.
 TEST(Directions, AChannelIsOneMatrix) {
     const Scene scene = metals();
     const TracedSystem system(scene, {30, 32, 0});
-    const auto n = static_cast<Eigen::Index>(system.space().size());
     ASSERT_GT(system.space().size(), system.space().facets().size());
     for (const int c : {0, 2}) {
-        const TracedChannel K = system.channel(c);
-        EXPECT_EQ(K.reflectance().size(), 0) << "K is no diag(ρ) F";
-        const auto R = reflection_matrix(system.table(), system.reflection(c));
-        EXPECT_EQ(static_cast<std::size_t>(R.nonZeros()), reflection_entries(system.table(), system.reflection(c)));
-        const Eigen::SparseMatrix<double, Eigen::RowMajor> RT = R * transport_matrix(system.table());
-        EXPECT_LE(adjoint_defect(K), 1e-13);
-        for (Eigen::Index u = 0; u < n; u += 97) {
-            const Vector unit = Vector::Unit(n, u);
-            Vector column(n), added = Vector::Zero(n);
-            K.apply(unit, column);
-            K.add_column(u, 1.0, added);
-            EXPECT_LE((column - added).cwiseAbs().maxCoeff(), 1e-14);
-            EXPECT_LE((column - RT * unit).cwiseAbs().maxCoeff(), 1e-14);
-            EXPECT_NEAR(column[u], K.diagonal(u), 1e-14);
-            Vector x(n), Kx(n);
-            for (Eigen::Index v = 0; v < n; ++v) x[v] = std::sin(static_cast<double>(v));
-            K.apply(x, Kx);
-            EXPECT_NEAR(K.row(u, x), Kx[u], 1e-14);
-        }
+        EXPECT_EQ(system.channel(c).reflectance().size(), 0) << "K is no diag(ρ) F";
+        expect_one_matrix(system, c);
     }
 }
 

@@ -1,16 +1,13 @@
 // Glass and other things that light goes through: R between both sides of a patch, and basic radiance.
 #include "core/material/diffuse_fresnel.h"
-#include "core/reader/read_scene.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/scene_patches.h"
-#include "operators/matrix/sides.h"
-#include "operators/matrix/traced_system.h"
-#include "operators/spectrum/closure.h"
+#include "tests/matrix/one_matrix.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 
 namespace neumann {
 namespace {
@@ -122,29 +119,7 @@ TEST_P(TransmissionScenes, FurnaceIsExact) {
     EXPECT_EQ(both % 2, 0u);
 }
 
-// The dot test, and rows, columns and diagonal of the matrix that is applied.
-TEST_P(TransmissionScenes, IsOneMatrixWithItsAdjoint) {
-    const Scene scene = ball_in_room(pane);
-    const TracedSystem system(scene, {30, 256, 0});
-    const auto n = static_cast<Eigen::Index>(system.space().size());
-    const TracedChannel K = system.channel(0);
-    EXPECT_LE(adjoint_defect(K), 1e-13);
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> RT =
-        reflection_matrix(system.table(), system.reflection(0)) * transport_matrix(system.table());
-    Vector x(n), Kx(n);
-    for (Eigen::Index v = 0; v < n; ++v) x[v] = std::sin(static_cast<double>(v));
-    K.apply(x, Kx);
-    EXPECT_LE((Kx - RT * x).cwiseAbs().maxCoeff(), 1e-13);
-    for (Eigen::Index u = 0; u < n; u += 97) {
-        const Vector unit = Vector::Unit(n, u);
-        Vector column(n), added = Vector::Zero(n);
-        K.apply(unit, column);
-        K.add_column(u, 1.0, added);
-        EXPECT_LE((column - added).cwiseAbs().maxCoeff(), 1e-14);
-        EXPECT_NEAR(column[u], K.diagonal(u), 1e-14);
-        EXPECT_NEAR(K.row(u, x), Kx[u], 1e-13);
-    }
-}
+TEST_P(TransmissionScenes, AreOneMatrixWithItsAdjoint) { expect_one_matrix(TracedSystem(ball_in_room(pane), {30, 256, 0}), 0); }
 
 std::string refusal(const Scene& scene, bool of_camera) {
     try {
