@@ -143,13 +143,23 @@ void put_on_sphere(const Sphere& s, const Vec3& position, double error, SurfaceP
     p.error = error;
 }
 
+// n, or a unit vector beside it, so that w meets a surface with this normal from before (sign −1) or from behind (1). A tangent in
+// floats may pass by in double, where n is perpendicular to it but for rounding.
+Vec3 met_by(const Vec3& w, double sign, const Vec3& n) {
+    constexpr double least = 1e-9;
+    const double cosine = sign * glm::dot(n, w);
+    return cosine >= least ? n : glm::normalize(n + w * (sign * (least - cosine)));
+}
+
 // `distance` is Embree's float answer; the exact root beside it is found again in double.
 void hit_sphere(const Sphere& s, const Vec3& origin, const Vec3& direction, double distance, double error, SurfacePoint& p) {
     const Vec3 f = origin - s.center;
     const double middle = -glm::dot(f, direction);
     const Vec3 nearest = f + direction * middle;
     const double half = std::sqrt(std::max(s.radius * s.radius - glm::dot(nearest, nearest), 0.0));
-    put_on_sphere(s, origin + direction * (distance < middle ? middle - half : middle + half), error, p);
+    const double side = distance < middle ? -1.0 : 1.0;
+    const Vec3 n = glm::normalize(f + direction * (middle + side * half));
+    put_on_sphere(s, s.center + met_by(direction, side, n), error, p);
 }
 
 // Points keep clear of rims as hits of triangles do of edges, so that rounding cannot push them past what meets the rim.
@@ -185,8 +195,9 @@ void hit_cylinder(const Cylinder& c, const Vec3& origin, const Vec3& direction, 
     const double a = glm::dot(d_across, d_across), middle = -glm::dot(f_across, d_across) / a;
     const Vec3 nearest = f_across + d_across * middle;
     const double half = std::sqrt(std::max(c.radius * c.radius - glm::dot(nearest, nearest), 0.0) / a);
-    const double t = distance < middle ? middle - half : middle + half;
-    put_on_cylinder(c, f_along + d_along * t, f_across + d_across * t, error, p);
+    const double side = distance < middle ? -1.0 : 1.0, t = middle + side * half;
+    const Vec3 n = met_by(d_across / std::sqrt(a), side, glm::normalize(f_across + d_across * t));
+    put_on_cylinder(c, f_along + d_along * t, n, error, p);
 }
 
 }  // namespace
