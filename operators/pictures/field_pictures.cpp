@@ -44,9 +44,8 @@ FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
       replicates_(settings.replicates),
       quantities_(static_cast<std::size_t>(settings.bounces) + 2),
       stride_(3 * quantities_ * (replicates_ + 1)),
-      values_(
-          std::make_unique_for_overwrite<float[]>(stride_ * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_))) {
-}
+      values_(make_large_array<float>(stride_ * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_))),
+      means_(make_large_array<float>(3 * quantities_ * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_))) {}
 
 Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
     const Image black(width_, height_);
@@ -71,15 +70,26 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
     return result;
 }
 
+void FieldPictures::find_means(std::size_t begin, std::size_t end) {
+    const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    const float part = 1.0f / static_cast<float>(replicates_);
+    for (std::size_t q = 0; q < quantities_; ++q)
+        for (std::size_t pixel = begin; pixel < end; ++pixel) {
+            float* const mean = means_.get() + 3 * (q * pixels + pixel);
+            const float* const v = values(pixel) + 3 * q;
+            for (std::size_t c = 0; c < 3; ++c) {
+                float sum = 0.0f;
+                for (std::size_t r = 0; r < replicates_; ++r) sum += v[3 * quantities_ * r + c];
+                mean[c] = sum * part;
+            }
+        }
+}
+
 Image FieldPictures::term_mean(std::size_t i) const {
     Image result(width_, height_);
+    const float* const mean = means_.get() + 3 * i * result.pixels.size();
     oneapi::tbb::parallel_for(std::size_t{0}, result.pixels.size(), [&](std::size_t pixel) {
-        Rgb sum(0.0);
-        for (std::uint32_t r = 0; r < replicates_; ++r) {
-            const float* v = values_.get() + pixel * stride_ + 3 * (quantities_ * r + i);
-            sum += Rgb(v[0], v[1], v[2]);
-        }
-        result.pixels[pixel] = sum / static_cast<double>(replicates_);
+        result.pixels[pixel] = Rgb(mean[3 * pixel], mean[3 * pixel + 1], mean[3 * pixel + 2]);
     });
     return result;
 }
@@ -177,6 +187,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
             for (std::size_t q = 0; q < sums_of_group; ++q)
                 group_sums[q] += (double{values[3 * q]} + values[3 * q + 1] + values[3 * q + 2]) / 3.0;
         }
+        result.find_means(begin, end);
     };
     std::atomic<bool> dropped = false;
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;

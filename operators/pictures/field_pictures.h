@@ -3,6 +3,7 @@
 // times as large, and the difference tells the discretisation error.
 #pragma once
 
+#include "core/base/large_array.h"
 #include "core/image/image.h"
 #include "operators/patches/patches.h"
 #include "operators/pictures/field_reader.h"
@@ -10,7 +11,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,7 +39,7 @@ public:
     Estimate term(std::size_t i) const { return picture(i, i); }
     Estimate sum(std::size_t i) const { return picture(0, i); }
     Estimate rest() const { return picture(quantities_ - 1, quantities_ - 1); }
-    // The mean of term(i) alone.
+    // The mean of term(i) alone, in floats.
     Image term_mean(std::size_t i) const;
 
     // Over pixels and channels. All pixels share the fields, so their errors go together; these are from whole replicates.
@@ -58,6 +58,8 @@ public:
     // For whoever fills them in: a pixel's values, three floats for each quantity, replicate by replicate, and after them the mean
     // difference to those from coarser patches.
     float* values(std::size_t pixel) { return values_.get() + pixel * stride_; }
+    // Once those of pixels [begin, end) are there.
+    void find_means(std::size_t begin, std::size_t end);
     std::size_t quantities() const { return quantities_; }
     // Sums over all pixels, replicate by replicate.
     std::vector<double> sums;
@@ -69,7 +71,8 @@ private:
     int width_, height_;
     std::uint32_t replicates_;
     std::size_t quantities_, stride_;
-    std::unique_ptr<float[]> values_;
+    LargeArray<float> values_;
+    LargeArray<float> means_;  // of the replicates, a picture for each quantity
 };
 
 // Nothing where `interrupted` answers true meanwhile; asked from any thread.

@@ -1,0 +1,33 @@
+// Memory that is soon written from end to end: in huge pages where the system has them, for the faults of small ones take as long as
+// the writing.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+namespace neumann {
+
+struct FreeMemory {
+    void operator()(void* memory) const { std::free(memory); }
+};
+template <class T>
+using LargeArray = std::unique_ptr<T[], FreeMemory>;
+
+// Its values are not set. Throws std::bad_alloc.
+template <class T>
+LargeArray<T> make_large_array(std::size_t size) {
+    static_assert(std::is_trivial_v<T>);
+    constexpr std::size_t page = std::size_t{2} << 20;
+    const std::size_t bytes = (size * sizeof(T) + page - 1) / page * page;
+    void* const memory = std::aligned_alloc(page, bytes);
+    if (!memory) throw std::bad_alloc();
+    madvise(memory, bytes, MADV_HUGEPAGE);  // advice: where it is not taken nothing changes
+    return LargeArray<T>(static_cast<T*>(memory));
+}
+
+}  // namespace neumann
