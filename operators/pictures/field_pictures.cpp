@@ -120,6 +120,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
+        if (interrupted()) return std::nullopt;
         const auto trace = result.importance ? trace_importance : trace_series;
         series.push_back(trace(scene, space, coarser,
                                {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r, settings.rest,
