@@ -191,8 +191,8 @@ const drawPlots = () => {
 };
 const drawNotes = () => {
   $("energy-note").textContent = "Mean over pixels and channels, with 95% intervals. " +
-    (first.decay ? "The fit is to the later half of the bounces. " : "") +
-    (first.importance ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is of the largest radiance anywhere, from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
+    (first.decay && all.length === 1 ? "The fit is to the later half of the bounces. " : "") +
+    (first.importance || all.length > 1 ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is of the largest radiance anywhere, from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
   $("energy").setAttribute("aria-label", "Mean of each bounce on a logarithmic axis; the same figures are in the table of bounces below");
   $("pixel").setAttribute("aria-label", "The chosen pixel's bounces in red, green and blue on a logarithmic axis");
   $("error").setAttribute("aria-label", "Relative standard error of the bounces and the sum against seconds");
