@@ -138,7 +138,7 @@ const pixelAt = event => {
 };
 
 // Figures of a pixel.
-const withInterval = (value, half) => half === undefined ? number(value) : half === 0 ? number(value) : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
+const withInterval = (value, half) => !half ? number(value) : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
 const drawReadout = () => {
   const at = state.hover ?? state.pixel, s = series(), ref = shown();
   if (!at || missing({ series: s, ref })) {
@@ -164,13 +164,12 @@ const drawReadout = () => {
 };
 
 // Plots.
-const goTo = i => { stop(); set({ i: Math.min(Math.round(i), lastShown()) }); };
-const has = s => s.hasRest;
-const last = Math.max(...all.map(s => s.last)), anyRest = all.some(has);
+const goTo = i => { stop(); set({ i: Math.round(i) }); };
+const last = Math.max(...all.map(s => s.last)), anyRest = all.some(s => s.hasRest);
 const radiance = `${first.importance ? "importance" : "radiance"} / ${first.unit}`;
 const energyPlot = plot("energy", bounceAxis(last, anyRest), `mean ${radiance}`, [here(() => state.i), intervals(() => true)], goTo);
 const pixelPlot = plot("pixel", bounceAxis(last, anyRest), radiance, [here(() => state.i), intervals(() => true)], goTo);
-const errorPlot = plot("error", { ...logAxis("seconds") }, "relative error", [], null);
+const errorPlot = plot("error", logAxis("seconds"), "relative error", []);
 const drawPlots = () => {
   const draw = (chart, sets) => {
     chart.data.datasets = sets;
