@@ -1,0 +1,52 @@
+"use strict";
+// What is shown, and what it is compared with.
+const data = JSON.parse($("data").textContent);
+const all = data.runs.map((r, i) => new Series(r, i));
+const names = all.length > 1 ? [", A", ", B"] : [""];
+const first = all[0];
+const state = {
+  run: 0, i: Math.min(1, first.last), sum: false, view: "colour", curve: "clip", stops: 0, fit: false,
+  hover: null, pixel: null,  // { x, y }
+  zoom: 1, left: 0, top: 0,  // of the picture in the stage, in CSS pixels
+  wipe: all.length > 1, edge: .5, other: all.length > 1 ? "run" : "next"
+};
+let playing = null;
+
+const series = () => all[state.run];
+const shown = () => ({ i: state.i, sum: state.sum });
+// What is shown, of another run: rest for rest.
+const same = s => {
+  const i = state.i > series().last ? s.last + 1 : state.i;
+  return { i, sum: state.sum, absent: i > s.last && state.i <= series().last };
+};
+// What B is: { series, ref }. Either follows what is shown or stands still.
+const others = [
+  ...(all.length > 1 ? [["run", "the same of the other run", () => [all[1 - state.run], same(all[1 - state.run])]]] : []),
+  ["next", "the next bounce", () => [series(), { i: state.i + 1, sum: state.sum }]],
+  ["previous", "the bounce before", () => [series(), { i: state.i - 1, sum: state.sum }]],
+  ["sum", "bounce or sum, the other", () => [series(), { i: state.i, sum: !state.sum }]],
+  ...all.flatMap((s, r) => [...Array(s.last + 1 + (s.hasRest ? 1 : 0)).keys()].flatMap(i => [false, true].map(sum => ({ i, sum })))
+    .filter(ref => s.has(ref) && !(ref.sum && ref.i === 0))
+    .map(ref => [`${r}-${ref.sum ? "sum" : "term"}-${ref.i}`, s.title(ref) + names[r], () => [s, ref]]))];
+const other = () => {
+  const [s, ref] = others.find(o => o[0] === state.other)[2]();
+  return { series: s, ref };
+};
+const comparing = () => state.view === "difference" || state.view === "z";
+const runName = s => all.length > 1 ? `${"AB"[s.index]}: ` : "";
+
+// Exposure: of the contact sheet, or such that the brightest hundredth of this picture is white.
+const fitted = new Map();
+const exposure = (s, ref) => {
+  let base = first.exposure;
+  if (state.fit) {
+    const key = `${s.index} ${ref.i} ${ref.sum}`;
+    if (!fitted.has(key)) {
+      const mean = s.mean(ref), n = s.pixels;
+      const lit = Float32Array.from({ length: n }, (_, p) => luminance(mean[p], mean[p + n], mean[p + 2 * n])).filter(v => v > 0).sort();
+      fitted.set(key, lit.length ? 1 / lit[Math.floor(.99 * (lit.length - 1))] : 1);
+    }
+    base = fitted.get(key);
+  }
+  return base * 2 ** state.stops;
+};

@@ -1,0 +1,60 @@
+"use strict";
+// The run in words.
+const sceneOf = s => s.run.scene.file.split("/").pop();
+const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.total_seconds)} s`;
+document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": A and B" : "");
+$("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
+all.forEach(s => s.run.warnings.forEach(w => $("warnings").append(element("p", runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : ""), "warning"))));
+
+// Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
+const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95"].includes(k));
+const isFlat = v => v === null || typeof v !== "object" || isMean(v) || (Array.isArray(v) && v.every(x => x === null || typeof x !== "object"));
+const flatText = v => v === null ? "–" : Array.isArray(v) ? v.map(flatText).join(", ") || "none" : isMean(v) ? withInterval(v.mean, typeof v.interval95 === "number" ? v.interval95 : Infinity)
+  : typeof v === "number" ? (Number.isInteger(v) ? whole(v) : number(v, 4)) : typeof v === "boolean" ? (v ? "yes" : "no") : String(v);
+const words = key => key.replaceAll("_", " ");
+const generic = value => {
+  if (value && typeof value === "object" && Object.keys(value).length === 0) return document.createTextNode("none");
+  if (isFlat(value)) return document.createTextNode(flatText(value));
+  if (Array.isArray(value) && value.every(v => v && !Array.isArray(v) && Object.values(v).every(isFlat))) {
+    const head = [...new Set(value.flatMap(Object.keys))], wide = element("div", undefined, "wide generic");
+    wide.append(table(head.map(words), value.map(v => head.map(h => h in v ? flatText(v[h]) : "")), head.map((_, i) => i).filter(i => value.some(v => typeof v[head[i]] === "string"))));
+    return wide;
+  }
+  const t = element("table", undefined, "facts");
+  Object.entries(value).forEach(([k, v]) => {
+    const tr = element("tr"), td = element("td");
+    td.append(generic(v));
+    tr.append(element("td", Array.isArray(value) ? String(+k + 1) : words(k)), td);
+    t.append(tr);
+  });
+  return t;
+};
+const section = (title, ...parts) => $("tables").append(element("h2", title), ...parts);
+const wide = t => { const w = element("div", undefined, "wide"); w.append(t); return w; };
+const bouncesTable = s => {
+  const b = s.run.bounces, rest = s.run.rest, row = (name, x) => [name, number(x.mean), typeof x.interval95 === "string" ? "none: infinite variance" : number(x.interval95, 2),
+    x.ratio_estimate === undefined ? "" : number(x.ratio_estimate), x.tail_bound === undefined ? "" : x.tail_bound === null ? "none" : number(x.tail_bound),
+    x.rays === undefined ? "" : whole(x.rays), ...(discretised ? [x.discretisation ? number(x.discretisation.mean, 2) : ""] : []),
+    ...(subset ? [x.missing ? number(x.missing.mean) : ""] : [])];
+  const discretised = b.some(x => x.discretisation), subset = b.some(x => x.missing);
+  return wide(table(["bounce", `mean / ${s.unit}`, "± (95%)", "ratio", "bound on what follows", "rays", ...(discretised ? ["discretisation"] : []), ...(subset ? ["missing"] : [])],
+    [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", rest)])], []));
+};
+if (data.comparison) {
+  section("A against B, the reference", wide(table(["", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],
+    data.comparison.pictures.map(p => [p.name, ...["rmse", "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
+      p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
+    element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.`, "note"));
+}
+all.forEach(s => {
+  const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;
+  section(`The bounces${tag}`, bouncesTable(s));
+  if (run.plan) section(`The plan${tag}: what was left out, and why`, generic(run.plan));
+  if (run.health) section(`Health${tag}`, generic(run.health));
+  const what = { command: run.command, ...run };
+  for (const part of ["plan", "health", "bounces", "warnings", "ways"]) delete what[part];
+  if (run.non_finite_samples.count === 0) delete what.non_finite_samples;
+  section(`The run${tag}`, generic(what));
+});
+section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits), standard errors to 3%. " +
+  (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));
