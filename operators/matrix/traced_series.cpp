@@ -44,9 +44,13 @@ private:
 
 // x, K x, K² x, …; `second` stands for K x where that is found otherwise.
 template <int C, class Op>
-TracedSeries apply_powers(const Op& K, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
+TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
                           const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings) {
     const Coarsening coarsening(space, coarser);
+    const auto K = [&](ExitantVector<C> x) {
+        settings.checkpoint();
+        return product(std::move(x));
+    };
     const auto K_coarse = [&](const ExitantVector<C>& x) { return coarsening.mean<C>(K(coarsening.prolong<C>(x))); };
 
     TracedSeries series{FieldStack(space, settings.bounces), FieldStack(coarser, settings.bounces)};
@@ -77,7 +81,7 @@ TracedSeries apply_powers(const Op& K, ExitantVector<C> term, const std::optiona
 template <int C>
 TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                          const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed);
+    const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
     const ReflectionMatrix<C> R(scene.materials, space);
     const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
     std::optional<ExitantVector<C>> direct;
@@ -92,7 +96,7 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
 template <int C>
 TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                            const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed);
+    const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
     const ReflectionMatrix<C> R(scene.materials, space);
     TracedSeries series =
         apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),

@@ -8,6 +8,7 @@
 #include "operators/matrix/field_stack.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace neumann {
 
@@ -18,6 +19,8 @@ struct TracedSeriesSettings {
     std::uint64_t seed = 0;
     bool rest = true;                  // Σ_{k>N} is wanted as well
     std::uint32_t camera_samples = 2;  // of a pixel, for We; a power of two
+    // Called now and then, from any thread; may throw to give up.
+    std::function<void()> checkpoint = [] {};
 };
 
 struct TracedSeries {

@@ -27,6 +27,8 @@ struct Workspace {
     std::array<std::uint64_t, 3> rays{};
 };
 
+struct GivenUp {};
+
 // What a patch needs: its rows of T, and for all replicates the quantities of the finer and the coarser field.
 void check_memory(const FieldSettings& settings, double unknowns, double rays) {
     // T* and R* of four channels beside the table.
@@ -119,12 +121,18 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
+    const auto checkpoint = [&] {
+        if (interrupted()) throw GivenUp();
+    };
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-        if (interrupted()) return std::nullopt;
         const auto trace = result.importance ? trace_importance : trace_series;
-        series.push_back(trace(scene, space, coarser,
-                               {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r, settings.rest,
-                                settings.samples}));
+        try {
+            series.push_back(trace(scene, space, coarser,
+                                   {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r,
+                                    settings.rest, settings.samples, checkpoint}));
+        } catch (const GivenUp&) {
+            return std::nullopt;
+        }
         result.rays[later] += series.back().rays;
         result.rest_converges = result.rest_converges && series.back().rest_converges;
     }
