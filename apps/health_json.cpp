@@ -106,8 +106,8 @@ std::vector<std::string> complaints(const Health& health, const Scene& scene, co
     const auto replay = [&](std::size_t number) { return fmt::format("neumann replay {} {}", folder, number); };
     if (health.non_finite() > 0) {
         const NonFiniteSample& first = health.first_non_finite.front();
-        lines.push_back(fmt::format("{} samples are no finite numbers and were left out, the first in {}, {}: {}", health.non_finite(),
-                                    bounce_text(health, static_cast<std::size_t>(first.bounce)),
+        lines.push_back(fmt::format("{} samples are no finite numbers and were left out, the first in {}, {}: {}",
+                                    health.non_finite(), bounce_text(health, static_cast<std::size_t>(first.bounce)),
                                     pixel_text(scene.film, first.place.pixel), replay(1)));
     }
     for (std::size_t q = 0; q < health.bounces.size(); ++q) {
@@ -127,11 +127,12 @@ std::vector<std::string> complaints(const Health& health, const Scene& scene, co
     const Checkup& checkup = *health.checkup;
     if (checkup.self_hits > 0) {
         const SelfHit& first = checkup.first_self_hits.front();
-        lines.push_back(fmt::format(
-            "{} of {} rays hit the surface that they leave, or one as near as rounding can tell; the first after {} reflections of {}, "
-            "{:.2g} away, on {}: {}",
-            checkup.self_hits, checkup.rays, first.bounce, pixel_text(scene.film, first.name.pixel), first.distance,
-            name_of_shape(scene, first.shape), replay(named.first_self_hit)));
+        lines.push_back(
+            fmt::format("{} of {} rays hit the surface that they leave, or one as near as rounding can tell; the first after {} "
+                        "reflections of {}, "
+                        "{:.2g} away, on {}: {}",
+                        checkup.self_hits, checkup.rays, first.bounce, pixel_text(scene.film, first.name.pixel), first.distance,
+                        name_of_shape(scene, first.shape), replay(named.first_self_hit)));
     }
     if (checkup.camera) complain_of(*checkup.camera, "path weight", lines);
     if (checkup.light) complain_of(*checkup.light, "power", lines);
@@ -175,7 +176,8 @@ Json as_json(const Health& health, const Scene& scene, const std::string& folder
                          {"rays", checkup.rays},
                          {"count", checkup.self_hits},
                          {"part_of_rays_at_most_95", checkup.self_hits_at_most()}};
-    if (checkup.camera) json["energy_balance"]["from_the_camera"] = balance_json(*checkup.camera, "path weight", "paths", checkup.paths);
+    if (checkup.camera)
+        json["energy_balance"]["from_the_camera"] = balance_json(*checkup.camera, "path weight", "paths", checkup.paths);
     if (checkup.light) json["energy_balance"]["from_the_lights"] = balance_json(*checkup.light, "W", "paths", checkup.paths);
     if (!checkup.camera && !checkup.light)
         json["energy_balance"] = "none: by points on surfaces, or by mirrors alone, a path's weight is not what arrives";

@@ -44,9 +44,9 @@ RecordedRun read_run(const std::string& folder) {
         RenderRequest& request = run.request;
         request.method = options.at("method");
         if (is_field_method(request.method) || request.method == "pointwise")
-            throw InputError(fmt::format(
-                "{}: --method {} has no paths to replay: {}", folder, request.method,
-                request.method == "pointwise" ? "each of its bounces is asked for anew" : "its bounces are read from fields on patches"));
+            throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, request.method,
+                                         request.method == "pointwise" ? "each of its bounces is asked for anew"
+                                                                       : "its bounces are read from fields on patches"));
         request.scene = json.at("scene").at("file");
         json.at("scene").at("definitions").get_to(request.definitions);
         run.hash = json.at("scene").at("hash");
@@ -90,8 +90,8 @@ std::uint32_t pixel_number(const Film& film, int x, int y) {
 Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
     if (!request.number) {
         if (*request.sample >= run.samples)
-            throw InputError(fmt::format("--sample {}: expected 0 to {}, as many as the render has a pixel", *request.sample,
-                                         run.samples - 1));
+            throw InputError(
+                fmt::format("--sample {}: expected 0 to {}, as many as the render has a pixel", *request.sample, run.samples - 1));
         return {{pixel_number(film, request.pixel[0], request.pixel[1]), *request.sample}, ""};
     }
     for (const Json& sample : run.named) {
@@ -168,7 +168,8 @@ Json rgb(const Vec3& x) {
 Json as_json(const ReplayedStep& s, const Scene& scene) {
     const PathStep& step = s.step;
     Json json = {{"ray", heading(step)}, {"bounce", step.bounce}, {"from", rgb(step.from.position)}, {"along", rgb(step.w)}};
-    if (step.kind == PathStep::Kind::goes_on && !step.from_light) json["pdf"] = step.pdf == delta_pdf ? Json("delta") : Json(step.pdf);
+    if (step.kind == PathStep::Kind::goes_on && !step.from_light)
+        json["pdf"] = step.pdf == delta_pdf ? Json("delta") : Json(step.pdf);
     if (step.kind != PathStep::Kind::asks) json[step.from_light ? "power" : "weight"] = rgb(step.beta);
     json["found"] = step.found;
     if (step.found && step.kind != PathStep::Kind::asks)
@@ -218,13 +219,13 @@ int replay_command(const ReplayRequest& request) {
         fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n",
                    run.request.scene, request.folder);
     if (run.version != NEUMANN_VERSION)
-        fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version, NEUMANN_VERSION);
+        fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
+                   NEUMANN_VERSION);
     const Chosen chosen = choose(request, run, scene.film);
     const PictureSampler sampler(scene, settings_of(run, scene));
     const Replay found = replay(sampler, chosen.name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
-    const auto unsound =
-        std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_sound(s); });
+    const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_sound(s); });
 
     if (request.json) {
         Json json = {{"pixel", {pixel.x, pixel.y}}, {"sample", chosen.name.sample}, {"method", run.request.method}};

@@ -24,8 +24,7 @@ PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& 
         albedo.colwise() = R.reflectance().col(f);
         for (int c = 0; c < std::min(C, 3); ++c)
             if (const auto* block = R.block(f, c))
-                albedo.row(c) *=
-                    row_sums(block).segment(facet.first - R.first_of_block(f), facet.cells.size()).transpose().array();
+                albedo.row(c) *= row_sums(block).segment(facet.first - R.first_of_block(f), facet.cells.size()).transpose().array();
         for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) emitted_(0, u) = space.measure(facet);
         const double each = table.measure(f);
         for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray) {

@@ -85,9 +85,9 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
     std::optional<ExitantVector<C>> direct;
     if (sample_lights) direct = direct_light<C>(scene, R, settings.light_samples, settings.seed);
     const PowerBalance<C> balance(table, R);
-    TracedSeries series = apply_powers<C>(
-        R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings,
-        [&](TracedSeries& s, const ExitantVector<C>& term) { s.power.push_back(balance.of(term)); });
+    TracedSeries series =
+        apply_powers<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings,
+                        [&](TracedSeries& s, const ExitantVector<C>& term) { s.power.push_back(balance.of(term)); });
     if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
     series.rays = table.seen().size() + series.light_rays;
     return series;
@@ -98,10 +98,9 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
                            const TracedSeriesSettings& settings) {
     const RayTable table(space, settings.rays, settings.seed);
     const ReflectionMatrix<C> R(scene.materials, space);
-    TracedSeries series =
-        apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),
-                        camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space, coarser, settings,
-                        [](TracedSeries&, const ExitantVector<C>&) {});
+    TracedSeries series = apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),
+                                          camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space,
+                                          coarser, settings, [](TracedSeries&, const ExitantVector<C>&) {});
     series.fine.average_over_directions();
     series.coarse.average_over_directions();
     series.rays = table.seen().size() + std::uint64_t{settings.camera_samples} * static_cast<std::uint64_t>(scene.film.crop_width) *

@@ -2,9 +2,9 @@
 
 #include "operators/pictures/path_group.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 namespace neumann {

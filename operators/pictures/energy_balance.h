@@ -30,7 +30,7 @@ struct EnergyShares {
 };
 
 struct EnergyBalance {
-    MeanWithError begun, left;  // what set out, and what of it left the scene before any surface
+    MeanWithError begun, left;             // what set out, and what of it left the scene before any surface
     std::vector<BalanceOfBounce> bounces;  // 1 …
     // That of a bounce is not 0, with 99.99% confidence for all of them together (Student's t, Bonferroni).
     bool is_sick(std::size_t bounce) const;

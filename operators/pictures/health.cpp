@@ -10,7 +10,7 @@ double share(double value, double samples, const Rgb& mean) {
     return all > 0.0 ? value / all : 0.0;
 }
 
-std::uint64_t sum(const std::vector<SampleHealth>& bounces, std::uint64_t SampleHealth::* part) {
+std::uint64_t sum(const std::vector<SampleHealth>& bounces, std::uint64_t SampleHealth::*part) {
     std::uint64_t n = 0;
     for (const SampleHealth& bounce : bounces) n += bounce.*part;
     return n;
@@ -25,7 +25,8 @@ std::uint64_t Health::fireflies() const { return sum(bounces, &SampleHealth::fir
 bool Health::is_sick() const {
     if (non_finite() > 0 || overflowed() > 0 || fireflies() > 0) return true;
     if (!checkup) return false;
-    return checkup->self_hits > 0 || (checkup->camera && checkup->camera->is_sick()) || (checkup->light && checkup->light->is_sick());
+    return checkup->self_hits > 0 || (checkup->camera && checkup->camera->is_sick()) ||
+           (checkup->light && checkup->light->is_sick());
 }
 
 Health examine(const Scene& scene, const SamplingSettings& settings, const RenderedSeries& series,
@@ -47,8 +48,7 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
             const std::uint32_t pixel = sample.place.pixel;
             const LargestShare found{sample, share(sample.value, samples, result.term_at(pixel, q)),
                                      share(sample.value, samples, result.sum_at(pixel, quantities - 1))};
-            const bool firefly =
-                series.samples >= fewest_samples_to_judge && found.of_sum > 0.5 && sample.value > samples * mean;
+            const bool firefly = series.samples >= fewest_samples_to_judge && found.of_sum > 0.5 && sample.value > samples * mean;
             if (firefly ? bounce.fireflies == 0 || found.of_sum > bounce.largest->of_sum
                         : bounce.fireflies == 0 && (!bounce.largest || found.of_bounce > bounce.largest->of_bounce))
                 bounce.largest = found;

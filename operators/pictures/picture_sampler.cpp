@@ -127,8 +127,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
                                          std::span(work.tally.rays));
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
-                        begin + static_cast<std::uint32_t>(i), first + r,
-                        std::holds_alternative<SignedFilter>(scene_.film.filter), settings_.colors, work);
+                        begin + static_cast<std::uint32_t>(i), first + r, std::holds_alternative<SignedFilter>(scene_.film.filter),
+                        settings_.colors, work);
                 append(r, work.waiting[i], work);
             }
         }

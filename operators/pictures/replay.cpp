@@ -19,8 +19,9 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
     recorder.chosen = place.path;
     const std::vector<Rgb> samples = sampler.retrace(place.replicate, place.first, recorder);
     Replay result{std::move(recorder.steps), std::vector<Rgb>(sampler.quantities(), Rgb(0.0))};
-    if (!samples.empty()) std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(place.path * sampler.quantities()),
-                                      sampler.quantities(), result.terms.begin());
+    if (!samples.empty())
+        std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(place.path * sampler.quantities()), sampler.quantities(),
+                    result.terms.begin());
     return result;
 }
 

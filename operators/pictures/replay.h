@@ -12,8 +12,8 @@ namespace neumann {
 struct ReplayedStep {
     PathStep step;
     struct Found {
-        std::size_t quantity;  // its bounce; N + 1 stands for the rest
-        Rgb value;             // what the picture gets of it: radiance, as a sample of the pixel
+        std::size_t quantity;       // its bounce; N + 1 stands for the rest
+        Rgb value;                  // what the picture gets of it: radiance, as a sample of the pixel
         std::optional<Vec2> pixel;  // where on the film, of what comes from a light; else it is the path's own pixel
     };
     std::vector<Found> found;

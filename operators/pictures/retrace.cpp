@@ -12,10 +12,11 @@
 namespace neumann {
 
 std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_)) return whole_pictures->retrace(replicate, first, observer);
+    if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
+        return whole_pictures->retrace(replicate, first, observer);
     const std::uint32_t size = settings_.replicate_size,
-                        pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()),
-                        begin = first / size, end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
+                        pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()), begin = first / size,
+                        end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
     std::vector<Pixel> some;
     std::vector<AnySampler> samplers;
     for (std::uint32_t pixel = begin; pixel < end; ++pixel) {

@@ -31,10 +31,11 @@ private:
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally,
                         const std::function<bool(double)>& part_done) const;
     // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate. `found(path, quantity, value)`: what
-    // a path brings to its own pixel, but for the filter's weight; `splatted(path, position, quantity, value)`: radiance times pixels.
+    // a path brings to its own pixel, but for the filter's weight; `splatted(path, position, quantity, value)`: radiance times
+    // pixels.
     template <class Sampler, class Transport, class OnFound, class OnSplat>
-    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const Transport& T,
-                     const OnFound& found, const OnSplat& splatted, Workspace& work) const;
+    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const Transport& T, const OnFound& found,
+                     const OnSplat& splatted, Workspace& work) const;
     template <class Sampler>
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
                       Workspace& work) const;

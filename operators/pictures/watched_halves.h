@@ -3,6 +3,7 @@
 #pragma once
 
 #include "operators/bidirectional/bidirectional.h"
+#include "operators/pictures/path_group.h"
 #include "operators/pictures/path_observer.h"
 
 #include <array>
@@ -106,8 +107,7 @@ private:
     std::span<const CameraRay> rays_;
     bool splits_;
     PathObserver* observer_;
-    static constexpr std::size_t most_paths = 64;
-    mutable std::array<Half, most_paths> light_half_{}, camera_half_{};
+    mutable std::array<Half, paths_at_once> light_half_{}, camera_half_{};
 };
 
 }  // namespace neumann

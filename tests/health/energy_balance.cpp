@@ -67,15 +67,15 @@ TEST(EnergyBalance, WrongWeightsAreTold) {
     for (const double factor : {0.98, 1.02}) {
         const EnergyBalance wrong = balance_of_walks(scene, {factor}, physics::fixed_seed);
         EXPECT_TRUE(wrong.is_sick(1)) << factor;
-        EXPECT_EQ(wrong.bounces[0].imbalance.mean < 0.0, factor > 1.0);
+        EXPECT_EQ(wrong.bounces[0].imbalance.mean<0.0, factor> 1.0);
         EXPECT_LE(wrong.bounces[0].imbalance.standard_error, 0.001 * wrong.bounces[0].arrived.mean);
     }
     for (std::uint64_t seed = 0; seed < 20; ++seed)
         EXPECT_FALSE(balance_of_walks(scene, {1.0}, physics::fixed_seed + seed).is_sick()) << seed;
 }
 
-// In a furnace all of it is known: ρ^(i−1) arrives, of which 1 − ρ is absorbed and nothing leaves. |z| ≤ 5 with 255 degrees of freedom,
-// 8 comparisons: a false alarm in 10⁵ seeds. Nothing is lost between the surfaces.
+// In a furnace all of it is known: ρ^(i−1) arrives, of which 1 − ρ is absorbed and nothing leaves. |z| ≤ 5 with 255 degrees of
+// freedom, 8 comparisons: a false alarm in 10⁵ seeds. Nothing is lost between the surfaces.
 TEST(EnergyBalance, OfAFurnaceIsKnown) {
     const Scene scene = read_scene(SCENES "/furnace/furnace.xml", {{"res", "16"}, {"albedo", "0.5"}});
     const EnergyBalance found = balance_of_walks(scene, {1.0}, physics::fixed_seed);
@@ -101,8 +101,8 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
                                     {"sky", "lens", "shaded"}};
     for (const auto& [light, camera, things] : rooms) {
         const auto file = [](const char* name) { return std::string(name) + ".xml"; };
-        const Scene scene =
-            read_scene(TEST_DATA "/generators/room.xml", {{"light", file(light)}, {"camera", file(camera)}, {"things", file(things)}});
+        const Scene scene = read_scene(TEST_DATA "/generators/room.xml",
+                                       {{"light", file(light)}, {"camera", file(camera)}, {"things", file(things)}});
         for (const Method method : {Method::walk, Method::light, Method::bidirectional, Method::surface}) {
             SamplingSettings settings{.method = method,
                                       .walk = {.bounces = bounces, .rest_probability = 0.0},
@@ -118,8 +118,8 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
                 if (!*half) continue;
                 for (std::size_t bounce = 1; bounce <= (*half)->bounces.size(); ++bounce) {
                     const BalanceOfBounce& b = (*half)->bounces[bounce - 1];
-                    EXPECT_FALSE((*half)->is_sick(bounce)) << (half == &found.light ? "light" : "camera") << ", bounce " << bounce << ": "
-                                                           << b.imbalance.mean << " ± " << b.imbalance.standard_error;
+                    EXPECT_FALSE((*half)->is_sick(bounce)) << (half == &found.light ? "light" : "camera") << ", bounce " << bounce
+                                                           << ": " << b.imbalance.mean << " ± " << b.imbalance.standard_error;
                     EXPECT_GT(b.arrived.mean, 0.0);
                 }
             }
