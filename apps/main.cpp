@@ -5,6 +5,7 @@
 #include "apps/method_options.h"
 #include "apps/options.h"
 #include "apps/render.h"
+#include "apps/replay.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
 #include "apps/study.h"
@@ -119,6 +120,8 @@ int main(int argc, char** argv) try {
     auto* conform = neumann::add_conform(app, conform_request);
     neumann::StudyRequest study_request;
     auto* study = neumann::add_study(app, study_request);
+    neumann::ReplayRequest replay_request;
+    auto* replay = neumann::add_replay(app, replay_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -142,6 +145,7 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     if (*compare) return finish(neumann::compare_command(a, b, json));
+    if (*replay) return finish(neumann::replay_command(replay_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);

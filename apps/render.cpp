@@ -90,6 +90,8 @@ int render_command(const RenderRequest& request) {
     if (!request.quiet)
         for (const auto& [text, count] : warnings.counts())
             fmt::print(stderr, "warning: {}{}\n", text, count > 1 ? fmt::format(" ({} times)", count) : "");
+    if (!request.quiet)
+        for (const std::string& complaint : result.complaints) fmt::print(stderr, "sick: {}\n", complaint);
     if (request.json)
         fmt::print("{}\n", json.dump(2));
     else if (!request.quiet)

@@ -7,6 +7,7 @@
 #include "core/base/warnings.h"
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
+#include "operators/pictures/sampling_settings.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +23,8 @@ struct RenderResult {
     BounceSeries series;
     Warnings warnings;
     // Parts of run.json that belong to the method.
-    nlohmann::ordered_json options, samples, rest, non_finite;
+    nlohmann::ordered_json options, samples, rest, health;
+    std::vector<std::string> complaints;  // what is sick, a line each
     std::optional<Ways> ways;
 };
 
@@ -31,6 +33,10 @@ RenderResult render_by_fields(const RenderJob& job);  // patches, matrix and gat
 inline bool is_field_method(const std::string& method) { return method == "patches" || method == "matrix" || method == "gather"; }
 // By request.method.
 RenderResult render_by_method(const RenderJob& job);
+
+// How the methods that make paths sample a scene, but for the bounces, the rest, the tables and the replicates. Throws InputError.
+SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene);
+std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& request, const Scene& scene, int bounces);
 
 // The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
 int choose_bounces(const RenderJob& job);

@@ -126,7 +126,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     }
     json["rest"] = rest_json(scene, result);
     if (result.ways) json["ways"] = as_json(*result.ways);
-    json["non_finite_samples"] = result.non_finite;
+    json["health"] = result.health;
     json["warnings"] = Json::array();
     for (const auto& [text, count] : warnings.counts()) json["warnings"].push_back({{"text", text}, {"count", count}});
     return json;

@@ -37,6 +37,17 @@ void check_memory(const FieldSettings& settings, double unknowns, double rays) {
                        300.0 + bytes_of_ray * rays + unknowns * (32.0 + 15.0 * settings.replicates * (settings.bounces + 2.0)));
 }
 
+EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
+    std::vector<std::vector<EnergyShares>> all;
+    for (const TracedSeries& series : replicates) {
+        const std::vector<PowerOfTerm>& power = series.power;
+        auto& shares = all.emplace_back(1, EnergyShares{power[0].emitted, 0.0, power[0].left, power[0].caught});
+        for (std::size_t i = 1; i < power.size(); ++i)
+            shares.push_back({power[i - 1].caught, power[i - 1].absorbed, power[i].left, power[i].caught});
+    }
+    return balance(all);
+}
+
 }  // namespace
 
 FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
@@ -136,6 +147,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
         result.rays[later] += series.back().rays;
         result.rest_converges = result.rest_converges && series.back().rest_converges;
     }
+    if (!result.importance) result.power = power_balance(series);
     result.patches = space.patches().size();
     result.unknowns = space.size();
     result.samples = std::uint64_t{settings.samples} * settings.replicates;

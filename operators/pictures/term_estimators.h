@@ -1,6 +1,8 @@
-// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result).
+// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result). Walks can be asked
+// to do so by another T.
 #pragma once
 
+#include "operators/pictures/sampling_settings.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
@@ -22,7 +24,12 @@ public:
 
     template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
-        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
+        trace(scene_->geometry, rays, samplers, walkers, result);
+    }
+    template <class Transport, class Sampler>
+    void trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
+               TermSamples& result) const {
+        walk(*scene_, T, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
 
 private:
@@ -72,5 +79,6 @@ private:
 
 using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>,
                                    WalkEstimator<SpecularContinuation>, WalkEstimator<GuidedContinuation>, PointwiseEstimator>;
+TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings);
 
 }  // namespace neumann

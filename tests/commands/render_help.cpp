@@ -83,7 +83,8 @@ TEST_F(RenderHelp, Version) { EXPECT_TRUE(std::regex_match(printed({"--version"}
 TEST_F(RenderHelp, UnknownCommands) {
     Finished done = run({"help", "rendr"});
     EXPECT_EQ(done.exit_code, 2);
-    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, help\n");
+    EXPECT_EQ(done.err,
+              "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, help\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);

@@ -58,7 +58,7 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
                     EXPECT_LE(error, 8.0 * i * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le";
                     EXPECT_EQ(spread, 0.0) << "K^" << i << " Le";
                 }
-                EXPECT_EQ(pictures.tally.non_finite_count, 0u);
+                EXPECT_EQ(pictures.tally.non_finite_samples(), 0u);
             }
     }
 }
