@@ -21,7 +21,7 @@ libeigen3-dev       | Eigen 3.4 or later                      | eigen3/Eigen/src
 libspectra-dev      | Spectra                                 | Spectra/Util/Version.h
 librandom123-dev    | Random123                               | Random123/philox.h
 libxxhash-dev       | xxHash                                  | xxhash.h
-libjs-chart.js      | Chart.js 3 or 4, for plots              | /usr/share/javascript/chart.js/chart.min.js
+libjs-chart.js      | Chart.js 3 or 4, for plots of pages     | /usr/share/javascript/chart.js/chart.min.js
 fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
 '
 
@@ -32,6 +32,9 @@ python3             | Python 3                                | python3
 python3-numpy       | NumPy                                   |
 python3-scipy       | SciPy, which reads what export writes    |
 python3-openimageio | the Python module of OpenImageIO        |
+chromium            | Chromium, in which pages are tested     | chromium chromium-browser google-chrome
+nodejs              | Node.js 18 or later, which drives it    | node nodejs
+npm                 | npm, which fetches playwright-core      | npm
 '
 
 say() { printf '%s\n' "$*" >&2; }
@@ -43,7 +46,10 @@ missing_packages() {
     # shellcheck disable=SC2086
     installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $names 2>/dev/null || true)
     for name in $names; do
-        grep -qxF "installed $name" <<<"$installed" || printf '%s ' "$name"
+        grep -qxF "installed $name" <<<"$installed" && continue
+        # Node.js from elsewhere brings an npm of its own, and excludes Debian's.
+        [[ $name == npm ]] && command -v npm >/dev/null && continue
+        printf '%s ' "$name"
     done
 }
 
@@ -97,6 +103,20 @@ install_missing() {
         tail -n 5 "$log" >&2
         say "Not everything could be installed. Going on with what is there."
         printf '%s' "$missing" >"$log.failed"
+    fi
+}
+
+# What drives Chromium in tests/browser, as its lock file pins it, into build/browser. Never fails: CMake says what is missing.
+install_browser_driver() {
+    local from=$root/tests/browser to=$root/build/browser
+    [[ -d $to/node_modules/playwright-core ]] && cmp -s "$from/package-lock.json" "$to/package-lock.json" && return 0
+    command -v npm >/dev/null || return 0
+    say "Fetching playwright-core with npm. Details: ${to#"$root/"}/npm.log"
+    mkdir -p "$to"
+    cp "$from/package.json" "$from/package-lock.json" "$to"
+    if ! (cd "$to" && npm ci --no-audit --no-fund >npm.log 2>&1); then
+        rm -f "$to/package-lock.json"
+        say "npm could not fetch it."
     fi
 }
 

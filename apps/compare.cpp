@@ -1,5 +1,6 @@
 #include "apps/compare.h"
 
+#include "apps/compare_page.h"
 #include "apps/output_folder.h"
 #include "apps/rendered_picture.h"
 #include "core/base/error.h"
@@ -182,28 +183,34 @@ nlohmann::ordered_json json_of(const Row& row) {
     return j;
 }
 
-void print_json(const std::string& a, const std::string& b, const Comparison& comparison) {
+nlohmann::ordered_json json_of(const std::string& a, const std::string& b, const Comparison& comparison) {
     nlohmann::ordered_json j = {{"a", a}, {"b", b}, {"reference", "b"}, {"epsilon", metrics_epsilon}, {"confidence", confidence}};
     j["pictures"] = nlohmann::ordered_json::array();
     for (const Row& row : comparison.rows) j["pictures"].push_back(json_of(row));
     j["only_in_a"] = comparison.only_in_a;
     j["only_in_b"] = comparison.only_in_b;
-    fmt::print("{}\n", j.dump(2));
+    return j;
 }
 
 }  // namespace
 
-int compare_command(const std::string& a, const std::string& b, bool json) {
+int compare_command(const CompareRequest& request) {
+    const auto& [a, b, output, json] = request;
     const bool a_is_folder = is_folder(a), b_is_folder = is_folder(b);
     if (a_is_folder != b_is_folder) {
         throw InputError(fmt::format("{} and {}: a folder against a picture", a_is_folder ? a : b, a_is_folder ? b : a));
     }
     const bool folders = a_is_folder && b_is_folder;
+    if (!folders && !output.empty())
+        throw InputError(fmt::format("-o: {} is a picture; a page is made of two folders of render", a));
     const Comparison comparison = folders ? compare_folders(a, b) : Comparison{{compare_pictures("A against B", a, b)}, {}, {}};
+    const auto figures = json_of(a, b, comparison);
+    if (!output.empty()) write_compare_page(output, a, b, figures);
     if (json) {
-        print_json(a, b, comparison);
+        fmt::print("{}\n", figures.dump(2));
     } else {
         print_table(a, b, comparison, !folders);
+        if (!output.empty()) fmt::print("Both are on the page {}\n", (fs::path(output) / "index.html").string());
     }
     return 0;
 }

@@ -103,13 +103,14 @@ int main(int argc, char** argv) try {
     neumann::RenderRequest request;
     std::vector<std::string> definitions;
     add_render(app, request, definitions);
-    std::string a, b;
-    bool json = false;
+    neumann::CompareRequest compare_request;
     auto* compare = app.add_subcommand(
         "compare", "Print error metrics between two pictures or two output folders; the second is the reference");
-    compare->add_option("A", a, "Picture or folder")->required();
-    compare->add_option("B", b, "Reference picture or folder")->required();
-    compare->add_flag("--json", json, "Print JSON");
+    compare->add_option("A", compare_request.a, "Picture or folder")->required();
+    compare->add_option("B", compare_request.b, "Reference picture or folder")->required();
+    compare->add_option("-o", compare_request.output, "Of two folders: write a page there that shows both, bounce by bounce")
+        ->type_name("DIR");
+    compare->add_flag("--json", compare_request.json, "Print JSON");
     neumann::SpectrumRequest spectrum_request;
     auto* spectrum = neumann::add_spectrum(app, spectrum_request);
     neumann::SolveRequest solve_request;
@@ -144,7 +145,7 @@ int main(int argc, char** argv) try {
         fmt::print("{}", app.help());
         return finish(0);
     }
-    if (*compare) return finish(neumann::compare_command(a, b, json));
+    if (*compare) return finish(neumann::compare_command(compare_request));
     if (*replay) return finish(neumann::replay_command(replay_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 

@@ -1,6 +1,7 @@
 #include "apps/render.h"
 
 #include "apps/interrupt.h"
+#include "apps/pages/explorer_page.h"
 #include "apps/render_method.h"
 #include "apps/run_json.h"
 #include "apps/series_files.h"
@@ -77,13 +78,19 @@ int render_command(const RenderRequest& request) {
 
     Warnings warnings = scene.warnings;
     for (const auto& [text, count] : result.warnings.counts()) warnings.add(text, count);
-    const std::string unlabelled = write_pictures(folder, result.series);
-    if (!unlabelled.empty()) warnings.add(unlabelled);
+    PackedSeries packed(scene.film.crop_width, scene.film.crop_height,
+                        result.series.report.bounces.size() + (result.series.rest ? 1 : 0));
+    const WrittenPictures written = write_pictures(folder, result.series, packed);
+    if (!written.warning.empty()) warnings.add(written.warning);
+    if (packed.factor() > 1) warnings.add(packed.reduction());
     if (result.ways) write_ways(folder, *result.ways);
     folder.write("series.csv", series_table(result.series.report));
-    folder.write("convergence.csv", convergence_table(result.series.convergence));
+    const std::string convergence = convergence_table(result.series.convergence);
+    folder.write("convergence.csv", convergence);
     const double seconds = watch.seconds();
     const auto json = run_json(job, result, warnings, seconds);
+    const ExploredRun explored{json, convergence, written.exposure, std::move(packed), result.series.rest.has_value()};
+    folder.write("index.html", explorer_page({&explored}));
     folder.write("run.json", json.dump(2) + "\n");
     folder.commit();
 

@@ -12,7 +12,7 @@ namespace neumann {
 std::string bounce_file(std::size_t i) { return fmt::format("bounce_{:03}.exr", i); }
 std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
 
-std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
+WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed) {
     const SeriesReport& report = series.report;
     const std::size_t N = report.bounces.size() - 1;
     const auto attributes = [&](const std::string& quantity, std::size_t bounce, const Estimate& picture, bool infinite_variance) {
@@ -33,14 +33,17 @@ std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
         any_infinite = any_infinite || report.bounces[i].infinite_variance;
         folder.write(bounce_file(i), encode_exr(term, attributes(power("i"), i, term, report.bounces[i].infinite_variance)));
         folder.write(sum_file(i), encode_exr(sum, attributes("sum of " + power("k") + " for k <= i", i, sum, any_infinite)));
+        packed.add(term, &sum);
         terms.push_back(std::move(term.mean));
         sums.push_back(std::move(sum.mean));
     }
     if (series.rest) {
         folder.write("rest.exr", encode_exr(*series.rest, attributes("sum of " + power("k") + " for k > i", N, *series.rest,
                                                                      report.rest_infinite_variance)));
+        packed.add(*series.rest, nullptr);
         terms.push_back(series.rest->mean);
     }
+    packed.pack();
 
     const char* const kind = report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths";
     std::vector<LabelledPicture> term_pictures, sum_pictures;
@@ -53,9 +56,10 @@ std::string write_pictures(OutputFolder& folder, const BounceSeries& series) {
     const auto font = find_label_font();
     folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
     folder.write("bounces.gif", flip_book(term_pictures, sum_pictures, exposure, font));
-    return font ? ""
-                : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png and bounces.gif are "
-                  "unlabelled";
+    return {font ? ""
+                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png and bounces.gif are "
+                   "unlabelled",
+            exposure};
 }
 
 std::string series_table(const SeriesReport& report) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/output_folder.h"
+#include "apps/pages/packed_pictures.h"
 #include "operators/pictures/bounce_series.h"
 
 #include <nlohmann/json.hpp>
@@ -9,9 +10,13 @@
 
 namespace neumann {
 
-// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif. Returns a warning where labels were left out, or
-// nothing.
-std::string write_pictures(OutputFolder& folder, const BounceSeries& series);
+struct WrittenPictures {
+    std::string warning;    // where labels were left out, or nothing
+    double exposure = 1.0;  // of the sheet and the flip-book
+};
+
+// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif; and the pictures for the page, packed.
+WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed);
 
 // series.csv, and convergence.csv.
 std::string series_table(const SeriesReport& report);

@@ -36,7 +36,7 @@ protected:
 
     static std::string printed(const std::string& a, const std::string& b, bool json = false) {
         testing::internal::CaptureStdout();
-        const int code = compare_command(a, b, json);
+        const int code = compare_command({a, b, "", json});
         std::fflush(stdout);
         std::string text = testing::internal::GetCapturedStdout();
         EXPECT_EQ(code, 0);
@@ -47,7 +47,7 @@ protected:
 
     static std::string refusal(const std::string& a, const std::string& b) {
         try {
-            compare_command(a, b, false);
+            compare_command({a, b});
         } catch (const InputError& error) {
             return error.what();
         }

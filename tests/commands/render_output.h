@@ -133,7 +133,7 @@ protected:
     static std::string numbered(const std::string& name, int i) { return fmt::format("{}_{:03}.exr", name, i); }
 
     static Names output_names(int bounces, bool rest = true) {
-        Names names{"bounces.gif", "contact-sheet.png", "convergence.csv", "run.json", "series.csv"};
+        Names names{"bounces.gif", "contact-sheet.png", "convergence.csv", "index.html", "run.json", "series.csv"};
         if (rest) names.insert("rest.exr");
         for (int i = 0; i <= bounces; ++i) names.insert({numbered("bounce", i), numbered("sum", i)});
         return names;
@@ -176,7 +176,7 @@ protected:
     void expect_same_pictures(const std::string& a, const std::string& b) const {
         EXPECT_EQ(names(a), names(b));
         for (const std::string& name : names(a)) {
-            if (name.ends_with(".csv") || name.ends_with(".json")) continue;
+            if (name.ends_with(".csv") || name.ends_with(".json") || name.ends_with(".html")) continue;
             EXPECT_TRUE(text_of(path(a) / name) == text_of(path(b) / name)) << name << " differs between " << a << " and " << b;
         }
     }

@@ -100,7 +100,7 @@ TEST_F(StudyCommand, Files) {
     // One file: nothing is fetched.
     const std::string page = text_of(path("a/index.html"));
     EXPECT_NE(page.find("Chart.js v"), std::string::npos);
-    for (const char* foreign : {"<link", " src=", "@import", "/*STUDY*/", "/*CHART_JS*/"})
+    for (const char* foreign : {"<link", " src=", "@import", "/*include", "/*data*/"})
         EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
 }
 

@@ -1,0 +1,81 @@
+"use strict";
+// From values to colours on the screen.
+
+const srgb = v => v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
+const toneCurves = {
+  clip: v => srgb(Math.min(1, v)),
+  compress: v => srgb(v / (1 + v)),
+  log: v => v > 0 ? Math.min(1, Math.max(0, 1 + Math.log10(v) / 4)) : 0
+};
+const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+
+// A colour map by its stops (red, green, blue in hexadecimal), linear between them: 256 pixels in the order of ImageData.
+const colourMap = stops => Uint32Array.from({ length: 256 }, (_, i) => {
+  const at = i / 255 * (stops.length - 1), k = Math.min(stops.length - 2, Math.floor(at));
+  const channel = c => {
+    const [low, high] = [stops[k], stops[k + 1]].map(s => parseInt(s.slice(2 * c, 2 * c + 2), 16));
+    return Math.round(low + (at - k) * (high - low));
+  };
+  return (0xff000000 | channel(2) << 16 | channel(1) << 8 | channel(0)) >>> 0;
+});
+// Stops of matplotlib's viridis (CC0), which is even to the eye and in print.
+const viridis = colourMap(["440154", "482878", "3e4a89", "31688e", "26828e", "1f9e89", "35b779", "6ece58", "b5de2b", "fde725"]);
+// Blue below, red above, black in the middle.
+const signed = colourMap(["a6d4ff", "3c8fe0", "10407c", "000000", "7c2010", "e0663c", "ffc2a6"]);
+const notFinite = 0xffff00ff, unknown = 0xff808080;
+
+// How a picture is shown: at(p) is the pixel p, for ImageData; `ramp`, `low`, `high` and `log` tell the scale.
+const shownAs = {
+  colour(series, ref, exposure, curve) {
+    const mean = series.mean(ref), n = series.pixels, bits = new Uint32Array(mean.buffer, mean.byteOffset, mean.length);
+    // A table over the 16 upper bits of a float, 1/256 of the value at most away.
+    const float = new Float32Array(1), word = new Uint32Array(float.buffer);
+    const table = Uint8Array.from({ length: 65536 }, (_, u) => {
+      word[0] = u << 16;
+      return float[0] > 0 ? Math.round(255 * toneCurves[curve](float[0] * exposure)) : 0;
+    });
+    const byte = k => table[Math.min(65535, (bits[k] + 0x8000) / 65536 | 0)];
+    return { at: p => Number.isFinite(mean[p] + mean[p + n] + mean[p + 2 * n])
+               ? (0xff000000 | byte(p + 2 * n) << 16 | byte(p + n) << 8 | byte(p)) >>> 0 : notFinite };
+  },
+  false(series, ref, exposure) {
+    const mean = series.mean(ref), n = series.pixels, high = 1 / exposure, low = high / 1e4;
+    return { ...scaled(viridis, low, high, true, p => luminance(mean[p], mean[p + n], mean[p + 2 * n])),
+             quantity: `${series.importance ? "importance" : "luminance of the radiance"}, ${series.unit}` };
+  },
+  noise(series, ref) {
+    const mean = series.mean(ref), n = series.pixels, errors = series.errors(ref), channels = [0, n, 2 * n];
+    const relative = p => {
+      if (!errors) return NaN;
+      const e = Math.hypot(...channels.map(c => errors(p + c)));
+      return e === 0 ? 0 : e / Math.hypot(...channels.map(c => mean[p + c]));
+    };
+    return { ...scaled(viridis, 1e-3, 1, true, relative), relative,
+             quantity: "standard error of a pixel / its value" + (errors ? "" : ": not in the files") };
+  },
+  difference(series, ref, exposure, other, otherRef) {
+    return { ...scaled(signed, -1 / exposure, 1 / exposure, false, difference(series, ref, other, otherRef).value),
+             quantity: `A − B, luminance, ${series.unit}` };
+  },
+  z(series, ref, exposure, other, otherRef) {
+    const { value, error } = difference(series, ref, other, otherRef);
+    return { ...scaled(signed, -5, 5, false, p => { const d = value(p); return d === 0 ? 0 : d / error(p); }),
+             quantity: "(A − B) / its standard error, luminance" };
+  }
+};
+// A pixel's channels come from the same samples, so that their errors are taken to go together.
+const difference = (a, refA, b, refB) => {
+  const n = a.pixels, [meanA, meanB] = [a.mean(refA), b.mean(refB)], [errorA, errorB] = [a.errors(refA), b.errors(refB)];
+  const of = (f, p) => luminance(f(p), f(p + n), f(p + 2 * n));
+  return { value: p => of(k => meanA[k] - meanB[k], p),
+           error: p => Math.hypot(errorA ? of(errorA, p) : 0, errorB ? of(errorB, p) : 0) };
+};
+const scaled = (ramp, low, high, log, value) => {
+  const at = v => log ? Math.log10(v / low) / Math.log10(high / low) : (v - low) / (high - low);
+  return { ramp, low, high, log, value, at: p => {
+    const v = value(p);
+    if (Number.isNaN(v)) return unknown;
+    if (v === Infinity) return ramp[255];
+    return log && v <= 0 ? 0xff000000 : ramp[Math.round(255 * Math.min(1, Math.max(0, at(v))))];
+  } };
+};

@@ -1,0 +1,56 @@
+// The pictures of a series as a page holds them: small enough to be part of it, exact enough for what is read from a screen.
+#pragma once
+
+#include "core/image/image.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+// A picture's means are half floats (11 bits, about three digits) times a power of two of its own, so that the darkest bounce keeps
+// as many as the brightest. Its errors are a byte each: 0 for no error, 255 for an unknown one, otherwise c for
+// 2^(low + (c − 1) step), a step of 1/12, so that errors are 3% off at most, or as wide as the picture's errors need. All of it is
+// deflated and then base64.
+struct PackedPicture {
+    // "exponent" of the scale, and "errors": kind ("term", "sum", "term_discretisation", "sum_discretisation"), low, step, in the
+    // order of `bytes`
+    nlohmann::ordered_json head;
+    // The high bytes of the halves, red, green, blue, a row after another, their low bytes, then the errors of each kind; in
+    // base64.
+    std::string bytes;
+};
+
+class PackedSeries {
+public:
+    // Pictures of `width` × `height`. Where `pictures` of them are more than the page shall hold (page_pixels), each is reduced by
+    // the same whole factor.
+    PackedSeries(int width, int height, std::size_t pictures);
+
+    // The next bounce: its term, with the errors of its sum; or the rest, which has none.
+    void add(const Estimate& term, const Estimate* sum);
+    // Deflates what was added.
+    void pack();
+
+    // What a page says of them: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95%
+    // interval over its standard error; null: unknown), "independent" (pixels).
+    nlohmann::ordered_json head() const;
+    int factor() const { return factor_; }
+    // Of a factor above 1, what to tell: "index.html shows the pictures at 1/2 of their size, …"
+    std::string reduction() const;
+    int width() const { return (full_width_ + factor_ - 1) / factor_; }
+    int height() const { return (full_height_ + factor_ - 1) / factor_; }
+    const std::vector<PackedPicture>& pictures() const { return pictures_; }
+
+private:
+    int full_width_, full_height_, factor_ = 1;
+    double degrees_of_freedom_ = 0.0;
+    bool independent_ = true;
+    std::vector<PackedPicture> pictures_;
+};
+
+// Pixels of all pictures together that a page holds. 256² × 17 noisy ones make 13 MB, so it has at most about 100 MB.
+constexpr std::size_t page_pixels = std::size_t{8} << 20;
+
+}  // namespace neumann

@@ -1,0 +1,100 @@
+"use strict";
+// The pictures of the page, see apps/pages/packed_pictures.h: means, sums and errors of every bounce, a plane a channel.
+
+// What the bits of a half float stand for.
+const halves = new Float32Array(65536);
+for (let bits = 0; bits < 65536; ++bits) {
+  const exponent = bits >> 10 & 31, fraction = bits & 1023, sign = bits & 0x8000 ? -1 : 1;
+  halves[bits] = sign * (exponent === 31 ? (fraction ? NaN : Infinity) : exponent ? (1024 + fraction) * 2 ** (exponent - 25) : fraction * 2 ** -24);
+}
+const inflated = async text => {
+  const binary = atob(text), bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < bytes.length; ++k) bytes[k] = binary.charCodeAt(k);
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
+};
+
+// A picture is named by { i, sum }: bounce i, or the sum up to it; i = last + 1 is the rest.
+class Series {
+  constructor({ run, convergence, decay, pictures }, index) {
+    Object.assign(this, { run, decay, index, width: pictures.width, height: pictures.height, factor: pictures.factor, exposure: pictures.exposure,
+                          independent: pictures.independent, intervalFactor: pictures.interval_factor, heads: pictures.heads, hasRest: pictures.has_rest });
+    this.pixels = this.width * this.height;
+    this.last = pictures.heads.length - 1 - (pictures.has_rest ? 1 : 0);
+    this.planes = [];
+    this.sums = new Map();
+    const [head, ...rows] = convergence.trim().split("\n").map(line => line.split(","));
+    this.convergence = rows.map(row => Object.fromEntries(row.map((cell, c) => [head[c], Number(cell.replace("inf", "Infinity"))])));
+    this.unit = unitText(run.quantity.unit);
+  }
+
+  // Decodes picture i; what was decoded stays.
+  async load(i) {
+    const bytes = await inflated($(`picture-${this.index}-${i}`).textContent), n = 3 * this.pixels, scale = 2 ** this.heads[i].exponent;
+    const mean = new Float32Array(n), errors = {};
+    for (let k = 0; k < n; ++k) mean[k] = halves[bytes[k] << 8 | bytes[k + n]] * scale;
+    this.heads[i].errors.forEach(({ kind, low, step }, e) => {
+      const values = Float64Array.from({ length: 256 }, (_, c) => c === 0 ? 0 : c === 255 ? Infinity : 2 ** (low + (c - 1) * step));
+      errors[kind] = { codes: bytes.subarray((2 + e) * n, (3 + e) * n), values };
+    });
+    this.planes[i] = { mean, errors };
+    this.sums.clear();
+  }
+
+  has({ i, sum }) { return i <= this.last || (i === this.last + 1 && this.hasRest && !sum); }
+  isLoaded({ i, sum }) { return this.has({ i, sum }) && (sum ? Array.from({ length: i + 1 }, (_, k) => k) : [i]).every(k => this.planes[k]); }
+
+  // Red, green and blue of all pixels. Sums are made of the terms: each is off by 2⁻¹¹ of itself at most, and so is their sum where
+  // none is negative.
+  mean({ i, sum }) {
+    if (!sum || i === 0) return this.planes[i].mean;
+    if (this.sums.has(i)) return this.sums.get(i);
+    const total = new Float64Array(3 * this.pixels);
+    for (const { mean } of this.planes.slice(0, i + 1)) for (let p = 0; p < total.length; ++p) total[p] += mean[p];
+    if (this.sums.size >= 4) this.sums.delete(this.sums.keys().next().value);
+    this.sums.set(i, Float32Array.from(total));
+    return this.sums.get(i);
+  }
+  meanAt(ref, p) {
+    if (!ref.sum) return this.planes[ref.i].mean[p];
+    let total = 0;
+    for (let k = 0; k <= ref.i; ++k) total += this.planes[k].mean[p];
+    return total;
+  }
+  // The standard errors, or with `kind` "_discretisation" what patches get wrong: a function of an index as that of mean().
+  errors({ i, sum }, kind = "") {
+    const found = this.planes[i].errors[(sum ? "sum" : "term") + kind];
+    return found && (p => found.values[found.codes[p]]);
+  }
+  infiniteVariance({ i, sum }) {
+    const infinite = b => typeof b.interval95 === "string";
+    if (i > this.last) return infinite(this.run.rest);
+    return sum ? this.run.bounces.slice(0, i + 1).some(infinite) : infinite(this.run.bounces[i]);
+  }
+  // Half of a pixel's 95% interval; undefined where there is none.
+  halfInterval(ref, p) {
+    const errors = this.errors(ref);
+    if (!errors || this.infiniteVariance(ref)) return undefined;
+    const e = errors(p);
+    return e === 0 ? 0 : this.intervalFactor === null ? Infinity : e * this.intervalFactor;
+  }
+
+  title({ i, sum }) {
+    if (i > this.last) return `rest, all beyond bounce ${this.last}`;
+    return sum && i > 0 ? `sum of bounces 0 to ${i}` : `bounce ${i}`;
+  }
+  formula({ i, sum }) {
+    const K = this.importance ? "K*" : "K", source = this.importance ? "We" : "Le";
+    const power = k => k === 0 ? source : k === 1 ? `${K} ${source}` : `${K}${superscript(k)} ${source}`;
+    if (i > this.last) return `${power(i)} + ${power(i + 1)} + …`;
+    if (!sum || i === 0) return power(i);
+    return i <= 3 ? Array.from({ length: i + 1 }, (_, k) => power(k)).join(" + ") : `${source} + ${power(1)} + … + ${power(i)}`;
+  }
+  get importance() { return this.run.quantity.name.startsWith("importance"); }
+  // Over all pixels and channels: { mean, interval95 }, the latter undefined where it is not known.
+  wholeMean({ i, sum }) {
+    const of = x => ({ mean: x.mean, interval95: typeof x.interval95 === "number" ? x.interval95 : undefined });
+    if (i > this.last) return of(this.run.rest);
+    if (!sum || i === 0) return of(this.run.bounces[i]);
+    return i === this.last ? of(this.run.sum) : { mean: this.run.bounces.slice(0, i + 1).reduce((a, b) => a + b.mean, 0) };
+  }
+}

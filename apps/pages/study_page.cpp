@@ -1,0 +1,9 @@
+// index.html of a study.
+#include "apps/pages/page.h"
+#include "apps/study_data.h"
+
+namespace neumann {
+
+std::string study_page(const nlohmann::ordered_json& study) { return page("study.html", for_script(study)); }
+
+}  // namespace neumann

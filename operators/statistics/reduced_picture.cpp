@@ -1,0 +1,42 @@
+#include "operators/statistics/reduced_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace neumann {
+
+namespace {
+
+enum class Add { values, squares };
+
+Image box_means(const Image& picture, int factor, Add add) {
+    if (picture.pixels.empty()) return {};
+    Image out((picture.width + factor - 1) / factor, (picture.height + factor - 1) / factor);
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            const int right = std::min(picture.width, (x + 1) * factor), low = std::min(picture.height, (y + 1) * factor);
+            Rgb sum(0.0);
+            for (int v = y * factor; v < low; ++v)
+                for (int u = x * factor; u < right; ++u) {
+                    const Rgb& p = picture.at(u, v);
+                    sum += add == Add::squares ? p * p : p;
+                }
+            out.at(x, y) =
+                (add == Add::squares ? glm::sqrt(sum) : sum) / static_cast<double>((right - x * factor) * (low - y * factor));
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+Estimate reduced(const Estimate& picture, int factor) {
+    if (factor == 1) return picture;
+    Estimate out = picture;
+    out.mean = box_means(picture.mean, factor, Add::values);
+    out.standard_error = box_means(picture.standard_error, factor, picture.pixels_are_independent ? Add::squares : Add::values);
+    out.discretisation = box_means(picture.discretisation, factor, Add::values);
+    return out;
+}
+
+}  // namespace neumann

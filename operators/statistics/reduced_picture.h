@@ -1,0 +1,12 @@
+// A picture in fewer pixels, with the errors that these have.
+#pragma once
+
+#include "core/image/image.h"
+
+namespace neumann {
+
+// Each new pixel is the mean of factor × factor old ones, of those that there are at the right and lower edge. Standard errors add
+// up in squares where pixels are independent, and as they are otherwise; so does the discretisation, which goes together.
+Estimate reduced(const Estimate& picture, int factor);
+
+}  // namespace neumann

@@ -1,0 +1,48 @@
+// Chromium, driven by playwright-core, and what the tests of pages want of it.
+import { createRequire } from "node:module";
+import { spawnSync } from "node:child_process";
+import assert from "node:assert/strict";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+
+const { chromium } = createRequire(path.join(process.env.PLAYWRIGHT, "x.js"))(".");
+
+// Runs a program and returns what it prints.
+export const run = (program, ...args) => {
+  const done = spawnSync(program, args, { encoding: "utf8", maxBuffer: 1 << 28 });
+  assert.equal(done.status, 0, `${program} ${args.join(" ")}: ${done.error ?? done.stderr}`);
+  return done.stdout;
+};
+export const neumann = (...args) => run(process.env.NEUMANN, ...args);
+
+// Opens pages in one browser. A page that asks for anything but itself, or complains, fails the test at the end.
+export const openBrowser = async () => {
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox"] });
+  const complaints = [];
+  return {
+    complaints,
+    close: () => browser.close(),
+    async open(file, { width = 1280, height = 900, scheme = "light" } = {}) {
+      const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
+      const url = pathToFileURL(file).href;
+      page.on("request", r => { if (r.url() !== url) complaints.push(`asked for ${r.url()}`); });
+      page.on("console", m => { if (["error", "warning"].includes(m.type())) complaints.push(m.text()); });
+      page.on("pageerror", e => complaints.push(e.message));
+      await page.goto(url);
+      return page;
+    }
+  };
+};
+
+// Nothing is wider than the window.
+export const expectNoSidewaysScroll = async page => {
+  const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(content <= window, `content of ${content} pixels in a window of ${window}`);
+};
+
+// Whatever can be operated has a name that a screen reader says.
+export const expectNames = async page => {
+  const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [tabindex]")].filter(e =>
+    !(e.getAttribute("aria-label") || e.textContent.trim() && e.tagName === "BUTTON" || [...(e.labels ?? [])].some(l => l.textContent.trim()))).map(e => e.outerHTML));
+  assert.deepEqual(nameless, []);
+};

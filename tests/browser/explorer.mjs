@@ -1,0 +1,219 @@
+// The explorer of a real render in a real browser: what it shows are the numbers of the EXR files, whatever is pressed.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { expectNames, expectNoSidewaysScroll, neumann, openBrowser, run } from "./browser.mjs";
+
+const folder = mkdtempSync(path.join(tmpdir(), "neumann-explorer-"));
+process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
+const at = name => path.join(folder, name);
+const scene = path.join(process.env.SCENES, "cornell-box/cornell-box.xml");
+const side = 32, last = 4, t = 2.13145;  // Student's t, 0.975, of 16 replicates: 15 degrees of freedom
+neumann("render", scene, "-D", `res=${side}`, "-n", `${last}`, "--spp", "512", "-o", at("a"), "--quiet");
+neumann("render", scene, "-D", `res=${side}`, "-n", `${last}`, "--method", "matrix", "--patches", "300", "--spp", "64", "-o", at("b"), "--quiet");
+neumann("compare", at("a"), at("b"), "-o", at("both"));
+const pixels = JSON.parse(run(process.env.PYTHON, path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "pixels.py"), at("a")));
+const json = JSON.parse(readFileSync(at("a/run.json")));
+assert.equal(json.samples.degrees_of_freedom, 15);
+const fileOf = (i, sum) => i > last ? "rest.exr" : `${sum ? "sum" : "bounce"}_00${i}.exr`;
+const close = (a, b, relative, absolute = 0) => Math.abs(a - b) <= relative * Math.abs(b) + absolute;
+const expectClose = (a, b, relative, what, absolute = 0) => assert.ok(close(a, b, relative, absolute), `${what}: ${a}, expected ${b}`);
+
+const browser = await openBrowser();
+const page = await browser.open(at("a/index.html"));
+const text = id => page.locator(`#${id}`).innerText();
+const press = async (...keys) => { for (const key of keys) await page.keyboard.press(key); await settled(page); };
+const settled = p => p.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+await page.waitForSelector("body[data-ready]");
+
+// Every pixel of every picture: means to half a unit of a half float's last bit (2⁻¹¹; 2⁻²⁵ of twice the brightest below that),
+// errors to half a step of their logarithm (3%).
+for (let i = 0; i <= last + 1; ++i) for (const sum of i <= last ? [false, true] : [false]) {
+  const { mean, errors } = await page.evaluate(ref => {
+    const s = all[0], e = s.errors(ref);
+    return { mean: [...s.mean(ref)], errors: Array.from({ length: 3 * s.pixels }, (_, p) => e(p) === Infinity ? null : e(p)) };
+  }, { i, sum });
+  const exr = pixels[fileOf(i, sum)];
+  ["R", "G", "B"].forEach((channel, c) => {
+    const largest = Math.max(...exr.R, ...exr.G, ...exr.B), offset = c * side * side;
+    for (let p = 0; p < side * side; ++p) {
+      expectClose(mean[offset + p], exr[channel][p], 2 ** -11 + 1e-6, `${fileOf(i, sum)} ${channel} ${p}`, largest * 2 ** -24 * (i + 1));
+      expectClose(errors[offset + p], exr[`stderr.${channel}`][p], 2 ** (1 / 24) - 1 + 1e-3, `${fileOf(i, sum)} stderr.${channel} ${p}`);
+    }
+  });
+}
+
+// "6.12·10⁻⁴" as a number.
+const read = words => {
+  const [m, e = ""] = words.split("·10");
+  return Number(m) * 10 ** Number([...e].map(c => "-0123456789"["⁻⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)]).join("") || 0);
+};
+// What stands under the picture of a pixel: value and half interval of each channel, and the relative error.
+const readout = async () => {
+  const line = await page.locator("#readout .values").first().innerText();
+  const channels = ["red", "green", "blue"].map(name => {
+    const found = line.match(new RegExp(`${name} (\\S+)(?: ± (\\S+))?`));
+    return { value: read(found[1]), half: read(found[2] ?? "0") };
+  });
+  return { line, channels, relative: Number(line.match(/relative error (\S+)%/)?.[1]) / 100 };
+};
+const expectReadout = async (x, y, i, sum) => {
+  const exr = pixels[fileOf(i, sum)], p = y * side + x, { channels, relative, line } = await readout();
+  assert.match(await text("readout"), new RegExp(`Pixel ${x}, ${y},`));
+  // Three digits of the value, two of its interval: half a unit of the last one is 0.5% and 5%.
+  ["R", "G", "B"].forEach((channel, c) => {
+    expectClose(channels[c].value, exr[channel][p], .0055, `${line}: ${channel}`);
+    expectClose(channels[c].half, t * exr[`stderr.${channel}`][p], .08, `${line}: interval of ${channel}`);
+  });
+  const size = of => Math.hypot(...["R", "G", "B"].map(c => exr[of + c][p]));
+  expectClose(relative, size("stderr.") / size(""), .08, `${line}: relative error`);
+};
+
+// It begins with direct light; the slider goes through the bounces and ends with the rest.
+assert.match(await text("name"), /^bounce 1: K Le$/);
+const stage = await page.locator("#stage").boundingBox();
+const shownAt = async (x, y) => {  // where on the screen a pixel is
+  const { left, top, side } = await page.evaluate(() => ({ left: state.left, top: state.top, side: state.fitScale * state.zoom }));
+  const box = await page.locator("#stage").boundingBox();
+  return [box.x + left + (x + .5) * side, box.y + top + (y + .5) * side];
+};
+const [x, y] = [9, 20];
+await page.mouse.move(...await shownAt(x, y));
+await expectReadout(x, y, 1, false);
+await page.locator("#bounce").focus();
+await page.keyboard.press("ArrowRight");
+await page.keyboard.press("ArrowRight");
+await settled(page);
+assert.match(await text("name"), /^bounce 3: K³ Le$/);
+assert.equal(await text("bounce-text"), `3 of ${last}`);
+await expectReadout(x, y, 3, false);
+await press("End");
+assert.match(await text("name"), /^rest, all beyond bounce 4/);
+await expectReadout(x, y, last + 1, false);
+
+// Sums; a click chooses the pixel, whose series is in its plot.
+await page.mouse.click(...await shownAt(x, y));
+await press("s");
+assert.match(await text("name"), /^sum of bounces 0 to 4: Le \+ K Le \+ … \+ K⁴ Le$/);
+await expectReadout(x, y, last, true);
+assert.equal(await text("pixel-title"), `Pixel ${x}, ${y}: sums`);
+await press("s");
+const series = await page.evaluate(() => pixelPlot.data.datasets.map(d => d.data.map(p => ({ i: Math.round(p.x), y: p.y, half: p.half }))));
+["R", "G", "B"].forEach((channel, c) => {
+  const p = y * side + x;
+  assert.deepEqual(series[c].map(d => d.i), [1, 2, 3, 4, 5]);  // bounce 0 is black there
+  for (const { i, y: value, half } of series[c]) {
+    expectClose(value, pixels[fileOf(i, false)][channel][p], .001, `plot of the pixel, bounce ${i}`);
+    expectClose(half, t * pixels[fileOf(i, false)][`stderr.${channel}`][p], .031, `its error bar, bounce ${i}`);
+  }
+});
+const energy = await page.evaluate(() => Object.fromEntries(energyPlot.data.datasets.map(d => [d.label.split(":")[0], d.data])));
+json.bounces.forEach((b, i) => {
+  assert.equal(energy.mean[i].y, b.mean);
+  expectClose(energy.mean[i].high - energy.mean[i].y, b.interval95, 1e-9, "energy's error bar");
+  assert.equal(energy["bound on all that follows"][i].y, b.tail_bound);
+});
+expectClose(energy["all that follows"][last].y, json.rest.mean, 1e-12, "what follows the last bounce");
+assert.ok("fitted decay" in energy);
+const error = await page.evaluate(() => errorPlot.data.datasets.find(d => d.label === "sum").data);
+const convergence = readFileSync(at("a/convergence.csv"), "utf8").trim().split("\n").map(l => l.split(","));
+const column = convergence[0].indexOf("relative_stderr_sum");
+assert.deepEqual(error.map(p => p.y), convergence.slice(1).map(r => Number(r[column])).filter(Number.isFinite));
+
+// The colours on the screen are the EXR's, times the exposure that is told, in sRGB.
+const onScreen = (canvas, x, y) => page.evaluate(([c, x, y]) => [...document.getElementById(c).getContext("2d").getImageData(x, y, 1, 1).data], [canvas, x, y]);
+const srgb = v => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
+const expectColour = async (canvas, i, sum, exposure) => {
+  for (const [x, y] of [[9, 20], [3, 3], [16, 28], [30, 12]]) {
+    const bytes = await onScreen(canvas, x, y);
+    ["R", "G", "B"].forEach((channel, c) => expectClose(bytes[c], srgb(pixels[fileOf(i, sum)][channel][y * side + x] * exposure), 0, `colour of ${x}, ${y} in ${fileOf(i, sum)}`, 1));
+  }
+};
+const exposure = await page.evaluate(() => data.runs[0].pictures.exposure);
+await press("Escape", "Home", "ArrowRight");
+await expectColour("a", 1, false, exposure);
+await press("]", "]", "]", "]");
+assert.match(await text("stops-text"), /^\+2 stops/);
+await expectColour("a", 1, false, 4 * exposure);
+await press("[", "[", "[", "[");
+
+// The wipe shows the next bounce on the right of its edge.
+await press("w");
+await expectColour("b", 2, false, exposure);
+assert.deepEqual([await text("side-a"), await text("side-b")], ["A: bounce 1", "B: bounce 2"]);
+const cut = () => page.evaluate(() => parseFloat(document.getElementById("b").style.clipPath.split(" ").at(-1)));
+const middle = await cut();
+await press("<", "<");
+assert.ok(await cut() < middle);
+await page.selectOption("#other", "0-sum-3");
+await settled(page);
+await expectColour("b", 3, true, exposure);
+await press("w");
+
+// Noise and false colour come with a scale.
+assert.ok(await page.locator("#scale").isHidden());
+await press("n");
+assert.match(await text("quantity"), /standard error of a pixel/);
+const relativeShown = await page.evaluate(p => image.relative(p), y * side + x);
+const exr = pixels["bounce_001.exr"], size = of => Math.hypot(...["R", "G", "B"].map(c => exr[of + c][y * side + x]));
+expectClose(relativeShown, size("stderr.") / size(""), .031, "noise");
+await press("n", "c");
+assert.match(await text("quantity"), /luminance of the radiance, W·m⁻²·sr⁻¹/);
+await press("c");
+
+// Play goes on by itself, around, until it is stopped.
+await press("End", " ");
+await page.waitForFunction(() => state.i === 1, null, { timeout: 10000 });
+assert.equal(await text("play"), "Stop");
+await press(" ");
+const stopped = await page.evaluate(() => state.i);
+await page.waitForTimeout(900);
+assert.equal(await page.evaluate(() => state.i), stopped);
+
+// Without a mouse: to the picture, three pixels to the left, ten down; zoom keeps that pixel in view.
+await press("p", "ArrowLeft", "ArrowLeft", "ArrowLeft", "Shift+ArrowDown");
+assert.deepEqual(await page.evaluate(() => state.pixel), { x: side / 2 - 3, y: side / 2 + 10 });
+await expectReadout(side / 2 - 3, side / 2 + 10, stopped, false);
+await press("+", "+", "+", "+");
+const [mx, my] = await shownAt(side / 2 - 3, side / 2 + 10), box = await page.locator("#stage").boundingBox();
+assert.ok(mx > box.x && mx < box.x + box.width && my > box.y && my < box.y + box.height);
+await page.mouse.click(mx, my);
+await settled(page);
+assert.deepEqual(await page.evaluate(() => state.pixel), { x: side / 2 - 3, y: side / 2 + 10 });
+await press("0", "?");
+assert.ok(await page.locator("#help").isVisible());
+await page.keyboard.press("Escape");
+assert.ok(await page.locator("#help").isHidden());
+await expectNames(page);
+
+// Two methods on one page.
+const both = await browser.open(at("both/index.html"));
+await both.waitForSelector("body[data-ready]");
+assert.match(await both.locator("#side-b").innerText(), /^B: bounce 1$/);
+const differences = JSON.parse(readFileSync(at("both/compare.json")));
+await both.keyboard.press("s");
+await both.keyboard.press("End");
+await both.selectOption("#view", "difference");
+await settled(both);
+// The mean over the picture is what compare says of it: luminance weighs channels, so the weighted mean of its three.
+const sumRow = differences.pictures.find(p => p.name === `sum_00${last}`);
+const expected = .2126 * sumRow.red.mean_difference + .7152 * sumRow.green.mean_difference + .0722 * sumRow.blue.mean_difference;
+const mean = await both.evaluate(() => { let d = 0; for (let p = 0; p < all[0].pixels; ++p) d += image.value(p); return d / all[0].pixels; });
+expectClose(mean, expected, 0, "mean difference", 2 ** -11 * 2 * sumRow.mean);
+await both.selectOption("#view", "z");
+await both.keyboard.press("r");
+await expectNames(both);
+
+// On a phone nothing is wider than the screen, in either scheme.
+for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
+  const phone = await browser.open(at(`${name}/index.html`), { width: 375, height: 720, scheme });
+  await phone.waitForSelector("body[data-ready]");
+  await phone.locator("#stage").click();
+  await settled(phone);
+  await expectNoSidewaysScroll(phone);
+}
+
+await browser.close();
+assert.deepEqual(browser.complaints, []);
+console.log("the explorer shows what the files say");

@@ -1,0 +1,212 @@
+// index.html of a render and of two: what is packed into it, how large it is, and what is refused. That a browser shows it is
+// tested in tests/browser.
+#include "apps/pages/explorer_page.h"
+#include "tests/commands/render_output.h"
+
+#include <zlib.h>
+#include <random>
+
+namespace neumann {
+namespace {
+
+// The bytes of a packed picture, by zlib and a table of digits.
+std::vector<std::uint8_t> unpacked(const PackedPicture& picture, std::size_t size) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string compressed;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : picture.bytes.substr(0, picture.bytes.find('='))) {
+        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+        count += 6;
+        if (count >= 8) compressed += static_cast<char>(bits >> (count -= 8) & 255u);
+    }
+    std::vector<std::uint8_t> bytes(size + 1);  // one more would be seen
+    uLongf length = bytes.size();
+    EXPECT_EQ(uncompress(bytes.data(), &length, reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()), Z_OK);
+    EXPECT_EQ(length, size);
+    return bytes;
+}
+
+double half_value(std::uint32_t bits) {
+    const int exponent = (bits >> 10) & 31, fraction = bits & 1023;
+    const double size = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+    return bits & 0x8000 ? -size : size;
+}
+
+double error_value(const nlohmann::ordered_json& scale, int code) {
+    if (code == 0) return 0.0;
+    if (code == 255) return std::numeric_limits<double>::infinity();
+    return std::exp2(scale.at("low").get<double>() + (code - 1) * scale.at("step").get<double>());
+}
+
+// Values over nine decades at 1e-30 of the usual, as deep bounces have: relative to the brightest they keep 11 bits down to 2⁻²⁹ of
+// it, and errors 3%, or what 253 steps over their range leave.
+TEST(ExplorerPage, PackedPicturesKeepThreeDigits) {
+    constexpr int width = 7, height = 5;
+    Estimate term{Image(width, height), Image(width, height), 15.0}, sum = term;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> decades(-9.0, 0.0), narrow(0.0, 1.0);
+    for (std::size_t i = 0; i < term.mean.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            term.mean.pixels[i][c] = 1e-30 * std::pow(10.0, decades(random)) * (i % 5 == 4 ? -1.0 : 1.0);
+            term.standard_error.pixels[i][c] = 1e-31 * std::pow(10.0, decades(random));
+            sum.standard_error.pixels[i][c] = 1e-31 * std::pow(10.0, narrow(random));
+        }
+    term.mean.pixels[3] = Rgb(0.0);
+    term.standard_error.pixels[3] = Rgb(0.0, std::numeric_limits<double>::infinity(), 1e-31);
+
+    PackedSeries packed(width, height, 2);
+    packed.add(term, &sum);
+    packed.add(term, nullptr);
+    packed.pack();
+    EXPECT_EQ(packed.factor(), 1);
+    EXPECT_EQ(packed.head().at("width"), width);
+    EXPECT_NEAR(packed.head().at("interval_factor").get<double>(), 2.1314, 1e-4);  // Student's t, 15 degrees of freedom, 0.975
+    const PackedPicture& picture = packed.pictures().at(0);
+    ASSERT_EQ(picture.head.at("errors").size(), 2u);
+    EXPECT_EQ(packed.pictures().at(1).head.at("errors").size(), 1u);
+    const auto &term_scale = picture.head["errors"][0], &sum_scale = picture.head["errors"][1];
+    EXPECT_EQ(term_scale.at("kind"), "term");
+    EXPECT_EQ(sum_scale.at("kind"), "sum");
+    EXPECT_DOUBLE_EQ(sum_scale.at("step").get<double>(), 1.0 / 12.0);
+    EXPECT_NEAR(term_scale.at("step").get<double>(), 9.0 * std::log2(10.0) / 253.0, 0.02);
+
+    constexpr std::size_t n = width * height;
+    const auto bytes = unpacked(picture, 12 * n);
+    const int exponent = picture.head.at("exponent");
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t at = c * n + i;
+            const double mean = std::ldexp(half_value(bytes[at] << 8 | bytes[at + 3 * n]), exponent);
+            const double exact = term.mean.pixels[i][static_cast<int>(c)];
+            EXPECT_NEAR(mean, exact, std::max(0x1p-11 * std::abs(exact), std::ldexp(1.0, exponent - 25))) << i;
+            const auto expect_error = [&](const auto& scale, int code, double error) {
+                const double told = error_value(scale, code);
+                if (error == 0.0 || std::isinf(error)) {
+                    EXPECT_EQ(told, error);
+                } else {
+                    EXPECT_LE(std::abs(std::log2(told / error)), 0.5001 * scale.at("step").template get<double>());
+                }
+            };
+            expect_error(term_scale, bytes[at + 6 * n], term.standard_error.pixels[i][static_cast<int>(c)]);
+            expect_error(sum_scale, bytes[at + 9 * n], sum.standard_error.pixels[i][static_cast<int>(c)]);
+        }
+}
+
+nlohmann::ordered_json small_run(std::size_t bounces) {
+    nlohmann::ordered_json run;
+    run["bounces"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < bounces; ++i) run["bounces"].push_back({{"mean", std::pow(0.5, i)}, {"stderr", 0.001}});
+    return run;
+}
+
+// Noise that is worse than a render's: four samples a pixel, and channels that know nothing of each other.
+TEST(ExplorerPage, SeventeenNoisyBouncesStayBelow15Megabytes) {
+    constexpr int side = 256;
+    PackedSeries packed(side, side, 18);
+    std::mt19937 random(1);
+    std::exponential_distribution<double> sample;
+    const auto noisy = [&] {
+        Estimate picture{Image(side, side), Image(side, side), 3.0};
+        for (std::size_t i = 0; i < picture.mean.pixels.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                double sum = 0.0, squares = 0.0;
+                for (int k = 0; k < 4; ++k) {
+                    const double x = sample(random);
+                    sum += x;
+                    squares += x * x;
+                }
+                picture.mean.pixels[i][c] = sum / 4;
+                picture.standard_error.pixels[i][c] = std::sqrt((squares - sum * sum / 4) / 12);
+            }
+        return picture;
+    };
+    for (int i = 0; i <= 16; ++i) {
+        const Estimate term = noisy(), sum = noisy();
+        packed.add(term, &sum);
+    }
+    packed.add(noisy(), nullptr);
+    packed.pack();
+    EXPECT_EQ(packed.factor(), 1);
+    const ExploredRun run{small_run(17), "", 1.0, std::move(packed), true};
+    const std::string page = explorer_page({&run});
+    EXPECT_LT(page.size(), 15e6);
+    EXPECT_GT(page.size(), 9e6);  // all of it is there
+}
+
+TEST(ExplorerPage, LargeFilmsAreReducedByAWholeFactor) {
+    PackedSeries packed(4096, 2304, 9);
+    EXPECT_EQ(packed.factor(), 4);
+    EXPECT_EQ(packed.width(), 1024);
+    EXPECT_EQ(packed.height(), 576);
+    EXPECT_EQ(
+        packed.reduction(),
+        "index.html shows the pictures at 1/4 of their size, 1024×576 in place of 4096×2304: whole ones would make it too large to "
+        "open (above about 100 MB)");
+    EXPECT_EQ(PackedSeries(1024, 1024, 8).factor(), 1);
+    EXPECT_EQ(PackedSeries(1025, 1024, 8).factor(), 2);
+    EXPECT_EQ(PackedSeries(2, 1, 100'000'000).factor(), 2);  // one pixel is the least
+
+    PackedSeries two(2048, 1024, 9);
+    ASSERT_EQ(two.factor(), 2);
+    Estimate picture{Image(2048, 1024), Image(2048, 1024), 1.0};
+    picture.mean.at(0, 0) = Rgb(4.0, 0.0, 0.0);
+    picture.mean.at(1, 1) = Rgb(2.0, 0.0, 0.0);
+    two.add(picture, nullptr);
+    two.pack();
+    const std::size_t n = 1024 * 512;
+    const auto bytes = unpacked(two.pictures()[0], 9 * n);
+    EXPECT_EQ(std::ldexp(half_value(bytes[0] << 8 | bytes[3 * n]), two.pictures()[0].head.at("exponent")), 1.5);
+}
+
+// Text from a scene cannot end the script that holds it.
+TEST(ExplorerPage, TextCannotEndItsScript) {
+    nlohmann::ordered_json json = small_run(1);
+    json["command"] = "</script><script>alert(1)</script><!--";
+    PackedSeries packed(1, 1, 1);
+    packed.add({Image(1, 1), Image(1, 1)}, nullptr);
+    packed.pack();
+    const ExploredRun run{json, "", 1.0, std::move(packed), false};
+    const std::string page = explorer_page({&run});
+    EXPECT_EQ(page.find("alert(1)</"), std::string::npos);
+    const std::string begin = "id=\"data\">";
+    const std::size_t at = page.find(begin) + begin.size();
+    const auto read = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+    EXPECT_EQ(read.at("runs").at(0).at("run").at("command"), json["command"]);
+}
+
+class ExplorerCompare : public RenderTest {
+protected:
+    void SetUp() override {
+        write("scene.xml", plates());
+        render("scene.xml", "a", {"-n", "1", "--spp", "4", "--quiet"});
+        render("scene.xml", "b", {"-n", "2", "--spp", "4", "--seed", "1", "--quiet"});
+    }
+};
+
+TEST_F(ExplorerCompare, APageOfTwoRuns) {
+    const Finished done = run({"compare", "a", "b", "-o", "both", "--json"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(names("both"), (Names{"index.html", "compare.json"}));
+    EXPECT_EQ(text_of(path("both/compare.json")), done.out);
+    EXPECT_TRUE(run({"compare", "a", "b", "-o", "both"}).out.ends_with("\nBoth are on the page both/index.html\n"));
+}
+
+TEST_F(ExplorerCompare, RefusalsLoseNothing) {
+    const auto before = contents(".");
+    EXPECT_EQ(refused({"compare", "a", "b", "-o", "a"}).substr(0, 11), "-o: a holds");
+    EXPECT_EQ(refused({"compare", "a/sum_000.exr", "b/sum_000.exr", "-o", "c"}),
+              "-o: a/sum_000.exr is a picture; a page is made of two folders of render\n");
+    EXPECT_EQ(contents("."), before);
+
+    std::filesystem::remove(path("b/run.json"));
+    EXPECT_EQ(refused({"compare", "a", "b", "-o", "c"}), "b/run.json: cannot be read; -o takes folders that render wrote\n");
+    write("b/run.json", "{}");
+    EXPECT_TRUE(refused({"compare", "a", "b", "-o", "c"}).starts_with("b/run.json: not a run.json of this version: "));
+    render("scene.xml", "wide", {"-n", "1", "--spp", "4", "-D", "height=6", "--quiet"});
+    EXPECT_NE(refused({"compare", "a", "wide", "-o", "c"}), "");
+    EXPECT_FALSE(std::filesystem::exists(path("c")));
+}
+
+}  // namespace
+}  // namespace neumann
