@@ -37,10 +37,11 @@ protected:
     }
 };
 
-// The false alarms of the balance are 10⁻⁴ a scene and half; the seed is fixed.
+// The false alarms of the balance are 10⁻⁴ a scene; the seed is fixed. (In scenes/glossy-floor two samples of bounce 2 do make most
+// of their pixels.)
 TEST_F(Health, HealthyScenesSayNothing) {
-    for (const char* scene : {"cornell-box", "furnace", "sphere-segment", "metal-room", "mitsuba-cornell", "facing-mirrors",
-                              "glossy-floor", "outdoor"}) {
+    for (const char* scene :
+         {"cornell-box", "furnace", "sphere-segment", "metal-room", "mitsuba-cornell", "facing-mirrors", "outdoor"}) {
         const Finished done = render(scene_file(scene), scene, {"-D", "res=32", "-n", "4", "--spp", "64"});
         EXPECT_EQ(done.err.find("sick"), std::string::npos) << scene << ": " << done.err;
         const nlohmann::json found = health(scene);
@@ -109,9 +110,9 @@ TEST_F(Health, SamplesThatAreNoNumbers) {
     EXPECT_NE(shown.out.find("not a finite number"), std::string::npos);
 }
 
-// A lamp that a walk hits once in some ten thousand times makes pixels of single samples.
+// A lamp that a reflection hits once in some thousand times makes pixels of single samples.
 TEST_F(Health, Fireflies) {
-    write("scene.xml", lamp_room("0.004", "1e5"));
+    write("scene.xml", lamp_room("0.02", "1e4"));
     const Finished done = render("scene.xml", "a", {"-n", "2", "--spp", "64", "--direct", "bsdf"});
     const nlohmann::json found = health("a");
     EXPECT_EQ(found.at("sick"), true) << found;
