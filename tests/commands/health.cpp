@@ -127,7 +127,7 @@ TEST_F(Health, Fireflies) {
         const std::string number = std::to_string(largest.at("number").get<int>());
         const nlohmann::json again = replayed({"a", number});
         EXPECT_EQ(again.at("terms").at(bounce).at(0), largest.at("value"));
-        const Estimate sum = picture("a", numbered("bounce", bounce));
+        const Estimate sum = picture("a", bounce == 3 ? "rest.exr" : numbered("bounce", bounce));
         const std::size_t pixel = again.at("pixel").at(1).get<std::size_t>() * 64 + again.at("pixel").at(0).get<std::size_t>();
         EXPECT_NEAR(largest.at("value").get<double>() / 64 / sum.mean.pixels[pixel].r, largest.at("share_of_pixel").get<double>(),
                     1e-6);
@@ -184,7 +184,7 @@ TEST_F(Health, AnySampleIsReplayedToTheBit) {
         std::vector<std::string> options{"--method", m, "-n", "2", "--spp", "1", "--seed", "7", "-D", "height=3", "--quiet"};
         if (m == "walk") options.insert(options.end(), {"--split", "2,3", "--roulette", "0.8", "--lights", "all"});
         render("scene.xml", m, options);
-        for (const int x : {3, 50, 100, 163})
+        for (const int x : {3, 100})
             for (const int y : {0, 2}) {
                 const nlohmann::json again = replayed({m, "--pixel", fmt::format("{},{}", x, y), "--sample", "0"});
                 for (int i = 0; i <= 2; ++i) {
