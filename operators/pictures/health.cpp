@@ -1,5 +1,7 @@
 #include "operators/pictures/health.h"
 
+#include <algorithm>
+
 namespace neumann {
 
 namespace {
@@ -40,15 +42,19 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
     for (std::size_t q = 0; q < quantities; ++q) {
         SampleHealth& bounce = health.bounces.emplace_back();
         bounce.non_finite = series.tally.non_finite_count[q];
+        double brightest = 0.0;
         for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
-            if (is_finite(result.term_at(pixel, q))) continue;
+            const Rgb term = result.term_at(pixel, q);
+            brightest = std::max(brightest, max_component(term));
+            if (is_finite(term)) continue;
             if (bounce.overflowed++ == 0) bounce.first_overflowed = pixel;
         }
         for (const LargestSamples::Sample& sample : series.tally.largest[q].standing_out()) {
             const std::uint32_t pixel = sample.place.pixel;
             const LargestShare found{sample, share(sample.value, samples, result.term_at(pixel, q)),
                                      share(sample.value, samples, result.sum_at(pixel, quantities - 1))};
-            const bool firefly = series.samples >= fewest_samples_to_judge && found.of_sum > 0.5 && sample.value > samples * mean;
+            const bool firefly = q > 0 && series.samples >= fewest_samples_to_judge && found.of_sum > 0.5 &&
+                                 sample.value > samples * mean && sample.value > 0.25 * samples * brightest;
             if (firefly ? bounce.fireflies == 0 || found.of_sum > bounce.largest->of_sum
                         : bounce.fireflies == 0 && (!bounce.largest || found.of_bounce > bounce.largest->of_bounce))
                 bounce.largest = found;
