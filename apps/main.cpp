@@ -7,6 +7,7 @@
 #include "apps/render.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
+#include "apps/stress.h"
 #include "apps/study.h"
 #include "core/base/error.h"
 
@@ -119,6 +120,8 @@ int main(int argc, char** argv) try {
     auto* conform = neumann::add_conform(app, conform_request);
     neumann::StudyRequest study_request;
     auto* study = neumann::add_study(app, study_request);
+    neumann::StressRequest stress_request;
+    auto* stress = neumann::add_stress(app, stress_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -142,6 +145,7 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     if (*compare) return finish(neumann::compare_command(a, b, json));
+    if (*stress) return finish(neumann::stress_command(stress_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);
