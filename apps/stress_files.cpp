@@ -85,10 +85,10 @@ void textures(Figures& figures, std::uint64_t) {
                      answer(folder,
                             "<shape type='rectangle'><bsdf type='diffuse'><texture type='bitmap' name='reflectance'>"
                             "<string name='filename' value='bad.exr'/></texture></bsdf></shape>"),
-                     negative ? "scene.xml:3:47: the texture is negative somewhere, down to -1, expected a reflectance of at least 0" : why);
+                     negative ? "scene.xml:3:46: the texture is negative somewhere, down to -1, expected a reflectance of at least 0" : why);
         figures.said(fmt::format("envmap with a texel {}", name),
                      answer(folder, "<emitter type='envmap'><string name='filename' value='bad.exr'/></emitter>"),
-                     negative ? "scene.xml:3:49: pixel (1, 0) of 'bad.exr' is (-1, -1, -1), expected numbers that are not negative" : why);
+                     negative ? "scene.xml:3:48: pixel (1, 0) of 'bad.exr' is (-1, -1, -1), expected numbers that are not negative" : why);
     }
 }
 
@@ -96,10 +96,10 @@ void numbers(Figures& figures, std::uint64_t) {
     const TemporaryFolder folder;
     for (const char* number : {"nan", "inf"}) {
         figures.said(fmt::format("radius {}", number), answer(folder, fmt::format("<shape type='sphere'><float name='radius' value='{}'/></shape>", number)),
-                     fmt::format("scene.xml:3:44: '{}' is not a finite number", number));
+                     fmt::format("scene.xml:3:43: '{}' is not a finite number", number));
         figures.said(fmt::format("radiance {}", number),
                      answer(folder, fmt::format("<shape type='sphere'><emitter type='area'><rgb name='radiance' value='{}'/></emitter></shape>", number)),
-                     fmt::format("scene.xml:3:65: '{}' is not a finite number", number));
+                     fmt::format("scene.xml:3:64: '{}' is not a finite number", number));
     }
 }
 

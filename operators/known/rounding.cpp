@@ -21,16 +21,17 @@ struct Sums {
     int stagnates = -1;                     // the first n with S_{n+1} = S_n
 };
 
+// ρ^0 … ρ^terms.
 template <class Real>
 Sums add_up(double albedo, int terms) {
     using Values = typename CompensatedSum<Real>::Values;
     const Real rho = static_cast<Real>(albedo);
-    const double exact = -std::expm1(terms * std::log(static_cast<double>(rho))) / (1.0 - static_cast<double>(rho));
+    const double exact = -std::expm1((terms + 1) * std::log(static_cast<double>(rho))) / (1.0 - static_cast<double>(rho));
     CompensatedSum<Real> compensated(1);
     Values t = Values::Ones(1);
     Real naive = 0;
     Sums sums;
-    for (int k = 0; k < terms; ++k, t[0] *= rho) {
+    for (int k = 0; k <= terms; ++k, t[0] *= rho) {
         const Real next = naive + t[0];
         if (next == naive && sums.stagnates < 0) sums.stagnates = k - 1;
         naive = next;
