@@ -45,7 +45,7 @@ struct Sampling {
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
 constexpr Sampling samplings[] = {{Method::walk, "walk", 16, 8, 0.99},   {Method::guided, "guided", 32, 8, 0.9},
-                                  {Method::surface, "surface", 16},      {Method::light, "light", 512, 3},
+                                  {Method::surface, "surface", 16},      {Method::light, "light", 2048, 2},
                                   {Method::bidirectional, "bidirectional", 32, 4}, {Method::classic, "classic", 16},
                                   {Method::pointwise, "pointwise", 16, 5}};
 
@@ -57,7 +57,7 @@ PictureSampler::Settings settings_of(const Sampling& sampling, const Scene& scen
     if (sampling.method == Method::surface || sampling.method == Method::classic) settings.walk.direct = {.direct = DirectLight::light};
     if (sampling.method == Method::guided)
         settings.tables = std::make_shared<const DirectionTables>(
-            scene, GuideSettings{.patches = 100, .rays = 64, .bounces = sampling.bounces, .seed = seed});
+            scene, GuideSettings{.patches = 100, .rays = 2048, .bounces = sampling.bounces, .seed = seed});
     settings.seed = seed;
     settings.replicate_size = sampling.samples;
     return settings;
