@@ -8,6 +8,7 @@
 #include "apps/replay.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
+#include "apps/stress.h"
 #include "apps/study.h"
 #include "core/base/error.h"
 
@@ -123,6 +124,8 @@ int main(int argc, char** argv) try {
     auto* study = neumann::add_study(app, study_request);
     neumann::ReplayRequest replay_request;
     auto* replay = neumann::add_replay(app, replay_request);
+    neumann::StressRequest stress_request;
+    auto* stress = neumann::add_stress(app, stress_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -147,6 +150,7 @@ int main(int argc, char** argv) try {
     }
     if (*compare) return finish(neumann::compare_command(compare_request));
     if (*replay) return finish(neumann::replay_command(replay_request));
+    if (*stress) return finish(neumann::stress_command(stress_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);

@@ -68,12 +68,17 @@ TEST_F(RenderHelp, OptionsOfStudy) {
                                      "--repeats", "-n", "--error", "--resume", "--seed", "-t", "-D", "--quiet", "--json"}));
 }
 
+TEST_F(RenderHelp, OptionsOfStress) {
+    EXPECT_EQ(options(printed({"help", "stress"})),
+              (std::set<std::string>{"-h,--help", "--only", "--list", "--seed", "-t", "--json"}));
+}
+
 TEST_F(RenderHelp, TheCommands) {
     const std::string help = printed({"--help"});
     EXPECT_EQ(help.substr(0, help.find('\n')),
               "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
     for (const char* command :
-         {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  study ", "\n  help "})
+         {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  study ", "\n  stress ", "\n  help "})
         EXPECT_NE(help.find(command), std::string::npos) << help;
     EXPECT_EQ(printed({"help"}), help);
 }
@@ -84,7 +89,9 @@ TEST_F(RenderHelp, UnknownCommands) {
     Finished done = run({"help", "rendr"});
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_EQ(done.err,
-              "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, help\n");
+              "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, stress, "
+              "help
+");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);

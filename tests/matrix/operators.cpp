@@ -5,7 +5,7 @@
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
 #include "operators/series/neumann_series.h"
-#include "tests/physics/enclosures.h"
+#include "operators/known/enclosures.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

@@ -3,7 +3,7 @@
 #include "core/image/display.h"
 #include "core/sampling/independent_sampler.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Odd scenes with plain answers.
 #include "core/sampling/warp.h"
-#include "tests/physics/pictures.h"
+#include "operators/known/pictures.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

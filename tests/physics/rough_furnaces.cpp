@@ -2,7 +2,7 @@
 // at the same angle.
 #include "core/base/frame.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 //
 // A chord leaves and arrives at the same angle, so for emission that depends on the angle, <Le> is 2 ∫ Le(μ) μ dμ, the mean over
 // the cosine-weighted hemisphere. Since G is constant, light sampling has finite variance too.
-#include "tests/physics/enclosures.h"
+#include "operators/known/enclosures.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "core/scene/shading_normals.h"
 #include "core/texture/bitmap.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -5,12 +5,13 @@
 #include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
-#include "tests/solvers/small_problems.h"
+#include "operators/known/small_problems.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 

@@ -2,11 +2,12 @@
 #include "operators/series/series_run.h"
 #include "operators/solvers/solvers.h"
 #include "operators/spectrum/spectrum.h"
-#include "tests/solvers/small_problems.h"
+#include "operators/known/small_problems.h"
 
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 
