@@ -48,10 +48,10 @@ const shownAs = {
     const relative = p => {
       if (!errors) return NaN;
       const e = Math.hypot(...channels.map(c => errors(p + c)));
-      return e === 0 ? 0 : e / Math.hypot(...channels.map(c => mean[p + c]));
+      return e === 0 ? 0 : e === Infinity ? NaN : e / Math.hypot(...channels.map(c => mean[p + c]));
     };
     return { ...scaled(viridis, 1e-3, 1, true, relative), relative,
-             quantity: "standard error of a pixel / its value" + (errors ? "" : ": not in the files") };
+             quantity: "standard error of a pixel / its value" + (errors ? "; grey where it is not known" : ": not in the files") };
   },
   difference(series, ref, exposure, other, otherRef) {
     return { ...scaled(signed, -1 / exposure, 1 / exposure, false, difference(series, ref, other, otherRef).value),
@@ -74,8 +74,7 @@ const scaled = (ramp, low, high, log, value) => {
   const at = v => log ? Math.log10(v / low) / Math.log10(high / low) : (v - low) / (high - low);
   return { ramp, low, high, log, value, at: p => {
     const v = value(p);
-    if (Number.isNaN(v)) return unknown;
-    if (v === Infinity) return ramp[255];
+    if (!Number.isFinite(v)) return unknown;
     return log && v <= 0 ? 0xff000000 : ramp[Math.round(255 * Math.min(1, Math.max(0, at(v))))];
   } };
 };

@@ -191,8 +191,8 @@ const drawPlots = () => {
 };
 const drawNotes = () => {
   $("energy-note").textContent = "Mean over pixels and channels, with 95% intervals. " +
-    (first.decay ? "The fit is to the later half of the bounces. " : "") +
-    (first.importance ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is of the largest radiance anywhere, from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
+    (first.decay && all.length === 1 ? "The fit is to the later half of the bounces. " : "") +
+    (first.importance || all.length > 1 ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is of the largest radiance anywhere, from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
   $("energy").setAttribute("aria-label", "Mean of each bounce on a logarithmic axis; the same figures are in the table of bounces below");
   $("pixel").setAttribute("aria-label", "The chosen pixel's bounces in red, green and blue on a logarithmic axis");
   $("error").setAttribute("aria-label", "Relative standard error of the bounces and the sum against seconds");
@@ -387,15 +387,17 @@ document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" 
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
 all.forEach(s => s.run.warnings.forEach(w => $("warnings").append(element("p", runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : ""), "warning"))));
 
-// Any JSON as text or a nested table.
-const isFlat = v => v === null || typeof v !== "object" || (Array.isArray(v) && v.every(x => x === null || typeof x !== "object"));
-const flatText = v => v === null ? "–" : Array.isArray(v) ? v.map(flatText).join(", ") || "none" : typeof v === "number" ? (Number.isInteger(v) ? whole(v) : number(v, 4)) : typeof v === "boolean" ? (v ? "yes" : "no") : String(v);
+// Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
+const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95"].includes(k));
+const isFlat = v => v === null || typeof v !== "object" || isMean(v) || (Array.isArray(v) && v.every(x => x === null || typeof x !== "object"));
+const flatText = v => v === null ? "–" : Array.isArray(v) ? v.map(flatText).join(", ") || "none" : isMean(v) ? withInterval(v.mean, typeof v.interval95 === "number" ? v.interval95 : Infinity)
+  : typeof v === "number" ? (Number.isInteger(v) ? whole(v) : number(v, 4)) : typeof v === "boolean" ? (v ? "yes" : "no") : String(v);
 const words = key => key.replaceAll("_", " ");
 const generic = value => {
   if (value && typeof value === "object" && Object.keys(value).length === 0) return document.createTextNode("none");
   if (isFlat(value)) return document.createTextNode(flatText(value));
   if (Array.isArray(value) && value.every(v => v && !Array.isArray(v) && Object.values(v).every(isFlat))) {
-    const head = [...new Set(value.flatMap(Object.keys))], wide = element("div", undefined, "wide");
+    const head = [...new Set(value.flatMap(Object.keys))], wide = element("div", undefined, "wide generic");
     wide.append(table(head.map(words), value.map(v => head.map(h => h in v ? flatText(v[h]) : "")), head.map((_, i) => i).filter(i => value.some(v => typeof v[head[i]] === "string"))));
     return wide;
   }
@@ -428,7 +430,7 @@ if (data.comparison) {
 all.forEach(s => {
   const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;
   section(`The bounces${tag}`, bouncesTable(s));
-  if (run.plan) section(`What the plan left out${tag}`, generic(run.plan));
+  if (run.plan) section(`The plan${tag}: what was left out, and why`, generic(run.plan));
   if (run.health) section(`Health${tag}`, generic(run.health));
   const what = { command: run.command, ...run };
   for (const part of ["plan", "health", "bounces", "warnings", "ways"]) delete what[part];

@@ -50,21 +50,22 @@ const fitRange = (chart, sets) => {
   range(chart.options.scales.y, values);
 };
 
-// Means with error bars, what follows each bounce, its bound, and the fitted decay.
+// Means with error bars; of a single run also what follows each bounce, its bound, and the fitted decay.
 const energySets = (all, names) => all.flatMap((s, r) => {
   const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r] } : {};
   const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)).filter(positive), main, marks[r], dash)];
   if (s.hasRest) sets.push(dots("rest" + tag, [point(s.last + 1, s.run.rest.mean, s.wholeMean({ i: s.last + 1 }).interval95)].filter(positive), main, "rectRot", { showLine: false }));
+  if (all.length > 1) return sets;
   if (s.decay) {
     const { ratio, log_at_0, first, last } = s.decay;
-    sets.push(line(`fitted decay: × ${number(ratio)} a bounce${tag}`, [first - .4, last + .4].map(x => ({ x, y: Math.exp(log_at_0) * ratio ** x })), colors[1], { borderDash: dashes[1 + r], borderWidth: 2.5 }));
+    sets.push(line(`fitted decay: × ${number(ratio)} a bounce`, [first - .4, last + .4].map(x => ({ x, y: Math.exp(log_at_0) * ratio ** x })), colors[1], { borderDash: dashes[1], borderWidth: 2.5 }));
   }
   if (s.hasRest) {
     let after = s.run.rest.mean;
     const follow = bounces.map(b => b.mean).reverse().map((mean, k) => { const y = after; after += mean; return { x: s.last - k, y }; }).reverse();
-    sets.push(line("all that follows" + tag, follow.filter(positive), colors[2], { borderDash: dashes[r ? 3 : 0] }));
+    sets.push(line("all that follows", follow.filter(positive), colors[2]));
   }
-  sets.push(line("bound on all that follows" + tag, bounces.map((b, i) => ({ x: i, y: b.tail_bound })).filter(positive), color("dim"), { borderDash: dashes[2] }));
+  sets.push(line("bound on all that follows", bounces.map((b, i) => ({ x: i, y: b.tail_bound })).filter(positive), color("dim"), { borderDash: dashes[2] }));
   return sets.filter(set => set.data.length > 0);
 });
 

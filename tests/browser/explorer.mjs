@@ -205,6 +205,22 @@ await both.selectOption("#view", "z");
 await both.keyboard.press("r");
 await expectNames(both);
 
+// One sample tells no errors: the warning is on top, intervals are unknown, and the noise is grey.
+neumann("render", scene, "-D", "res=8", "-n", "0", "--spp", "1", "-o", at("one"), "--quiet");
+const one = await browser.open(at("one/index.html"));
+await one.waitForSelector("body[data-ready]");
+assert.equal(await one.locator("#warnings").innerText(), "a single replicate was sampled: the standard errors are unknown");
+await one.locator("#stage").click();
+await one.selectOption("#view", "noise");
+await settled(one);
+assert.match(await one.locator("#readout .values").innerText(), /red (\S+) ± unknown.*relative error unknown|red 0 ± unknown/s);
+assert.deepEqual(await one.evaluate(() => [unknown, image.at(0)]), [0xff808080, 0xff808080]);
+
+// Parts of run.json that this page does not know are tables all the same.
+const cells = await page.evaluate(() => [...generic([{ part: "mirrors", kept: false, light: { mean: .5, stderr: .1, interval95: .2 } }, { part: "glass", kept: true, count: 12345 }])
+  .querySelectorAll("tr")].map(row => [...row.cells].map(c => c.textContent)));
+assert.deepEqual(cells, [["part", "kept", "light", "count"], ["mirrors", "no", "0.5 ± 0.2", ""], ["glass", "yes", "", "12\u202f345"]]);
+
 // On a phone nothing is wider than the screen, in either scheme.
 for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
   const phone = await browser.open(at(`${name}/index.html`), { width: 375, height: 720, scheme });

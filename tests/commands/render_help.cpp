@@ -42,7 +42,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
 }
 
 TEST_F(RenderHelp, OptionsOfCompare) {
-    EXPECT_EQ(options(printed({"help", "compare"})), (std::set<std::string>{"-h,--help", "--json"}));
+    EXPECT_EQ(options(printed({"help", "compare"})), (std::set<std::string>{"-h,--help", "-o", "--json"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSpectrum) {
