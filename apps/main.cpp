@@ -4,6 +4,7 @@
 #include "apps/export.h"
 #include "apps/method_options.h"
 #include "apps/options.h"
+#include "apps/plan.h"
 #include "apps/render.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
@@ -119,6 +120,8 @@ int main(int argc, char** argv) try {
     auto* conform = neumann::add_conform(app, conform_request);
     neumann::StudyRequest study_request;
     auto* study = neumann::add_study(app, study_request);
+    neumann::PlanRequest plan_request;
+    auto* plan = neumann::add_plan(app, plan_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -142,6 +145,7 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     if (*compare) return finish(neumann::compare_command(a, b, json));
+    if (*plan) return finish(neumann::plan_command(plan_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);

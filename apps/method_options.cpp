@@ -29,6 +29,12 @@ void add_method_options(CLI::App& command, RenderRequest& request) {
             "Random numbers of the methods that make paths: sobol (scrambled Sobol' points) or independent; the scene's without it")
         ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}).description(""));
+    command
+        .add_option("--plan", request.plan,
+                    "auto: what the scene does not need is left out, as `neumann plan` tells; full: nothing is left out")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"auto", "full"}).description(""))
+        ->capture_default_str();
     command.add_option("--patches", request.patches, "Patches of guided, patches, matrix and gather; about as many")
         ->type_name("N")
         ->check(whole_from(0, std::uint64_t{1} << 40));

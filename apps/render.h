@@ -23,6 +23,7 @@ struct RenderRequest {
     std::string method = "walk";
     LightOptions light;
     std::optional<int> ways;  // of bidirectional: the bounce of which every way is shown
+    std::string plan = "auto";  // or full: nothing is left out
     std::string sampler;      // sobol or independent; empty: the scene's
     bool importance = false;  // of patches: pictures of K*^i We
     std::optional<std::size_t> patches;

@@ -15,10 +15,39 @@ namespace {
 constexpr double default_tail = 0.01;
 constexpr int default_most_bounces = 64, default_bounces_without_end = 16;
 
+// Those of the plan's that the method takes.
+std::vector<bool LeftOut::*> decisions(const RenderRequest& request) {
+    const std::string &method = request.method, &direct = request.light.direct;
+    if (is_field_method(method)) return {&LeftOut::channels_but_one};
+    if (method == "light" || method == "bidirectional" || method == "pointwise") return {};
+    std::vector<bool LeftOut::*> taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};
+    if (direct != "hemisphere" && direct != "cosine") taken.push_back(&LeftOut::shadow_rays_in_room);
+    if ((method == "walk" || method == "guided") && (direct.empty() || direct.starts_with("mis")))
+        taken.push_back(&LeftOut::questions);
+    if (method == "walk") taken.push_back(&LeftOut::channels_but_one);
+    return taken;
+}
+
 }  // namespace
 
+Plan plan_of(const RenderRequest& request, const Scene& scene) {
+    if (request.plan == "full" && is_field_method(request.method))
+        throw InputError(
+            fmt::format("--plan full belongs to the methods that make paths; fields of {} have one channel where the scene is grey",
+                        request.method));
+    const auto taken = decisions(request);
+    if (request.plan == "full" || taken.empty()) return {};
+    Plan plan = make_plan(scene);
+    std::erase_if(plan.parts, [&](const PlanPart& p) {
+        if (!p.decision || std::find(taken.begin(), taken.end(), p.decision) != taken.end()) return false;
+        plan.walk.*p.decision = false;
+        return true;
+    });
+    return plan;
+}
+
 int choose_bounces(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     if (request.bounces) return *request.bounces;
     if (request.tail) {
         if (!pilot.converges())

@@ -7,6 +7,7 @@
 #include "core/base/warnings.h"
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
+#include "operators/plan/plan.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@ struct RenderJob {
     const RenderRequest& request;
     const Scene& scene;
     const Pilot& pilot;
+    const Plan& plan;  // without parts where nothing is left out
 };
 
 struct RenderResult {
@@ -32,6 +34,8 @@ inline bool is_field_method(const std::string& method) { return method == "patch
 // By request.method.
 RenderResult render_by_method(const RenderJob& job);
 
+// What the method does not need of the scene, unless nothing is to be left out. Throws InputError.
+Plan plan_of(const RenderRequest& request, const Scene& scene);
 // The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
 int choose_bounces(const RenderJob& job);
 

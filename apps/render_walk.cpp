@@ -108,7 +108,7 @@ BounceSeries bounce_series(const RenderedSeries& series, SeriesReport report) {
 }  // namespace
 
 RenderResult render_by_walk(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     if (request.method != "guided" && (request.patches || request.directions))
         throw InputError(fmt::format("--patches and --directions belong to --method guided, patches, matrix and gather, not to {}",
                                      request.method));
@@ -132,6 +132,7 @@ RenderResult render_by_walk(const RenderJob& job) {
         settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
     settings.walk.split = split(request.light);
+    settings.walk.left_out = plan.walk;
     settings.sampler = sampler_kind(request.sampler).value_or(scene.sampler.value_or(SamplerKind::sobol));
     settings.seed = request.seed;
 

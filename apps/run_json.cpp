@@ -1,5 +1,6 @@
 #include "apps/run_json.h"
 
+#include "apps/plan.h"
 #include "core/geometry/ray_caster.h"
 
 #include <cmath>
@@ -93,7 +94,7 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
 }  // namespace
 
 Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, double seconds_total) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     const BounceSeries& series = result.series;
     const SeriesReport& report = series.report;
     Json json;
@@ -105,6 +106,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
                            ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
                            : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
     json["options"] = result.options;
+    json["plan"] = plan.parts.empty() ? Json("full") : plan_json(plan);
     json["paths"] = name(series.paths);
     json["samples"] = result.samples;
     json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;

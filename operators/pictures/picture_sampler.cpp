@@ -18,19 +18,22 @@ constexpr std::uint32_t walks_at_once = 64;
 
 // One thread's work space for some pixels at once: the walks' samples, and one node of the tree of replicates for each level and
 // pixel.
+template <class Colour>
 struct Workspace {
     Workspace(std::size_t pixels, std::size_t replicate_size, std::size_t quantities, std::size_t levels)
         : rays(pixels * replicate_size),
           weights(rays.size()),
           samples(rays.size() * quantities),
+          total(quantities),
           sum(quantities),
           carry(quantities * PixelMoments::doubles_per_quantity),
           waiting(pixels, std::vector(levels, carry)),
           tally(quantities) {}
     std::vector<CameraRay> rays;
     std::vector<double> weights;  // of the film's filter
-    Walkers walkers;
-    std::vector<Rgb> samples, sum;
+    WalkersOf<Colour> walkers;
+    std::vector<Colour> samples, total;
+    std::vector<Rgb> sum;
     std::vector<double> carry;
     std::vector<std::vector<std::vector<double>>> waiting;
     Tally tally;
@@ -41,25 +44,27 @@ struct Pixel {
 };
 
 // Takes down the samples of one quantity that are not finite, makes them zero, and returns the sum of the others.
-Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate,
-                         Workspace& work) {
-    Rgb sum(0.0);
+template <class Colour>
+Rgb leave_out_non_finite(std::span<Colour> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate,
+                         Workspace<Colour>& work) {
+    Colour sum(0.0);
     for (std::size_t i = 0; i < size; ++i) {
-        Rgb& x = samples[i * work.sum.size() + q];
+        Colour& x = samples[i * work.sum.size() + q];
         if (!is_finite(x)) {
             ++work.tally.non_finite_count;
             work.tally.keep({pixel.x, pixel.y, static_cast<int>(q), replicate * size + i});
-            x = Rgb(0.0);
+            x = Colour(0.0);
         }
         sum += x;
     }
-    return sum;
+    return Rgb(sum);
 }
 
 // Samples one replicate of some pixels, into work.samples; there is a sampler for each of their samples.
 template <class Estimator, class Sampler>
 void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
-           std::uint64_t replicate, Workspace& work) {
+           std::uint64_t replicate, Workspace<typename Estimator::Colour>& work) {
+    using Colour = typename Estimator::Colour;
     const Film& film = scene.film;
     const std::size_t size = samplers.size() / pixels.size();
     for (std::size_t i = 0; i < samplers.size(); ++i) {
@@ -69,24 +74,26 @@ void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> sam
         work.rays[i] = scene.camera.sample_ray(sample.position, samplers[i]);
         work.weights[i] = sample.weight;
     }
-    std::fill(work.samples.begin(), work.samples.end(), Rgb(0.0));
-    TermSamples result{work.samples, work.tally.rays};
+    std::fill(work.samples.begin(), work.samples.end(), Colour(0.0));
+    TermSamplesOf<Colour> result{work.samples, work.tally.rays};
     estimate(std::span<const CameraRay>(work.rays).first(samplers.size()), samplers, work.walkers, result);
     work.tally.given_up += result.given_up;
     const std::size_t quantities = work.sum.size();
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         if (work.weights[i] == 1.0) continue;
-        for (Rgb& x : std::span(work.samples).subspan(i * quantities, quantities)) x *= work.weights[i];
+        for (Colour& x : std::span(work.samples).subspan(i * quantities, quantities)) x *= work.weights[i];
     }
 }
 
 // The means of one pixel's samples of a replicate, into work.sum.
-void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, bool has_negative_weights,
-             const std::optional<glm::dmat3>& colors, Workspace& work) {
+template <class Colour>
+void average(std::span<Colour> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, bool has_negative_weights,
+             const std::optional<glm::dmat3>& colors, Workspace<Colour>& work) {
     const std::size_t quantities = work.sum.size();
-    std::copy_n(samples.begin(), quantities, work.sum.begin());
+    std::copy_n(samples.begin(), quantities, work.total.begin());
     for (std::size_t i = 1; i < size; ++i)
-        for (std::size_t q = 0; q < quantities; ++q) work.sum[q] += samples[i * quantities + q];
+        for (std::size_t q = 0; q < quantities; ++q) work.total[q] += samples[i * quantities + q];
+    std::transform(work.total.begin(), work.total.end(), work.sum.begin(), [](const Colour& c) { return Rgb(c); });
     for (std::size_t q = 0; q < quantities; ++q) {
         Rgb& sum = work.sum[q];
         LargestSamples& largest = work.tally.largest[q];
@@ -102,7 +109,8 @@ void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::
 }
 
 // Appends work.sum as the r-th replicate: nodes of equal size are joined as digits carry in adding 1 to a binary number.
-void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace& work) {
+template <class Colour>
+void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace<Colour>& work) {
     PixelMoments::set(work.carry, work.sum);
     std::size_t level = 0;
     for (; r >> level & 1; ++level) {
@@ -125,6 +133,8 @@ TermEstimator make_estimator(const Scene& scene, const PictureSampler::Settings&
             if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
             return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
         default:
+            if (settings.walk.left_out.channels_but_one)
+                return WalkEstimator<MaterialContinuation, double>(scene, settings.walk, MaterialContinuation());
             return WalkEstimator(scene, settings.walk, MaterialContinuation());
     }
 }
@@ -155,17 +165,10 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     MomentsNode node{first, count, std::move(memory)};
     node.data.resize(pixels * stride);
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(walks_at_once / size, 1u);
-    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
-        Workspace work(pixels_at_once, size, quantities(), levels);
-        for (std::size_t q = 0; q < quantities(); ++q) work.tally.largest[q].outdo(tally.largest[q]);
-        return work;
-    });
-
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
     // Some consecutive pixels, from `begin`.
-    const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end,
-                                Workspace& work) {
+    const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end, auto& work) {
         std::vector<Pixel> some;
         std::vector<std::decay_t<decltype(sampler_of(begin))>> samplers;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
@@ -187,31 +190,36 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     };
     // Groups of pixels are the same however the work is divided.
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
+    const auto run_all = [&](const auto& estimate) {
+        using Colour = typename std::decay_t<decltype(estimate)>::Colour;
+        oneapi::tbb::enumerable_thread_specific<Workspace<Colour>> workspaces([&] {
+            Workspace<Colour> work(pixels_at_once, size, quantities(), levels);
+            for (std::size_t q = 0; q < quantities(); ++q) work.tally.largest[q].outdo(tally.largest[q]);
+            return work;
+        });
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
+            if (dropped) return;
+            Workspace<Colour>& work = workspaces.local();
+            std::uint32_t done = 0;
+            for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
+                const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
+                if (settings_.sampler == SamplerKind::sobol)
+                    run_pixels(
+                        estimate, [&](std::uint32_t pixel) { return SobolSampler(sobol_, settings_.seed, pixel); }, begin, end,
+                        work);
+                else
+                    run_pixels(
+                        estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end, work);
+                done += end - begin;
+            }
+            pixels_done += done;
+            if (watch && watch(pixels_done)) dropped = true;
+        });
         if (dropped) return;
-        Workspace& work = workspaces.local();
-        std::uint32_t done = 0;
-        for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
-            const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
-            std::visit(
-                [&](const auto& estimate) {
-                    if (settings_.sampler == SamplerKind::sobol)
-                        run_pixels(
-                            estimate, [&](std::uint32_t pixel) { return SobolSampler(sobol_, settings_.seed, pixel); }, begin, end,
-                            work);
-                    else
-                        run_pixels(
-                            estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end,
-                            work);
-                },
-                estimator);
-            done += end - begin;
-        }
-        pixels_done += done;
-        if (watch && watch(pixels_done)) dropped = true;
-    });
+        for (const auto& work : workspaces) tally.merge(work.tally);
+    };
+    std::visit(run_all, estimator);
     if (dropped) return std::nullopt;
-    for (const Workspace& work : workspaces) tally.merge(work.tally);
     return node;
 }
 

@@ -13,19 +13,27 @@
 
 namespace neumann {
 
-// One walk for all terms: the fast way.
-template <class Continuation>
+// One walk for all terms: the fast way. Compiled by itself for each kind (walk_kernel.h).
+template <class Continuation, class ColourKind = Rgb>
 class WalkEstimator {
 public:
+    using Colour = ColourKind;
+
     WalkEstimator(const Scene& scene, const WalkSettings& settings, const Continuation& continuation)
-        : scene_(&scene), settings_(settings), direct_(scene, settings.direct), continuation_(continuation) {}
+        : scene_(&scene), settings_(settings), direct_(scene, asked(settings)), continuation_(continuation) {}
 
     template <class Sampler>
-    void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
-        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
-    }
+    void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, WalkersOf<Colour>& walkers,
+                    TermSamplesOf<Colour>& result) const;
 
 private:
+    // Where hitting lights does all, they are not asked beside it.
+    static DirectLightSettings asked(const WalkSettings& settings) {
+        DirectLightSettings direct = settings.direct;
+        if (settings.left_out.questions && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;
+        return direct;
+    }
+
     const Scene* scene_;
     WalkSettings settings_;
     DirectLightSampler direct_;
@@ -35,6 +43,8 @@ private:
 // Each term asked for its value, by itself and from the start: the slow way, as on the slide. It has no rest.
 class PointwiseEstimator {
 public:
+    using Colour = Rgb;
+
     PointwiseEstimator(const Scene& scene, int bounces) : scene_(&scene) {
         const TransportOperator T(scene.geometry);
         const ReflectionOperator R(scene.materials);
@@ -70,7 +80,8 @@ private:
     std::vector<ExitantField> terms_;
 };
 
-using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>,
-                                   WalkEstimator<SpecularContinuation>, WalkEstimator<GuidedContinuation>, PointwiseEstimator>;
+using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<MaterialContinuation, double>,
+                                   WalkEstimator<SurfaceContinuation>, WalkEstimator<SpecularContinuation>,
+                                   WalkEstimator<GuidedContinuation>, PointwiseEstimator>;
 
 }  // namespace neumann

@@ -9,11 +9,13 @@
 // a light, and what it finds counts in full whatever is asked for.
 #pragma once
 
+#include "core/base/channels.h"
 #include "core/base/frame.h"
 #include "core/base/hot.h"
 #include "core/scene/pass_lights.h"
 #include "operators/walk/continuation.h"
 #include "operators/walk/direct_light.h"
+#include "operators/walk/left_out.h"
 #include "operators/walk/roulette.h"
 #include "operators/walk/together.h"
 
@@ -37,6 +39,7 @@ struct WalkSettings {
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
+    LeftOut left_out = {};
     // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le, at reciprocal weight; 0: no rest.
     double rest_probability = 1.0;
     // Bounces beyond N after which a walk is given up and counted.
@@ -44,17 +47,20 @@ struct WalkSettings {
 };
 
 // Samples of every term, for several walks. `quantities`: for each walk N + 2 entries, the terms 0 … N and the rest.
-struct TermSamples {
-    std::span<Rgb> quantities;      // added to
+template <class Colour>
+struct TermSamplesOf {
+    std::span<Colour> quantities;   // added to
     std::span<std::uint64_t> rays;  // N + 2 entries: rays cast for each, by all walks; added to
     std::uint64_t given_up = 0;     // walks; added to
 };
+using TermSamples = TermSamplesOf<Rgb>;
 
 // A walk on its way: the camera's side of the path is done up to x, and weighs β.
-struct Walker {
+template <class Colour>
+struct WalkerOf {
     SurfacePoint x;
     Vec3 wo;  // towards the vertex before
-    Rgb beta{1.0};
+    Colour beta{1.0};
     double kept_weight = 0.0;  // largest channel of β when roulette last let the walk live
     double reflected = 0.0;    // largest channel of the last reflection's weight
 
@@ -63,11 +69,13 @@ struct Walker {
     double pdf = 0.0;  // of wi, per solid angle; delta_pdf in a mirror
     Vec3 asked;        // where light is looked for, by directions
     SurfacePoint light;
-    Rgb found;  // what arrives from `light` if it is seen, or the weight of what is seen along `asked`
+    Colour found;  // what arrives from `light` if it is seen, or the weight of what is seen along `asked`
 };
 
 // Work space of walk(), kept between calls.
-struct Walkers {
+template <class Colour>
+struct WalkersOf {
+    using Walker = WalkerOf<Colour>;
     std::vector<Walker> walker;         // one for each ray
     std::vector<std::uint32_t> alive;   // those that go on, in order
     std::vector<std::uint32_t> asking;  // of them, those that ask for their light
@@ -75,13 +83,16 @@ struct Walkers {
     std::vector<Walker> first;          // where several walks go on from each first vertex: these, and which of them go on
     std::vector<std::uint32_t> first_alive;
 };
+using Walkers = WalkersOf<Rgb>;
 
 // Samples all terms along some camera rays. `T` answers first_hits() and visible() as Geometry does; samplers[i] gives the numbers
 // of walk i.
-template <class Transport, class Sampler, class Continuation = MaterialContinuation>
+template <class Colour, class Transport, class Sampler, class Continuation = MaterialContinuation>
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
-                      std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
-                      const Continuation& continuation = {}) {
+                      std::span<const CameraRay> rays, std::span<Sampler> samplers, WalkersOf<Colour>& walkers,
+                      TermSamplesOf<Colour>& out, const Continuation& continuation = {}) {
+    using Walker = WalkerOf<Colour>;
+    const LeftOut& left_out = settings.left_out;
     const int N = settings.bounces;
     const std::size_t stride = static_cast<std::size_t>(N) + 2;
     const Emitters& emitters = scene.emitters;
@@ -118,28 +129,40 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             return way.sample(side, wo, samplers[i]);
     };
     double share = 1.0;  // of a walk, among those that go on from its first vertex
-    const auto add = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * stride + q] += x * share; };
+    const auto add = [&](std::uint32_t i, std::size_t q, const Colour& x) { out.quantities[i * stride + q] += x * share; };
     // At the first vertex, where a walk asks for light more or less often than it goes on.
     double directions_per_question = 1.0;
 
     // R of the last reflection: a question for light.
     const auto ask = [&](const auto& way, Walker& w, std::uint32_t i, const SurfaceSide& side, const Vec3& wo,
                          std::size_t question) {
-        w.found = Rgb(0.0);
+        w.found = Colour(0.0);
         const LightQuestion q = direct.ask(side, samplers[i], question);
         if (!(q.pdf > 0.0)) return;
         const Vec3 wi = side.p.frame.to_local(q.w);
         const double pdf_other = direct.is_weighted() ? way.pdf(side, wo, wi, q.point) * directions_per_question : 0.0;
-        w.found = w.beta * eval(*side.bsdf, side.p, wo, wi) * q.weight *
+        w.found = w.beta * channels_of<Colour>(eval(*side.bsdf, side.p, wo, wi)) * channels_of<Colour>(q.weight) *
                   (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_other) * directions_per_question);
         w.light = q.point;
         w.asked = q.w;
     };
+    // What needs no answer.
+    const auto is_in_sight = [&](const Walker& w) {
+        if (direct.asks_directions()) return false;
+        return (left_out.rays_from_surfaces && w.light.is_infinite()) ||
+               (left_out.shadow_rays_in_room && see_through_room(w.x, w.light));
+    };
     // T: the answers. The first points of a pixel's walks are close together.
     const auto look = [&](std::size_t q, bool first) {
         asking.clear();
-        for (const std::uint32_t i : alive)
-            if (!is_black(walker[i].found)) asking.push_back(i);
+        for (const std::uint32_t i : alive) {
+            const Walker& w = walker[i];
+            if (is_black(w.found)) continue;
+            if (is_in_sight(w))
+                add(i, q, w.found);
+            else
+                asking.push_back(i);
+        }
         out.rays[q] += asking.size();
         const auto kind = first ? RayCaster::Rays::alike : RayCaster::Rays::any;
         for (std::size_t k = 0; k < asking.size(); k += packet) {
@@ -152,7 +175,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 for (std::size_t j = 0; j < n; ++j) {
                     Walker& w = at(j);
                     if (!(hit >> j & 1u)) w.light.shape = SurfacePoint::infinity;
-                    add(asking[k + j], q, w.found * emitters.emitted(w.light, -w.asked));
+                    add(asking[k + j], q, w.found * channels_of<Colour>(emitters.emitted(w.light, -w.asked)));
                 }
             } else {
                 const std::uint32_t seen = T.visible(
@@ -170,10 +193,10 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             emitters.has_environment(),
             [&](Walker& w, std::uint32_t i) {
                 w.wo = -rays[i].direction;
-                w.beta = Rgb(1.0);
+                w.beta = Colour(1.0);
                 if (scene.hide_emitters && (w.x.is_infinite() || !pass_lights(emitters, T, rays[i].direction, w.x, out.rays[0])))
                     return false;
-                add(i, 0, emitters.emitted(w.x, w.wo));
+                add(i, 0, channels_of<Colour>(emitters.emitted(w.x, w.wo)));
                 return !w.x.is_infinite();
             });
 
@@ -231,12 +254,13 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 if (!side.bsdf) return false;
                 const Frame& frame = side.p.frame;
                 const Vec3 wo = frame.to_local(w.wo);
-                w.found = Rgb(0.0);
+                w.found = Colour(0.0);
                 const auto& way = continuation.at(side, place_of(i));
                 if (questions > 0) ask(way, w, i, side, wo, 0);
                 const BsdfSample sampled = draw_direction(way, side, wo, i);
-                w.beta *= sampled.weight;
-                w.reflected = max_component(sampled.weight);
+                const Colour weight = channels_of<Colour>(sampled.weight);
+                w.beta *= weight;
+                w.reflected = max_component(weight);
                 w.pdf = sampled.pdf;
                 w.wi = frame.to_world(sampled.wi);
                 w.from = w.x.position;
@@ -246,7 +270,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             look(q, bounce == 1);
 
             // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
-            const bool only_mirrors = !direct.counts_what_is_hit() && bounce == N && settings.rest_probability == 0.0;
+            const bool only_for_light = bounce == N && settings.rest_probability == 0.0;
+            const bool only_mirrors = only_for_light && !direct.counts_what_is_hit();
+            if (only_for_light && left_out.rays_for_light) break;
             filter([&](Walker& w, std::uint32_t i) {
                 if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
                 if (rest || settings.roulette.kind != Roulette::Kind::none) {
@@ -261,8 +287,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             });
 
             // T: the next vertices.
-            out.rays[q] += alive.size();
+            if (!left_out.rays_from_surfaces) out.rays[q] += alive.size();
             const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
+                if (left_out.rays_from_surfaces) return std::uint32_t{0};
                 if constexpr (Continuation::joins_points) {
                     const std::uint32_t seen = T.visible(
                         n,
@@ -286,7 +313,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             advance(next_points, !Continuation::joins_points && emitters.has_environment(), [&](Walker& w, std::uint32_t i) {
                 w.wo = -w.wi;
                 if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
-                    const Rgb emitted = emitters.emitted(w.x, w.wo);
+                    const Colour emitted = channels_of<Colour>(emitters.emitted(w.x, w.wo));
                     if (!is_black(emitted))
                         add(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf * directions_per_question, w.from, w.wi, w.x));
                 }

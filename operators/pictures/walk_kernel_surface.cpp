@@ -1,0 +1,3 @@
+#include "operators/pictures/walk_kernel.h"
+
+NEUMANN_WALK_KERNEL(neumann::SurfaceContinuation)
