@@ -4,6 +4,7 @@
 #include "apps/export.h"
 #include "apps/method_options.h"
 #include "apps/options.h"
+#include "apps/plan.h"
 #include "apps/render.h"
 #include "apps/replay.h"
 #include "apps/solve.h"
@@ -126,6 +127,8 @@ int main(int argc, char** argv) try {
     auto* replay = neumann::add_replay(app, replay_request);
     neumann::StressRequest stress_request;
     auto* stress = neumann::add_stress(app, stress_request);
+    neumann::PlanRequest plan_request;
+    auto* plan = neumann::add_plan(app, plan_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -151,6 +154,7 @@ int main(int argc, char** argv) try {
     if (*compare) return finish(neumann::compare_command(compare_request));
     if (*replay) return finish(neumann::replay_command(replay_request));
     if (*stress) return finish(neumann::stress_command(stress_request));
+    if (*plan) return finish(neumann::plan_command(plan_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);

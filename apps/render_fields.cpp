@@ -58,7 +58,7 @@ bool has_given_settings(const RenderRequest& request) { return request.samples |
 }  // namespace
 
 RenderResult render_by_fields(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     FieldSettings settings = choose_settings(job);
     if (request.relative_error && has_given_settings(request))
         throw InputError(

@@ -8,6 +8,7 @@
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
 #include "operators/pictures/sampling_settings.h"
+#include "operators/plan/plan.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@ struct RenderJob {
     const RenderRequest& request;
     const Scene& scene;
     const Pilot& pilot;
+    const Plan& plan;  // without parts where nothing is left out
 };
 
 struct RenderResult {
@@ -35,9 +37,11 @@ inline bool is_field_method(const std::string& method) { return method == "patch
 RenderResult render_by_method(const RenderJob& job);
 
 // How the methods that make paths sample a scene, but for the bounces, the rest, the tables and the replicates. Throws InputError.
-SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene);
+SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene, const Plan& plan);
 std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& request, const Scene& scene, int bounces);
 
+// What the method does not need of the scene, unless nothing is to be left out. Throws InputError.
+Plan plan_of(const RenderRequest& request, const Scene& scene);
 // The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
 int choose_bounces(const RenderJob& job);
 

@@ -95,7 +95,7 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
 
 }  // namespace
 
-SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene) {
+SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene, const Plan& plan) {
     if (request.method != "guided" && (request.patches || request.directions))
         throw InputError(fmt::format("--patches and --directions belong to --method guided, patches, matrix and gather, not to {}",
                                      request.method));
@@ -117,6 +117,7 @@ SamplingSettings sampling_settings(const RenderRequest& request, const Scene& sc
         settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
     settings.walk.split = split(request.light);
+    settings.walk.left_out = plan.walk;
     settings.sampler = sampler_kind(request.sampler).value_or(scene.sampler.value_or(SamplerKind::sobol));
     settings.seed = request.seed;
     return settings;
@@ -135,8 +136,8 @@ std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& req
 }
 
 RenderResult render_by_walk(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
-    PictureSampler::Settings settings = sampling_settings(request, scene);
+    const auto& [request, scene, pilot, plan] = job;
+    PictureSampler::Settings settings = sampling_settings(request, scene, plan);
     const Paths paths = paths_of(settings.method, scene);
     settings.walk.bounces = choose_bounces(job);
 

@@ -59,6 +59,7 @@ RecordedRun read_run(const std::string& folder) {
         text("roulette", request.light.roulette);
         text("split", request.light.split);
         text("sampler", request.sampler);
+        if (json.at("plan") == "full") request.plan = "full";
         if (options.contains("patches")) request.patches = options.at("patches").get<std::size_t>();
         if (options.contains("directions")) request.directions = options.at("directions").get<std::uint32_t>();
         request.seed = options.at("seed");
@@ -106,8 +107,8 @@ Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& 
                                        *request.number));
 }
 
-SamplingSettings settings_of(const RecordedRun& run, const Scene& scene) {
-    SamplingSettings settings = sampling_settings(run.request, scene);
+SamplingSettings settings_of(const RecordedRun& run, const Scene& scene, const Plan& plan) {
+    SamplingSettings settings = sampling_settings(run.request, scene, plan);
     settings.walk.bounces = run.bounces;
     settings.walk.rest_probability = run.rest_probability;
     settings.replicate_size = run.replicate_size;
@@ -214,7 +215,7 @@ int replay_command(const ReplayRequest& request) {
     if (!std::filesystem::exists(run.request.scene))
         throw InputError(fmt::format("{}: the scene of {} is not there; the name is relative to where the render was started",
                                      run.request.scene, request.folder));
-    const Scene scene = read_scene(run.request.scene, run.request.definitions);
+    Scene scene = read_scene(run.request.scene, run.request.definitions);
     if (scene.hash != run.hash)
         fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n",
                    run.request.scene, request.folder);
@@ -222,7 +223,9 @@ int replay_command(const ReplayRequest& request) {
         fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
                    NEUMANN_VERSION);
     const Chosen chosen = choose(request, run, scene.film);
-    const PictureSampler sampler(scene, settings_of(run, scene));
+    const Plan plan = plan_of(run.request, scene);
+    leave_out(plan, scene);
+    const PictureSampler sampler(scene, settings_of(run, scene, plan));
     const Replay found = replay(sampler, chosen.name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_sound(s); });

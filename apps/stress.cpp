@@ -49,9 +49,9 @@ std::string size(double x) { return std::isnan(x) ? "" : fmt::format("{:.2g}", x
 void print_figure(const Figure& f) {
     std::string wanted = expected(f), found = text(f.measured);
     const bool is_long = std::max(wanted.size(), found.size()) >= value_width;
-    fmt::print("{} {:<{}} {:>{}} {:>{}} {:>{}} {:>{}}  {}\n", f.passed ? ' ' : '!', f.quantity, quantity_width, is_long ? "" : wanted,
-               value_width, is_long ? "" : found, value_width, size(f.error), number_width, size(f.tolerance), number_width,
-               f.passed ? "ok" : "FAILED");
+    fmt::print("{} {:<{}} {:>{}} {:>{}} {:>{}} {:>{}}  {}\n", f.passed ? ' ' : '!', f.quantity, quantity_width,
+               is_long ? "" : wanted, value_width, is_long ? "" : found, value_width, size(f.error), number_width,
+               size(f.tolerance), number_width, f.passed ? "ok" : "FAILED");
     if (is_long) fmt::print("      expected: {}\n      measured: {}\n", wanted, found);
     if (!f.why.empty()) fmt::print("      {}\n", f.why);
 }
@@ -79,7 +79,8 @@ void print_summary(const std::vector<Outcome>& outcomes, std::size_t cases, doub
         for (const Outcome& outcome : outcomes)
             if (!outcome.passed()) fmt::print("  {}\n", outcome.known->name);
     }
-    fmt::print("\n{} figures of {} cases: {} ok, {} FAILED; {:.1f} s\n", figures, outcomes.size(), figures - failed, failed, seconds);
+    fmt::print("\n{} figures of {} cases: {} ok, {} FAILED; {:.1f} s\n", figures, outcomes.size(), figures - failed, failed,
+               seconds);
     if (outcomes.size() < cases) fmt::print("Interrupted: {} cases were not reached\n", cases - outcomes.size());
 }
 
@@ -136,14 +137,17 @@ std::vector<const Case*> chosen(const known::Cases& all, const std::string& only
     std::string groups;
     for (const Case& known : all)
         if (const std::string group = known.group(); !groups.ends_with(group)) groups += (groups.empty() ? "" : ", ") + group;
-    throw InputError(fmt::format("--only {}: no case has such a name; there are the groups {}, and --list shows all names", only, groups));
+    throw InputError(
+        fmt::format("--only {}: no case has such a name; there are the groups {}, and --list shows all names", only, groups));
 }
 
 }  // namespace
 
 CLI::App* add_stress(CLI::App& app, StressRequest& request) {
-    auto* stress = app.add_subcommand("stress", "Run all cases with known answers, stiff and extreme ones too: expected and measured");
-    stress->add_option("--only", request.only, "Cases whose name holds this; with * and ? in it, those that it fits")->type_name("PATTERN");
+    auto* stress =
+        app.add_subcommand("stress", "Run all cases with known answers, stiff and extreme ones too: expected and measured");
+    stress->add_option("--only", request.only, "Cases whose name holds this; with * and ? in it, those that it fits")
+        ->type_name("PATTERN");
     stress->add_flag("--list", request.list, "Print the cases' names and where their answers are from, and run none");
     stress->add_option("--seed", request.seed, "Seed of the random numbers")
         ->type_name("N")
@@ -173,8 +177,8 @@ int stress_command(const StressRequest& request) {
     catch_interrupts();
     const Stopwatch watch;
     if (!request.json)
-        fmt::print("  {:<{}} {:>{}} {:>{}} {:>{}} {:>{}}  verdict\n", "case, quantity", quantity_width, "expected", value_width, "measured",
-                   value_width, "error", number_width, "tolerance", number_width);
+        fmt::print("  {:<{}} {:>{}} {:>{}} {:>{}} {:>{}}  verdict\n", "case, quantity", quantity_width, "expected", value_width,
+                   "measured", value_width, "error", number_width, "tolerance", number_width);
     std::vector<Outcome> outcomes;
     const CaseLine line;
     for (const Case* known : cases) {

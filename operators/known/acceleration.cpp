@@ -77,23 +77,24 @@ void compare(Figures& figures, Acceleration& cube, const Expected& expected, dou
     add("Chebyshev, exact", chebyshev(lowest, highest), expected.exact_interval, 1200);
     add("Chebyshev, safe", chebyshev(-largest_albedo, largest_albedo), expected.safe_interval, 1200);
     add("Chebyshev, 0.1% low", chebyshev(lowest, 0.999 * highest), expected.low_top, 1200);
-    add("GMRES", [](const Problem& problem) { return solve_gmres(problem); }, expected.gmres, 40);
+    add(
+        "GMRES", [](const Problem& problem) { return solve_gmres(problem); }, expected.gmres, 40);
     add("CG", solve_conjugate_gradients, expected.cg, 40);
     const int m[] = {1, 3, 8};
     for (std::size_t i = 0; i < 3; ++i)
-        add(fmt::format("Anderson {}", m[i]), [&](const Problem& problem) { return solve_anderson(problem, m[i]); },
+        add(
+            fmt::format("Anderson {}", m[i]), [&](const Problem& problem) { return solve_anderson(problem, m[i]); },
             {0, expected.anderson[i], 0}, 800);
-    if (expected.most_by_wynn > 0)
-        figures.at_most("Wynn, 1e-10", cube.counts(solve_wynn_epsilon, 60)[2], expected.most_by_wynn);
+    if (expected.most_by_wynn > 0) figures.at_most("Wynn, 1e-10", cube.counts(solve_wynn_epsilon, 60)[2], expected.most_by_wynn);
 }
 
 void add_uniform(Cases& cases, double rho, double lowest, const Expected& expected) {
-    cases.push_back({fmt::format("acceleration/albedo-{:g}", rho), "counts of other programs: 2 or 10%",
-                     [=](Figures& figures, std::uint64_t) {
-                         const Cube cube = symmetric_cube(16);
-                         Acceleration problem(cube, Vector::Constant(cube.size(), rho));
-                         compare(figures, problem, expected, lowest, rho, rho);
-                     }});
+    cases.push_back(
+        {fmt::format("acceleration/albedo-{:g}", rho), "counts of other programs: 2 or 10%", [=](Figures& figures, std::uint64_t) {
+             const Cube cube = symmetric_cube(16);
+             Acceleration problem(cube, Vector::Constant(cube.size(), rho));
+             compare(figures, problem, expected, lowest, rho, rho);
+         }});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// The unit cube whose ceiling emits Le = 1, albedo ρ everywhere: K^i Le = ρ^i g_i, and g_i depends on the shape only. g_1 is Lambert's
-// formula, g_2 is exact to 1e-13 by quadrature of closed forms, the others come from a Galerkin method with exact form factors,
-// extrapolated from 16² … 256² patches a face; error at most 2.4e-8. The ceiling touches the walls, so light sampling alone has
-// infinite variance and is left out (see monte_carlo.cpp).
+// The unit cube whose ceiling emits Le = 1, albedo ρ everywhere: K^i Le = ρ^i g_i, and g_i depends on the shape only. g_1 is
+// Lambert's formula, g_2 is exact to 1e-13 by quadrature of closed forms, the others come from a Galerkin method with exact form
+// factors, extrapolated from 16² … 256² patches a face; error at most 2.4e-8. The ceiling touches the walls, so light sampling
+// alone has infinite variance and is left out (see monte_carlo.cpp).
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
@@ -57,32 +57,34 @@ void add_walks(Cases& cases) {
         for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
             const std::size_t bounces = way == Way::pointwise ? 2 : way == Way::bsdf ? 4 : 10;
             cases.push_back({fmt::format("cube/ceiling-lit/{}/{}", column_names[column], short_name(way)),
-                             "rho^i g_i: closed form, quadrature 1e-13, Galerkin 2.4e-8", [=](Figures& figures, std::uint64_t seed) {
+                             "rho^i g_i: closed form, quadrature 1e-13, Galerkin 2.4e-8",
+                             [=](Figures& figures, std::uint64_t seed) {
                                  const Scene scene = cube_lit_by(ceiling);
                                  figures.terms(sharp_probe(scene, place(scene, column), way,
-                                                     {.samples = 1024,
-                                                      .bounces = static_cast<int>(bounces),
-                                                      .seed = seed}),
+                                                           {.samples = 1024, .bounces = static_cast<int>(bounces), .seed = seed}),
                                                terms(column, bounces), 1, accuracy);
                              }});
         }
     // By superposition: with one wall instead of the ceiling, g_i at the floor's centre is (1 − g_floor − g_ceiling)/4.
-    cases.push_back({"cube/wall-lit/floor-centre/mis", "superposition of the above", [](Figures& figures, std::uint64_t seed) {
-                         const Scene scene = cube_lit_by(right);
-                         std::vector<double> exact;
-                         for (const auto& row : g)
-                             exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 *
-                                             (1.0 - row[floor_center] - row[ceiling_center]));
-                         figures.terms(sharp_probe(scene, place(scene, floor_center), Way::mis, {.samples = 1024, .bounces = 10, .seed = seed}),
-                                       exact, 1, accuracy);
-                     }});
+    cases.push_back(
+        {"cube/wall-lit/floor-centre/mis", "superposition of the above", [](Figures& figures, std::uint64_t seed) {
+             const Scene scene = cube_lit_by(right);
+             std::vector<double> exact;
+             for (const auto& row : g)
+                 exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 *
+                                 (1.0 - row[floor_center] - row[ceiling_center]));
+             figures.terms(sharp_probe(scene, place(scene, floor_center), Way::mis, {.samples = 1024, .bounces = 10, .seed = seed}),
+                           exact, 1, accuracy);
+         }});
     // Σ_{i>2} with ρ = 0.8: the table, then g_i = 1/6 to 1e-6.
     cases.push_back({"cube/ceiling-lit/floor-centre/rest", "the same added up: 1e-6", [](Figures& figures, std::uint64_t seed) {
                          const Scene scene = cube_lit_by(ceiling);
                          double exact = std::pow(rho, 11) / (1.0 - rho) / 6.0;
-                         for (std::size_t i = 2; i < 10; ++i) exact += g[i][floor_center] * std::pow(rho, static_cast<double>(i + 1));
-                         const Estimates found = sharp_probe(scene, place(scene, floor_center), Way::mis,
-                                                       {.samples = 1024, .bounces = 2, .rest_probability = 1.0, .seed = seed});
+                         for (std::size_t i = 2; i < 10; ++i)
+                             exact += g[i][floor_center] * std::pow(rho, static_cast<double>(i + 1));
+                         const Estimates found =
+                             sharp_probe(scene, place(scene, floor_center), Way::mis,
+                                         {.samples = 1024, .bounces = 2, .rest_probability = 1.0, .seed = seed});
                          figures.sampled("sum of K^i Le, i > 2", found.rest, exact, 1e-6);
                      }});
 }
@@ -91,7 +93,8 @@ struct Means {
     double wall, floor, ceiling;
     double largest_difference(std::size_t bounce, std::size_t column) const {
         const double* known = g[bounce - 1];
-        return std::max({std::abs(wall - known[column]), std::abs(floor - known[column + 1]), std::abs(ceiling - known[column + 2])});
+        return std::max(
+            {std::abs(wall - known[column]), std::abs(floor - known[column + 1]), std::abs(ceiling - known[column + 2])});
     }
 };
 Vector bounce(const Cube& cube, int i) {
@@ -108,7 +111,8 @@ double error_of_means(const Cube& cube, int i) {
 
 // Lambert's formula: the form factor from a point with normal n to a patch wholly in front of it.
 double point_factor(const Vec3& p, const Vec3& n, const Parallelogram& patch) {
-    const Vec3 r[] = {patch.corner - p, patch.corner + patch.u - p, patch.corner + patch.u + patch.v - p, patch.corner + patch.v - p};
+    const Vec3 r[] = {patch.corner - p, patch.corner + patch.u - p, patch.corner + patch.u + patch.v - p,
+                      patch.corner + patch.v - p};
     double sum = 0.0;
     for (int k = 0; k < 4; ++k) {
         const Vec3 &a = r[k], &b = r[(k + 1) % 4];
@@ -171,8 +175,8 @@ void add_patches(Cases& cases) {
                              K.apply_adjoint(importance, next);
                              importance = next;
                              figures.near(fmt::format("<We, K^{} Le>", ++i), dot(We, light), value, 1e-10);
-                             figures.near(fmt::format("<K*^{} We, Le> - <We, K^{} Le>", i, i), dot(importance, Le) - dot(We, light), 0.0,
-                                          1e-15);
+                             figures.near(fmt::format("<K*^{} We, Le> - <We, K^{} Le>", i, i), dot(importance, Le) - dot(We, light),
+                                          0.0, 1e-15);
                          }
                      }});
 }

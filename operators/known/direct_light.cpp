@@ -28,9 +28,7 @@ void add_point(Cases& cases, const std::string& name, const Shape& light, const 
                              maker.add(light, lamp(radiance));
                              const Scene scene = maker.make();
                              const Estimates found = sharp_probe(scene, at(scene, receiver.point, receiver.normal), way,
-                                                           {.samples = 1024,
-                                                            .bounces = 2,
-                                                            .seed = seed});
+                                                                 {.samples = 1024, .bounces = 2, .seed = seed});
                              figures.terms(found, std::vector{rho * radiance * F, 0.0});
                          }});
     }
@@ -82,9 +80,7 @@ void add_pairs(Cases& cases) {
                                  maker.add(pair.light, lamp(radiance));
                                  const Scene scene = maker.make();
                                  figures.terms(sharp_probe(scene, anywhere_on(scene, receiver), way,
-                                                     {.samples = 1024,
-                                                      .bounces = 2,
-                                                      .seed = seed}),
+                                                           {.samples = 1024, .bounces = 2, .seed = seed}),
                                                std::vector{rho * radiance * pair.F, 0.0});
                              }});
         }
@@ -102,9 +98,10 @@ void add_far_pairs(Cases& cases) {
                                                                  {1024, 1.6805506898931036e-13}};
                          for (const auto& [n, value] : exact) {
                              const double h = 1.0 / n;
-                             figures.near(fmt::format("A F of patches of side 1/{}", n),
-                                          exchange_area(flat(facing_up(0, h, 0, h)), flat(facing_down(0.5, 0.5 + h, 0.25, 0.25 + h, 1))),
-                                          value, 1e-13 * value);
+                             figures.near(
+                                 fmt::format("A F of patches of side 1/{}", n),
+                                 exchange_area(flat(facing_up(0, h, 0, h)), flat(facing_down(0.5, 0.5 + h, 0.25, 0.25 + h, 1))),
+                                 value, 1e-13 * value);
                          }
                      }});
 }
@@ -113,51 +110,50 @@ void add_far_pairs(Cases& cases) {
 // K Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²].
 void add_sky(Cases& cases) {
     for (const Way way : {Way::mis, Way::bsdf, Way::light})
-        cases.push_back({"direct-light/sky/" + short_name(way), "rho [1 + 2/3 b.n + |q|^2/4 + (q.n)^2/4]: exact",
-                         [way](Figures& figures, std::uint64_t seed) {
-                             const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
-                             SceneMaker maker;
-                             maker.add(make_cube(Mat4(1.0)), matte(rho));
-                             // It emits by direction alone, so it may be near.
-                             maker.add(Sphere{{0, 0, 0}, 4.0, true},
-                                       {std::nullopt, AreaLight(
-                                                          [=](const SurfacePoint&, const Vec3& w) {
-                                                              return grey(1.0 - glm::dot(b, w) + std::pow(glm::dot(q, w), 2));
-                                                          },
-                                                          grey(1.0 + glm::length(b) + glm::dot(q, q)))});
-                             const Scene scene = maker.make();
-                             for (const auto& [name, n] :
-                                  {std::pair{"x", Vec3(1, 0, 0)}, {"-y", Vec3(0, -1, 0)}, {"z", Vec3(0, 0, 1)}})
-                                 figures.sampled(
-                                     fmt::format("K Le, normal {}", name),
-                                     sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
-                                           {.samples = 1024, .bounces = 1, .seed = seed})
-                                         .terms[1],
-                                     rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) +
-                                            0.25 * std::pow(glm::dot(q, n), 2)));
-                         }});
+        cases.push_back(
+            {"direct-light/sky/" + short_name(way), "rho [1 + 2/3 b.n + |q|^2/4 + (q.n)^2/4]: exact",
+             [way](Figures& figures, std::uint64_t seed) {
+                 const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
+                 SceneMaker maker;
+                 maker.add(make_cube(Mat4(1.0)), matte(rho));
+                 // It emits by direction alone, so it may be near.
+                 maker.add(Sphere{{0, 0, 0}, 4.0, true},
+                           {std::nullopt,
+                            AreaLight([=](const SurfacePoint&,
+                                          const Vec3& w) { return grey(1.0 - glm::dot(b, w) + std::pow(glm::dot(q, w), 2)); },
+                                      grey(1.0 + glm::length(b) + glm::dot(q, q)))});
+                 const Scene scene = maker.make();
+                 for (const auto& [name, n] : {std::pair{"x", Vec3(1, 0, 0)}, {"-y", Vec3(0, -1, 0)}, {"z", Vec3(0, 0, 1)}})
+                     figures.sampled(
+                         fmt::format("K Le, normal {}", name),
+                         sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
+                                     {.samples = 1024, .bounces = 1, .seed = seed})
+                             .terms[1],
+                         rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) + 0.25 * std::pow(glm::dot(q, n), 2)));
+             }});
 }
 
 // Without extent, and asked for by every walk alike: ρ I cosθ/(π d²) and ρ E0 cosθ/π, to rounding.
 void add_point_lights(Cases& cases) {
-    cases.push_back({"direct-light/point-and-parallel", "rho I cos/(pi d^2), rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {
-                         for (const bool parallel : {false, true}) {
-                             SceneMaker maker;
-                             maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(rho));
-                             const Vec3 from(0.3, -0.4, 1.2);
-                             const double d = glm::length(from), cosine = from.z / d;
-                             if (parallel)
-                                 maker.parts.lights.delta = {DirectionalLight(-from / d, grey(5.0))};
-                             else
-                                 maker.parts.lights.delta = {PointLight(from, grey(5.0))};
-                             const Scene scene = maker.make();
-                             const Statistic found = sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Way::mis,
-                                                           {.samples = 1024, .bounces = 1, .seed = seed})
-                                                         .terms[1];
-                             const double exact = rho * 5.0 * cosine / pi / (parallel ? 1.0 : d * d);
-                             figures.near(parallel ? "K Le, parallel light" : "K Le, point light", found.mean.r, exact, 1e-14 * exact);
-                         }
-                     }});
+    cases.push_back(
+        {"direct-light/point-and-parallel", "rho I cos/(pi d^2), rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {
+             for (const bool parallel : {false, true}) {
+                 SceneMaker maker;
+                 maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(rho));
+                 const Vec3 from(0.3, -0.4, 1.2);
+                 const double d = glm::length(from), cosine = from.z / d;
+                 if (parallel)
+                     maker.parts.lights.delta = {DirectionalLight(-from / d, grey(5.0))};
+                 else
+                     maker.parts.lights.delta = {PointLight(from, grey(5.0))};
+                 const Scene scene = maker.make();
+                 const Statistic found =
+                     sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Way::mis, {.samples = 1024, .bounces = 1, .seed = seed})
+                         .terms[1];
+                 const double exact = rho * 5.0 * cosine / pi / (parallel ? 1.0 : d * d);
+                 figures.near(parallel ? "K Le, parallel light" : "K Le, point light", found.mean.r, exact, 1e-14 * exact);
+             }
+         }});
 }
 
 }  // namespace
@@ -181,7 +177,8 @@ Cases direct_light_cases() {
     add_point(cases, "disc-overhead", disc(0.5, 1.0), {{0, 0, 0}, up}, 0.2);
     add_point(cases, "disc-aside", disc(0.5, 1.0), {{0.5, 0, 0}, up}, 0.1464466094067263);
     add_point(cases, "disc-far-aside", disc(0.5, 1.0), {{0, 2, 0}, up}, 0.0107251075066255);
-    for (const auto& [cosine, F] : {std::pair{0.8, 0.2}, {0.2, 0.0593458323558039}, {0.0, 0.028834442811218716}, {-0.3, 0.003715430732647888}}) {
+    for (const auto& [cosine, F] :
+         {std::pair{0.8, 0.2}, {0.2, 0.0593458323558039}, {0.0, 0.028834442811218716}, {-0.3, 0.003715430732647888}}) {
         const double sine = std::sqrt(1.0 - cosine * cosine);
         add_point(cases, fmt::format("sphere-cosine-{:g}", cosine), Sphere{{0.6 * sine, 0.8 * sine, cosine}, 0.5, false},
                   {{0, 0, 0}, up}, F);

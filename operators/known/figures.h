@@ -1,8 +1,8 @@
 // What was expected and what was found, figure by figure, and how far both may be apart.
 //
-// Sampled values pass at |z| = |measured − expected| / SE ≤ 4.5, and only if SE is at most 0.2% of what is expected: without power a
-// pass says nothing. With the 63 degrees of freedom of 64 batches, |z| > 4.5 is a false alarm in 3.0e-5 of all comparisons (Student's
-// t). Where the variance is infinite z means nothing, and what is known of the samples is looked at instead.
+// Sampled values pass at |z| = |measured − expected| / SE ≤ 4.5, and only if SE is at most 0.2% of what is expected: without power
+// a pass says nothing. With the 63 degrees of freedom of 64 batches, |z| > 4.5 is a false alarm in 3.0e-5 of all comparisons
+// (Student's t). Where the variance is infinite z means nothing, and what is known of the samples is looked at instead.
 #pragma once
 
 #include "operators/known/probe.h"

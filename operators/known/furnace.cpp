@@ -1,5 +1,5 @@
-// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i; and the laws of any closed diffuse
-// scene, of which it is the simplest: flux is kept, and emitters add up.
+// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i; and the laws of any closed
+// diffuse scene, of which it is the simplest: flux is kept, and emitters add up.
 #include "core/geometry/area_sampler.h"
 #include "operators/known/cube.h"
 #include "operators/known/enclosures.h"
@@ -50,21 +50,22 @@ void add_powers(Cases& cases) {
             cases.push_back({fmt::format("furnace/walk/{}/{}", short_name, rho == colour ? "colour" : "bright"), "K^i Le = rho^i",
                              [=](Figures& figures, std::uint64_t seed) {
                                  const Scene scene = scene_of(rho);
-                                 without_variance(figures,
-                                                  probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40, .seed = seed}),
-                                                  rho);
+                                 without_variance(
+                                     figures,
+                                     probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40, .seed = seed}), rho);
                              }});
-        cases.push_back({"furnace/operators/" + short_name, "K^i Le = rho^i", [=](Figures& figures, std::uint64_t seed) {
-                             const Scene scene = scene_of(colour);
-                             without_variance(
-                                 figures, probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12, .seed = seed}),
-                                 colour);
-                         }});
+        cases.push_back(
+            {"furnace/operators/" + short_name, "K^i Le = rho^i", [=](Figures& figures, std::uint64_t seed) {
+                 const Scene scene = scene_of(colour);
+                 without_variance(
+                     figures, probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12, .seed = seed}), colour);
+             }});
         cases.push_back({"furnace/mis/" + short_name, "K^i Le = rho^i", [=](Figures& figures, std::uint64_t seed) {
                              const Scene scene = scene_of(grey(0.9));
                              std::vector<double> exact;
                              for (int i = 0; i <= 8; ++i) exact.push_back(std::pow(0.9, i));
-                             figures.terms(sharp_probe(scene, anywhere(scene), Way::mis, {.samples = 1024, .seed = seed}), exact, 0);
+                             figures.terms(sharp_probe(scene, anywhere(scene), Way::mis, {.samples = 1024, .seed = seed}), exact,
+                                           0);
                          }});
     }
 }
@@ -98,25 +99,26 @@ void add_laws(Cases& cases) {
                                           closure_defect(symmetric_cube(n).channel(1.0)), 0.0, 1e-12);
                      }});
     // Each face of a room lights it in turn, each time with seeds of their own.
-    cases.push_back({"furnace/superposition/six-faces", "sum of K^i over emitters = rho^i", [](Figures& figures, std::uint64_t seed) {
-                         const double rho = 0.6;
-                         const auto faces = room({0, 0, 0}, {1.2, 0.9, 0.7});
-                         std::vector<Statistic> sums(9);
-                         for (std::size_t lit = 0; lit < 6; ++lit) {
-                             SceneMaker maker;
-                             for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == lit ? glowing(rho, 1.0) : matte(rho));
-                             const Scene scene = maker.make();
-                             const Estimates found = sharp_probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis,
-                                                           {.samples = 1024, .seed = seed + lit});
-                             for (std::size_t i = 0; i < sums.size(); ++i) {
-                                 const Rgb a = sums[i].standard_error, b = found.terms[i].standard_error;
-                                 sums[i].mean += found.terms[i].mean;
-                                 sums[i].standard_error = glm::sqrt(a * a + b * b);
-                             }
-                         }
-                         for (std::size_t i = 1; i <= 8; ++i)
-                             figures.sampled(fmt::format("sum of K^{} Le", i), sums[i], std::pow(rho, static_cast<double>(i)));
-                     }});
+    cases.push_back(
+        {"furnace/superposition/six-faces", "sum of K^i over emitters = rho^i", [](Figures& figures, std::uint64_t seed) {
+             const double rho = 0.6;
+             const auto faces = room({0, 0, 0}, {1.2, 0.9, 0.7});
+             std::vector<Statistic> sums(9);
+             for (std::size_t lit = 0; lit < 6; ++lit) {
+                 SceneMaker maker;
+                 for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == lit ? glowing(rho, 1.0) : matte(rho));
+                 const Scene scene = maker.make();
+                 const Estimates found =
+                     sharp_probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 1024, .seed = seed + lit});
+                 for (std::size_t i = 0; i < sums.size(); ++i) {
+                     const Rgb a = sums[i].standard_error, b = found.terms[i].standard_error;
+                     sums[i].mean += found.terms[i].mean;
+                     sums[i].standard_error = glm::sqrt(a * a + b * b);
+                 }
+             }
+             for (std::size_t i = 1; i <= 8; ++i)
+                 figures.sampled(fmt::format("sum of K^{} Le", i), sums[i], std::pow(rho, static_cast<double>(i)));
+         }});
     // Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
     for (const bool furnished : {false, true})
         cases.push_back({furnished ? "furnace/flux/furnished-room" : "furnace/flux/cube", "absorbed = emitted",
@@ -129,7 +131,8 @@ void add_laws(Cases& cases) {
                              };
                              const double of_face[6] = {0.2, 0.5, 0.8, 0.9, 0.95, 0.7};
                              const auto faces = room({0, 0, 0}, {1, 1, 1});
-                             for (std::size_t i = 0; i < 6; ++i) add(faces[i], of_face[i], i == ceiling ? 1.0 : i == left ? 0.3 : 0.0);
+                             for (std::size_t i = 0; i < 6; ++i)
+                                 add(faces[i], of_face[i], i == ceiling ? 1.0 : i == left ? 0.3 : 0.0);
                              if (furnished) {
                                  add(box({0.2, 0.3, 0.1}, {0.4, 0.7, 0.5}), 0.6, 0.0);
                                  add(Sphere{{0.7, 0.6, 0.4}, 0.2, false}, 0.85, 0.0);
@@ -144,15 +147,13 @@ void add_laws(Cases& cases) {
                                  return start;
                              };
                              for (const Way way : {Way::mis, Way::bsdf})
-                                 figures.sampled(fmt::format("absorbed/emitted, {}", short_name(way)),
-                                                 scaled(sharp_probe(scene, absorbed, way,
-                                                              {.samples = 1024,
-                                                               .bounces = 4,
-                                                               .rest_probability = 1.0,
-                                                               .seed = seed})
-                                                            .reflected,
-                                                        AreaSampler(scene.geometry).area() / emitted),
-                                                 1.0);
+                                 figures.sampled(
+                                     fmt::format("absorbed/emitted, {}", short_name(way)),
+                                     scaled(sharp_probe(scene, absorbed, way,
+                                                        {.samples = 1024, .bounces = 4, .rest_probability = 1.0, .seed = seed})
+                                                .reflected,
+                                            AreaSampler(scene.geometry).area() / emitted),
+                                     1.0);
                          }});
     // ∫ K^i Le dA = ρ^i ∫ Le dA on a mesh that is far from the sphere that it stands for.
     cases.push_back({"furnace/flux/icosphere-320", "area mean of K^i Le = rho^i x emitting part of the area",
@@ -164,12 +165,12 @@ void add_laws(Cases& cases) {
                          maker.add(part(sphere, in_cap), glowing(rho, 1.0));
                          maker.add(part(sphere, [&](const Vec3& p) { return !in_cap(p); }), matte(rho));
                          const Scene scene = maker.make();
-                         const double fraction =
-                             scene.geometry.area(0) / (scene.geometry.area(0) + scene.geometry.area(1));
+                         const double fraction = scene.geometry.area(0) / (scene.geometry.area(0) + scene.geometry.area(1));
                          figures.near("emitting part of the area", fraction, 0.018868107508640625, 1e-12);
                          std::vector<double> exact;
                          for (int i = 1; i <= 6; ++i) exact.push_back(fraction * std::pow(rho, i));
-                         figures.terms(sharp_probe(scene, anywhere(scene), Way::mis, {.samples = 1024, .bounces = 6, .seed = seed}), exact);
+                         figures.terms(sharp_probe(scene, anywhere(scene), Way::mis, {.samples = 1024, .bounces = 6, .seed = seed}),
+                                       exact);
                      }});
 }
 

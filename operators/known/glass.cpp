@@ -22,28 +22,31 @@ constexpr std::pair<double, double> reflected[] = {
 
 void fresnel(Figures& figures, std::uint64_t) {
     for (const auto& [degrees, R] : reflected)
-        figures.near(fmt::format("R at {:g} degrees", degrees), conductor_fresnel(std::cos(degrees * pi / 180.0), n, 0.0), R, 1e-12);
+        figures.near(fmt::format("R at {:g} degrees", degrees), conductor_fresnel(std::cos(degrees * pi / 180.0), n, 0.0), R,
+                     1e-12);
     // Integrated over √μ, for F has an edge of its own at grazing angles; inside, with a root's edge at the critical angle.
-    figures.near("cosine mean from outside", integrate_smooth(0.0, 1.0, [](double s) {
-                     return conductor_fresnel(s * s, n, 0.0) * 4.0 * s * s * s;
-                 }),
+    figures.near("cosine mean from outside",
+                 integrate_smooth(0.0, 1.0, [](double s) { return conductor_fresnel(s * s, n, 0.0) * 4.0 * s * s * s; }),
                  0.0917779593423512, 1e-12);
     const double beyond = 1.0 - 1.0 / (n * n);
-    figures.near("cosine mean from inside", beyond + integrate_smooth(0.0, 1.0, [&](double s) {
-                     const double s3 = s * s * s, mu = std::sqrt(beyond + (1.0 - beyond) * s3 * s);
-                     return conductor_fresnel(mu, 1.0 / n, 0.0) * (1.0 - beyond) * 4.0 * s3;
-                 }),
+    figures.near("cosine mean from inside",
+                 beyond + integrate_smooth(0.0, 1.0,
+                                           [&](double s) {
+                                               const double s3 = s * s * s, mu = std::sqrt(beyond + (1.0 - beyond) * s3 * s);
+                                               return conductor_fresnel(mu, 1.0 / n, 0.0) * (1.0 - beyond) * 4.0 * s3;
+                                           }),
                  0.596345759707712, 1e-11);
 }
 
 std::vector<double> from_outside(double R, int count) {
     std::vector<double> terms{R};
-    while (static_cast<int>(terms.size()) < count) terms.push_back((1.0 - R) * (1.0 - R) * std::pow(R, static_cast<double>(terms.size() - 1)));
+    while (static_cast<int>(terms.size()) < count)
+        terms.push_back((1.0 - R) * (1.0 - R) * std::pow(R, static_cast<double>(terms.size() - 1)));
     return terms;
 }
 
-// Numbers are independent here: a Sobol' set has always as many points below R, and no spread to tell the error by. The standard error
-// of an outcome of probability p is √((1 − p)/(p N)) of it.
+// Numbers are independent here: a Sobol' set has always as many points below R, and no spread to tell the error by. The standard
+// error of an outcome of probability p is √((1 − p)/(p N)) of it.
 Effort effort(double rarest, int bounces, std::uint64_t seed) {
     const double samples = (1.0 - rarest) / rarest / std::pow(0.9 * largest_relative_error, 2) / batch_count;
     return {.samples = static_cast<std::uint32_t>(64.0 * std::ceil(samples / 64.0)),
@@ -85,7 +88,8 @@ void sphere(Figures& figures, std::uint64_t seed, Way way) {
     for (std::size_t i = 1; i <= 3; ++i)
         figures.sampled(fmt::format("K^{} Le, from inside", i), inside.terms[i],
                         n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)));
-    const Estimates trapped = probe(scene, from_inside(0.7), way, {.samples = 2, .bounces = way == Way::pointwise ? 12 : 100, .seed = seed});
+    const Estimates trapped =
+        probe(scene, from_inside(0.7), way, {.samples = 2, .bounces = way == Way::pointwise ? 12 : 100, .seed = seed});
     double most = 0.0;
     for (const Statistic& term : trapped.terms) most = std::max(most, max_component(term.mean));
     figures.near("trapped light, largest term", most, 0.0, 0.0);
@@ -103,8 +107,8 @@ void pane(Figures& figures, std::uint64_t seed, Way way) {
         const Scene scene = maker.make();
         const double exact = behind ? 1.0 - share : share;
         figures.sampled(behind ? "K Le, lamp behind" : "K Le, lamp before",
-                        probe(scene, seen(scene, {-std::sin(theta), 0, std::cos(theta)}, {std::sin(theta), 0, -std::cos(theta)}), way,
-                              effort(exact, 2, seed))
+                        probe(scene, seen(scene, {-std::sin(theta), 0, std::cos(theta)}, {std::sin(theta), 0, -std::cos(theta)}),
+                              way, effort(exact, 2, seed))
                             .terms[1],
                         2.0 * exact);
     }
@@ -132,14 +136,13 @@ Cases glass_cases() {
         const std::string name = short_name(way);
         for (const auto& [degrees, R] : {reflected[2], reflected[3]})
             cases.push_back({fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact",
-                             [way, degrees = degrees, R = R](Figures& f, std::uint64_t seed) {
-                                 slab(f, seed, way, degrees, R);
-                             }});
+                             [way, degrees = degrees, R = R](Figures& f, std::uint64_t seed) { slab(f, seed, way, degrees, R); }});
         cases.push_back({"glass/sphere/" + name, "R, (1 - R)^2 R^(i-2); inside n^2 (1 - R) R^(i-1): exact",
                          [way](Figures& f, std::uint64_t seed) { sphere(f, seed, way); }});
         cases.push_back({"glass/pane/" + name, "2R/(1 + R): exact", [way](Figures& f, std::uint64_t seed) { pane(f, seed, way); }});
         if (way != Way::pointwise)
-            cases.push_back({"glass/furnace/" + name, "L = 1: exact", [way](Figures& f, std::uint64_t seed) { furnace(f, seed, way); }});
+            cases.push_back(
+                {"glass/furnace/" + name, "L = 1: exact", [way](Figures& f, std::uint64_t seed) { furnace(f, seed, way); }});
     }
     return cases;
 }

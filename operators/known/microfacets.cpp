@@ -1,5 +1,5 @@
-// Rough metals without absorption, hit once: GGX has known albedos, which are K Le of any furnace, and known terms in a sphere, where a
-// chord leaves and arrives at the same angle. Refined quadrature, error below 3e-11; checked by sampling visible normals.
+// Rough metals without absorption, hit once: GGX has known albedos, which are K Le of any furnace, and known terms in a sphere,
+// where a chord leaves and arrives at the same angle. Refined quadrature, error below 3e-11; checked by sampling visible normals.
 #include "core/base/frame.h"
 #include "operators/known/groups.h"
 #include "operators/known/quadrature.h"
@@ -85,36 +85,39 @@ Cases microfacet_cases() {
                                  figures.near(fmt::format("K Le, cosine {:g}", cosines[k]), albedo(f.bsdf(), cosines[k]), f.K[0][k],
                                               1e-9);
                          }});
-        cases.push_back({"microfacets/sphere/" + name, "quadrature, 3e-11", [f](Figures& figures, std::uint64_t seed) {
-                             const Scene scene = sphere(f.bsdf());
-                             for (const std::size_t k : {0, 2, 4}) {
-                                 const Estimates found =
-                                     sharp_probe(scene, under(scene, cosines[k]), Way::bsdf, {.samples = 1024, .bounces = 3, .seed = seed});
-                                 for (std::size_t i = 1; i <= 3; ++i)
-                                     figures.sampled(fmt::format("K^{} Le, cosine {:g}", i, cosines[k]), found.terms[i],
-                                                     f.K[i - 1][k]);
-                             }
-                         }});
+        cases.push_back(
+            {"microfacets/sphere/" + name, "quadrature, 3e-11", [f](Figures& figures, std::uint64_t seed) {
+                 const Scene scene = sphere(f.bsdf());
+                 for (const std::size_t k : {0, 2, 4}) {
+                     const Estimates found =
+                         sharp_probe(scene, under(scene, cosines[k]), Way::bsdf, {.samples = 1024, .bounces = 3, .seed = seed});
+                     for (std::size_t i = 1; i <= 3; ++i)
+                         figures.sampled(fmt::format("K^{} Le, cosine {:g}", i, cosines[k]), found.terms[i], f.K[i - 1][k]);
+                 }
+             }});
     }
     // 1/(1 + μ) is an eigenfunction with the eigenvalue 2 ln 2 − 1, the spectral radius.
-    cases.push_back({"microfacets/eigenvalue/ggx-1", "2 ln 2 - 1: exact", [](Figures& figures, std::uint64_t) {
-                         const Bsdf bsdf = RoughConductor(Ggx(1.0));
-                         const double ln2 = std::log(2.0);
-                         for (const double mu : cosines) {
-                             figures.near(fmt::format("K Le, cosine {:g}", mu), albedo(bsdf, mu), 2.0 * (1.0 - ln2) / (1.0 + mu), 1e-10);
-                             const double reflected = over_hemisphere(
-                                 mu, 1e-11, [&](const Vec3& wi) { return eval(bsdf, {}, at_cosine(mu), wi).r * wi.z / (1.0 + wi.z); });
-                             figures.near(fmt::format("eigenvalue, cosine {:g}", mu), reflected * (1.0 + mu), 2.0 * ln2 - 1.0, 1e-10);
-                         }
-                     }});
+    cases.push_back(
+        {"microfacets/eigenvalue/ggx-1", "2 ln 2 - 1: exact", [](Figures& figures, std::uint64_t) {
+             const Bsdf bsdf = RoughConductor(Ggx(1.0));
+             const double ln2 = std::log(2.0);
+             for (const double mu : cosines) {
+                 figures.near(fmt::format("K Le, cosine {:g}", mu), albedo(bsdf, mu), 2.0 * (1.0 - ln2) / (1.0 + mu), 1e-10);
+                 const double reflected = over_hemisphere(
+                     mu, 1e-11, [&](const Vec3& wi) { return eval(bsdf, {}, at_cosine(mu), wi).r * wi.z / (1.0 + wi.z); });
+                 figures.near(fmt::format("eigenvalue, cosine {:g}", mu), reflected * (1.0 + mu), 2.0 * ln2 - 1.0, 1e-10);
+             }
+         }});
     for (const Way way : {Way::mis, Way::bsdf})
         cases.push_back({"microfacets/series/ggx-1-" + short_name(way), "2(1 - ln 2)/(1 + mu) (2 ln 2 - 1)^(i-1): exact",
                          [way](Figures& figures, std::uint64_t seed) {
                              const Scene scene = sphere(RoughConductor(Ggx(1.0)));
                              const double ln2 = std::log(2.0);
                              std::vector<double> exact;
-                             for (int i = 1; i <= 4; ++i) exact.push_back(2.0 * (1.0 - ln2) / 1.5 * std::pow(2.0 * ln2 - 1.0, i - 1));
-                             figures.terms(sharp_probe(scene, under(scene, 0.5), way, {.samples = 1024, .bounces = 4, .seed = seed}), exact);
+                             for (int i = 1; i <= 4; ++i)
+                                 exact.push_back(2.0 * (1.0 - ln2) / 1.5 * std::pow(2.0 * ln2 - 1.0, i - 1));
+                             figures.terms(
+                                 sharp_probe(scene, under(scene, 0.5), way, {.samples = 1024, .bounces = 4, .seed = seed}), exact);
                          }});
     return cases;
 }

@@ -1,5 +1,5 @@
-// Mirrors: light goes one way only, so that every term is a product along a path that geometry gives, without variance, in whichever
-// way lights are looked for.
+// Mirrors: light goes one way only, so that every term is a product along a path that geometry gives, without variance, in
+// whichever way lights are looked for.
 #include "core/material/retroreflector.h"
 #include "core/sampling/warp.h"
 #include "operators/known/groups.h"
@@ -65,11 +65,14 @@ void unfold(Figures& figures, Way way, std::uint64_t seed) {
     figures.near("largest error of rho^i Le(face i)", worst, 0.0, 1e-12);
 }
 
-// In a sphere a ray goes round in equal steps α = π − 2θ: K^i Le = ρ^i (1 + cos 3iα) for Le = 1 + cos 3φ. The eigenvalues are complex.
+// In a sphere a ray goes round in equal steps α = π − 2θ: K^i Le = ρ^i (1 + cos 3iα) for Le = 1 + cos 3φ. The eigenvalues are
+// complex.
 void rotate(Figures& figures, Way way, std::uint64_t seed) {
     const double theta = 37.0 * pi / 180.0, alpha = pi - 2.0 * theta;
     SceneMaker maker;
-    const auto emitted = [](const ShadingPoint& p, const Vec3&) { return grey(1.0 + std::cos(3.0 * std::atan2(p.position.y, p.position.x))); };
+    const auto emitted = [](const ShadingPoint& p, const Vec3&) {
+        return grey(1.0 + std::cos(3.0 * std::atan2(p.position.y, p.position.x)));
+    };
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, made_of(mirror(), AreaLight(emitted, grey(2.0))));
     const Scene scene = maker.make();
     const Vec3 towards(-std::cos(theta), std::sin(theta), 0.0);
@@ -94,8 +97,9 @@ void go_round(Figures& figures, Way way, std::uint64_t seed) {
     }
     const Scene scene = maker.make();
     const Vec3 middle = 0.5 * (corner[0] + corner[1]), before = 0.5 * (corner[2] + corner[0]);
-    add_terms(figures, probe(scene, seen(scene, before + 0.1 * (middle - before), middle - before), way, effort(way, 36, seed)),
-              [](int i) { return i % 3 == 0 ? std::pow(rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
+    add_terms(
+        figures, probe(scene, seen(scene, before + 0.1 * (middle - before), middle - before), way, effort(way, 36, seed)),
+        [](int i) { return i % 3 == 0 ? std::pow(rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
 }
 
 // m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le.
@@ -129,8 +133,9 @@ void go_back(Figures& figures, Way way, std::uint64_t seed) {
         throw std::logic_error("the room has a hole");
     const auto Le = [](const SurfacePoint& p, const Vec3& w) { return 2.0 + p.position.x * p.position.y + 0.5 * w.z; };
     const double first = Le(here, -d), second = Le(there, d);
-    add_terms(figures, probe(scene, seen(scene, origin, d), way, effort(way, 30, seed)),
-              [=](int i) { return std::pow(rho, i) * (i % 2 ? second : first); }, 1e-12);
+    add_terms(
+        figures, probe(scene, seen(scene, origin, d), way, effort(way, 30, seed)),
+        [=](int i) { return std::pow(rho, i) * (i % 2 ? second : first); }, 1e-12);
 }
 
 // Facing convex mirrors: an error grows by 1 + L/R + √((1 + L/R)² − 1) a bounce, 2 + √3 here, until it is the size of the mirrors.
@@ -166,7 +171,8 @@ Cases mirror_cases() {
     Cases cases;
     for (const Way way : ways) {
         const std::string name = short_name(way);
-        cases.push_back({"mirrors/cube/" + name, "unfolding: exact", [way](Figures& f, std::uint64_t seed) { unfold(f, way, seed); }});
+        cases.push_back(
+            {"mirrors/cube/" + name, "unfolding: exact", [way](Figures& f, std::uint64_t seed) { unfold(f, way, seed); }});
         cases.push_back({"mirrors/sphere/" + name, "rho^i (1 + cos 3 i alpha): exact",
                          [way](Figures& f, std::uint64_t seed) { rotate(f, way, seed); }});
         cases.push_back({"mirrors/triangle/" + name, "rho^i every third bounce, else 0: exact",

@@ -1,5 +1,5 @@
-// What is known of estimators themselves: the variance of one sample, where it is finite; the tail of the samples, where it is not; and
-// how the error falls. All samples are independent here.
+// What is known of estimators themselves: the variance of one sample, where it is finite; the tail of the samples, where it is not;
+// and how the error falls. All samples are independent here.
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
 #include "operators/walk/furnace_walk.h"
@@ -30,8 +30,8 @@ void variances(Figures& figures, std::uint64_t seed) {
     const Estimates by_walk = probe(scene, floor_center(scene), Way::bsdf, independent(65536, 2, seed));
     figures.sampled("K Le by cosine", by_walk.variance[1], g1 * (1.0 - g1));
     figures.sampled("K^2 Le by cosine", by_walk.variance[2], g2 * (1.0 - g2));
-    figures.sampled("K Le by points on the light", probe(scene, floor_center(scene), Way::light, independent(16384, 1, seed)).variance[1],
-                    0.0017405096111192883);
+    figures.sampled("K Le by points on the light",
+                    probe(scene, floor_center(scene), Way::light, independent(16384, 1, seed)).variance[1], 0.0017405096111192883);
     Effort uniform = independent(32768, 1, seed);
     uniform.direct = DirectLightSettings{.direct = DirectLight::hemisphere};
     figures.sampled("K Le by uniform directions", probe(scene, floor_center(scene), Way::mis, uniform).variance[1],
@@ -43,11 +43,13 @@ void variances(Figures& figures, std::uint64_t seed) {
 // On a wall, d below the ceiling: → 1/(24 π d²).
 void near_an_edge(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
-    figures.sampled("0.5 below the light", probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Way::light, independent(65536, 1, seed)).variance[1],
+    figures.sampled("0.5 below the light",
+                    probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Way::light, independent(65536, 1, seed)).variance[1],
                     0.00846772891327989);
 }
 
-// Both points at random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, from x = 10 on to 2%. Counts are Poisson numbers.
+// Both points at random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, from x = 10 on to 2%. Counts are Poisson
+// numbers.
 void shared_edge(Figures& figures, std::uint64_t seed) {
     SceneMaker maker;
     const std::uint32_t receiver = maker.add(parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(1.0));
@@ -67,8 +69,8 @@ void shared_edge(Figures& figures, std::uint64_t seed) {
     figures.at_most("its upper bound", tail ? tail->upper : 1e9, 2.0);
 }
 
-// The ceiling touches the walls, so that from K² on light sampling has infinite variance: the alarm is raised, and not elsewhere. What
-// it has sampled by then is no value with an interval, and is not compared.
+// The ceiling touches the walls, so that from K² on light sampling has infinite variance: the alarm is raised, and not elsewhere.
+// What it has sampled by then is no value with an interval, and is not compared.
 void touching_light(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     const auto upper = [](const LargestSamples& largest) {
@@ -99,7 +101,8 @@ void slope(Figures& figures, std::uint64_t seed) {
     constexpr int sizes = 6;
     for (int k = 0; k < sizes; ++k) {
         const auto samples = static_cast<std::uint32_t>(64) << (2 * k);
-        const Statistic found = probe(scene, floor_center(scene), Way::bsdf, independent(samples, 1, seed + static_cast<std::uint64_t>(k))).terms[1];
+        const Statistic found =
+            probe(scene, floor_center(scene), Way::bsdf, independent(samples, 1, seed + static_cast<std::uint64_t>(k))).terms[1];
         const double n = batch_count, spread = found.standard_error.r * found.standard_error.r * (n - 1.0),
                      mse = spread + std::pow(found.mean.r - g1, 2), x = std::log(static_cast<double>(samples)), y = std::log(mse);
         x1 += x / sizes;
@@ -112,8 +115,8 @@ void slope(Figures& figures, std::uint64_t seed) {
     figures.near("slope of the mean squared error", (xy - x1 * y1) / (xx - x1 * x1), -1.0, z_limit * deviation);
 }
 
-// A furnace of albedo ρ and survival q: 1/(1 − q) vertices, the sum of (ρ/q)^k, variance finite exactly where ρ² < q. `variance`: of
-// the sum.
+// A furnace of albedo ρ and survival q: 1/(1 − q) vertices, the sum of (ρ/q)^k, variance finite exactly where ρ² < q. `variance`:
+// of the sum.
 void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double variance) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
@@ -132,7 +135,8 @@ void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double
         figures.near("variance, by formula", known.second_moment - mean * mean, variance, 1e-9 * variance);
         figures.sampled("sum of K^i Le, i > 0", found.rest, mean - 1.0);
         // Fourth moments are large, or infinite where ρ⁴ ≥ q³.
-        if (std::pow(rho, 4) < 0.9 * q * q * q) figures.near("variance", found.rest_variance.mean.r, variance, z_limit * found.rest_variance.standard_error.r);
+        if (std::pow(rho, 4) < 0.9 * q * q * q)
+            figures.near("variance", found.rest_variance.mean.r, variance, z_limit * found.rest_variance.standard_error.r);
     } else {
         figures.holds("second moment is infinite, by formula", std::isinf(known.second_moment));
         const auto tail = tail_index(found.largest.back());
@@ -166,8 +170,9 @@ Cases monte_carlo_cases() {
     cases.push_back({"monte-carlo/slope", "1/N", slope});
     for (const auto& [rho, q, variance] :
          {std::tuple{0.5, 0.7, 2.0 / 3.0}, {0.9, 0.9, 90.0}, {0.9, 0.95, 28.92857142857146}, {0.9, 0.8, 0.0}, {0.99, 0.9, 0.0}})
-        cases.push_back({fmt::format("monte-carlo/roulette/albedo-{:g}-survival-{:g}", rho, q), "rho^2 < q or infinite; 1/(1 - q)",
-                         [rho = rho, q = q, variance = variance](Figures& f, std::uint64_t seed) { roulette(f, seed, rho, q, variance); }});
+        cases.push_back(
+            {fmt::format("monte-carlo/roulette/albedo-{:g}-survival-{:g}", rho, q), "rho^2 < q or infinite; 1/(1 - q)",
+             [rho = rho, q = q, variance = variance](Figures& f, std::uint64_t seed) { roulette(f, seed, rho, q, variance); }});
     for (const double rho : {0.5, 0.9, 0.99})
         cases.push_back({fmt::format("monte-carlo/roulette/by-albedo-{:g}", rho), "rho/(1 - rho)^2: exact",
                          [rho](Figures& f, std::uint64_t seed) { roulette_by_albedo(f, seed, rho); }});

@@ -1,5 +1,5 @@
-// Scenes that light leaves, under a sky of radiance 1. A convex body sees only the sky; a cavity, a wedge and a corner of infinite walls
-// have terms that are constant on them; a groove and a tube are known by collocation, refined until it stands still.
+// Scenes that light leaves, under a sky of radiance 1. A convex body sees only the sky; a cavity, a wedge and a corner of infinite
+// walls have terms that are constant on them; a groove and a tube are known by collocation, refined until it stands still.
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
 
@@ -21,18 +21,18 @@ void add_convex(Cases& cases, const char* name, const Shape& body) {
                          const Scene scene = maker.make();
                          const Estimates found =
                              sharp_probe(scene, anywhere_on(scene, shape), Way::bsdf,
-                                   {.samples = 1024, .bounces = 3, .rest_probability = 1.0, .seed = seed});
+                                         {.samples = 1024, .bounces = 3, .rest_probability = 1.0, .seed = seed});
                          figures.near("K Le", found.terms[1].mean.r, rho, 8.0 * std::numeric_limits<double>::epsilon());
                          figures.near("K^2 Le", found.terms[2].mean.r, 0.0, 0.0);
                          figures.near("rays after the first reflection", found.rays[2] + found.rays[3] + found.rays[4], 0.0, 0.0);
-                         const Estimates lit = sharp_probe(scene, anywhere_on(scene, shape), Way::mis,
-                                                     {.samples = 1024, .bounces = 2, .seed = seed});
+                         const Estimates lit =
+                             sharp_probe(scene, anywhere_on(scene, shape), Way::mis, {.samples = 1024, .bounces = 2, .seed = seed});
                          figures.sampled("K Le by points on the sky too", lit.terms[1], rho);
                      }});
 }
 
-// A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside, apparent emissivity of the
-// opening ε/(ε + f (1 − ε)), ε = 1 − ρ: 1 less what comes back out, the sum of K^i Le.
+// A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside, apparent emissivity of
+// the opening ε/(ε + f (1 − ε)), ε = 1 − ρ: 1 less what comes back out, the sum of K^i Le.
 void cavity(Figures& figures, std::uint64_t seed, double f, Way way) {
     const double rho = 0.5, height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
     SceneMaker maker;
@@ -43,14 +43,14 @@ void cavity(Figures& figures, std::uint64_t seed, double f, Way way) {
     std::vector<double> exact;
     for (int i = 1; i <= 3; ++i) exact.push_back(rho * f * std::pow(rho * (1.0 - f), i - 1));
     const Estimates found = sharp_probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), way,
-                                  {.samples = 1024, .bounces = 3, .rest_probability = 1.0, .seed = seed});
+                                        {.samples = 1024, .bounces = 3, .rest_probability = 1.0, .seed = seed});
     figures.terms(found, exact);
     const double epsilon = 1.0 - rho;
     figures.sampled("1 - apparent emissivity", found.reflected, 1.0 - epsilon / (epsilon + f * (1.0 - epsilon)));
 }
 
-// Walls of size S seen from d away from the edge: the part of the sky that is missing is d/S times (1 + π/4)/π, of which no term gets
-// more.
+// Walls of size S seen from d away from the edge: the part of the sky that is missing is d/S times (1 + π/4)/π, of which no term
+// gets more.
 constexpr double size = 1e4, missing = 0.5684 / size;
 
 void wedge(Figures& figures, std::uint64_t seed, double degrees, Way way) {
@@ -63,8 +63,8 @@ void wedge(Figures& figures, std::uint64_t seed, double degrees, Way way) {
     const double s2 = std::pow(std::sin(0.5 * a), 2);
     std::vector<double> exact;
     for (int i = 1; i <= 3; ++i) exact.push_back(std::pow(rho, i) * s2 * std::pow(1.0 - s2, i - 1));
-    figures.terms(sharp_probe(scene, at(scene, {1, 0.3, 0}, {0, 0, 1}, 0.1), way, {.samples = 1024, .bounces = 3, .seed = seed}), exact, 1,
-                  4.0 * missing);
+    figures.terms(sharp_probe(scene, at(scene, {1, 0.3, 0}, {0, 0, 1}, 0.1), way, {.samples = 1024, .bounces = 3, .seed = seed}),
+                  exact, 1, 4.0 * missing);
 }
 
 void corner(Figures& figures, std::uint64_t seed, Way way) {
@@ -77,8 +77,8 @@ void corner(Figures& figures, std::uint64_t seed, Way way) {
     const Scene scene = maker.make();
     std::vector<double> exact;
     for (int i = 1; i <= 4; ++i) exact.push_back(std::pow(rho, i) * 0.25 * std::pow(0.75, i - 1));
-    figures.terms(sharp_probe(scene, at(scene, {1, 0.7, 0}, {0, 0, 1}, 0.1), way, {.samples = 1024, .bounces = 4, .seed = seed}), exact, 1,
-                  8.0 * missing);
+    figures.terms(sharp_probe(scene, at(scene, {1, 0.7, 0}, {0, 0, 1}, 0.1), way, {.samples = 1024, .bounces = 4, .seed = seed}),
+                  exact, 1, 8.0 * missing);
 }
 
 // 90°, sides of length 1. Here it is 100 long: the ends are seen under (1/50)³ of the cosine-weighted hemisphere, below 1e-5.
@@ -105,9 +105,10 @@ void groove(Figures& figures, std::uint64_t seed, Way way) {
 // As long as wide, open at both ends.
 void tube(Figures& figures, std::uint64_t seed, Way way) {
     const double rho = 0.9;
-    constexpr std::pair<double, double> g[] = {{.4811842985908824, .34164078649987384},  {.21671812111920113, .26138288101519924},
-                                               {.12309763723083642, .16068296822112518}, {.07270094505990275, .0958882078112156},
-                                               {.04315536643105434, .05699551747547392}, {.025633736238182745, .033860427252534256}};
+    constexpr std::pair<double, double> g[] = {
+        {.4811842985908824, .34164078649987384},  {.21671812111920113, .26138288101519924},
+        {.12309763723083642, .16068296822112518}, {.07270094505990275, .0958882078112156},
+        {.04315536643105434, .05699551747547392}, {.025633736238182745, .033860427252534256}};
     SceneMaker maker;
     maker.add(Cylinder{{0, 0, 0}, {0, 0, 1}, 1.0, 0.5, true}, matte(rho));
     under_the_sky(maker);
@@ -140,14 +141,15 @@ Cases open_cases() {
         }
         for (const double degrees : {30.0, 60.0, 90.0, 120.0})
             if (way == Way::mis || degrees == 60.0)
-                cases.push_back({fmt::format("open/wedge-{:g}/{}", degrees, name), "rho^i sin^2(a/2) cos^2(i-1)(a/2), walls of 1e4: 2e-4",
-                             [=](Figures& figures, std::uint64_t seed) { wedge(figures, seed, degrees, way); }});
+                cases.push_back({fmt::format("open/wedge-{:g}/{}", degrees, name),
+                                 "rho^i sin^2(a/2) cos^2(i-1)(a/2), walls of 1e4: 2e-4",
+                                 [=](Figures& figures, std::uint64_t seed) { wedge(figures, seed, degrees, way); }});
         cases.push_back({"open/corner/" + name, "rho^i 1/4 (3/4)^(i-1), walls of 1e4: 5e-4",
                          [way](Figures& figures, std::uint64_t seed) { corner(figures, seed, way); }});
         cases.push_back({"open/groove/" + name, "collocation, 1e-5",
                          [way](Figures& figures, std::uint64_t seed) { groove(figures, seed, way); }});
-        cases.push_back({"open/tube/" + name, "collocation, 1e-16",
-                         [way](Figures& figures, std::uint64_t seed) { tube(figures, seed, way); }});
+        cases.push_back(
+            {"open/tube/" + name, "collocation, 1e-16", [way](Figures& figures, std::uint64_t seed) { tube(figures, seed, way); }});
     }
     return cases;
 }

@@ -1,14 +1,15 @@
-// Slow series added up naively and compensated, in float and in double, beside what bounds their errors: u = ε/2 is the unit roundoff,
+// Slow series added up naively and compensated, in float and in double, beside what bounds their errors: u = ε/2 is the unit
+// roundoff,
 //
 //     terms multiplied one from another   u ρ/(1−ρ)      of the sum: term k has k roundings, and the mean of k is ρ/(1−ρ)
 //     added one after another             u n            n terms; or until they change nothing any more
 //     added with compensation             2 u
 //
 // against the exact sum (1−ρ^n)/(1−ρ) for the ρ that is left after rounding.
+#include "operators/spectrum/rounding.h"
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/series/compensated_sum.h"
-#include "operators/spectrum/rounding.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +48,8 @@ void add_furnace(Cases& cases, double rho, int terms, double change, double naiv
     cases.push_back({fmt::format("rounding/furnace/albedo-{:g}", rho), "float arithmetic elsewhere; n u, u rho/(1 - rho)",
                      [=](Figures& figures, std::uint64_t) {
                          const double in_float = static_cast<double>(static_cast<float>(rho));
-                         figures.near("change by rounding rho to float", (1.0 - rho) / (1.0 - in_float) - 1.0, change, 1e-3 * std::abs(change));
+                         figures.near("change by rounding rho to float", (1.0 - rho) / (1.0 - in_float) - 1.0, change,
+                                      1e-3 * std::abs(change));
                          const Sums f = add_up<float>(rho, terms), d = add_up<double>(rho, terms);
                          const double u = 0x1p-24, v = 0x1p-53, of_terms = rho / (1.0 - rho);
                          figures.near("float, naive: error", f.naive, naive, 1e-6 * std::abs(naive) + 1e-15);

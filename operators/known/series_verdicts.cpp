@@ -1,4 +1,5 @@
-// What stops a series, and what must not: bounds from norms, the two-sided enclosure, and terms that mislead whoever looks at ratios.
+// What stops a series, and what must not: bounds from norms, the two-sided enclosure, and terms that mislead whoever looks at
+// ratios.
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/small_problems.h"
@@ -40,11 +41,12 @@ void enclosures_of_cube(Figures& figures, std::uint64_t) {
         figures.near(named("c1"), found.c1, row.c1, 1e-9);
         figures.near(named("c2"), found.c2, row.c2, 1e-9);
         figures.near(named("width"), (found.high - found.low).maxCoeff() / exact.maxCoeff(), row.width, 1e-4 * row.width);
-        figures.near(named("norm bound"), run.rows[static_cast<std::size_t>(row.n)].a_posteriori / exact.maxCoeff(), row.bound, 1e-9);
+        figures.near(named("norm bound"), run.rows[static_cast<std::size_t>(row.n)].a_posteriori / exact.maxCoeff(), row.bound,
+                     1e-9);
         figures.near(named("true tail"), (exact - run.sum).maxCoeff() / exact.maxCoeff(), row.tail, 1e-9);
         // 1e-13 for rounding, which the enclosure leaves out.
-        figures.holds(named("holds L"), (found.low.array() <= exact.array() + 1e-13).all() &&
-                                            (found.high.array() >= exact.array() - 1e-13).all());
+        figures.holds(named("holds L"),
+                      (found.low.array() <= exact.array() + 1e-13).all() && (found.high.array() >= exact.array() - 1e-13).all());
     }
 }
 
@@ -71,7 +73,8 @@ void alternating(Figures& figures, std::uint64_t) {
     for (int n = 1; n <= 5; ++n) {
         series.advance();
         if (n > 1)
-            figures.near(fmt::format("ratio at bounce {}, outer", n), series.term()[1] / before, outer[n - 1] / outer[n - 2], 1e-9 * outer[n - 1] / outer[n - 2]);
+            figures.near(fmt::format("ratio at bounce {}, outer", n), series.term()[1] / before, outer[n - 1] / outer[n - 2],
+                         1e-9 * outer[n - 1] / outer[n - 2]);
         before = series.term()[1];
     }
     figures.near("ratio of largest terms, bounce 3", run.rows[3].term.sup / run.rows[2].term.sup, 0.882446409, 1e-9);
@@ -97,8 +100,8 @@ void hidden_slow(Figures& figures, std::uint64_t) {
     figures.near("L, slow room", run.sum[1], 1e-4, 2e-7);
 }
 
-// Light that goes round three mirrors, and light behind twenty: terms that are 0 at an unknown are no end, and terms that do not fall
-// are no divergence yet.
+// Light that goes round three mirrors, and light behind twenty: terms that are 0 at an unknown are no end, and terms that do not
+// fall are no divergence yet.
 void zeros(Figures& figures, std::uint64_t) {
     const SeriesRun round = run_series(carousel(0.9), vector({1, 0, 0}), {.tolerance = 1e-9, .norm = 0.9});
     figures.said("period three: verdict", name(round.verdict), "converged");
@@ -124,8 +127,8 @@ void norm_above_one(Figures& figures, std::uint64_t) {
     figures.near("rate", above.rate, 1.1, 1e-12);
 }
 
-// A furnace of albedo 1.05: (I − K)⁻¹ Le = −20, which elimination, Krylov methods and extrapolation find without noticing; and of 1,
-// which has no L at all. None of the solvers may say that it converged.
+// A furnace of albedo 1.05: (I − K)⁻¹ Le = −20, which elimination, Krylov methods and extrapolation find without noticing; and of
+// 1, which has no L at all. None of the solvers may say that it converged.
 void add_divergent(Cases& cases) {
     for (const double albedo : {1.0, 1.05})
         cases.push_back({fmt::format("series/divergent/albedo-{:g}", albedo), "no solver may converge",
@@ -153,8 +156,8 @@ void add_divergent(Cases& cases) {
                          }});
 }
 
-// Near-parallel plates, relative errors at the outer one after n terms. Aitken gains nothing over the plain sum, the ratio of terms is
-// 15 … 1.4, and Wynn, with as many terms as there are modes, is exact.
+// Near-parallel plates, relative errors at the outer one after n terms. Aitken gains nothing over the plain sum, the ratio of terms
+// is 15 … 1.4, and Wynn, with as many terms as there are modes, is exact.
 void extrapolation(Figures& figures, std::uint64_t) {
     const DenseChannel K = plates();
     Problem problem;

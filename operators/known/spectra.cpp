@@ -12,9 +12,11 @@ namespace neumann::known {
 
 namespace {
 
-// λ₂(n) of n × n patches a face, of the whole cube. It grows on with n, towards 0.5945 of the corners, like 1/(ln n)²: K is not compact.
+// λ₂(n) of n × n patches a face, of the whole cube. It grows on with n, towards 0.5945 of the corners, like 1/(ln n)²: K is not
+// compact.
 void add_cubes(Cases& cases) {
-    for (const auto& [n, second] : {std::pair{2, 0.35378252258065523}, {4, 0.4473321313543558}, {8, 0.4969093656850799}, {16, 0.5253458862440682}})
+    for (const auto& [n, second] :
+         {std::pair{2, 0.35378252258065523}, {4, 0.4473321313543558}, {8, 0.4969093656850799}, {16, 0.5253458862440682}})
         cases.push_back({fmt::format("spectrum/cube/{0}x{0}", n), "eigenvalues of Galerkin's method: 1e-10",
                          [n = n, second = second](Figures& figures, std::uint64_t) {
                              const Eigenpairs found = leading_eigenpairs(patched_cube(n).channel(1.0), 2);
@@ -62,7 +64,8 @@ void centre_to_centre(Figures& figures, std::uint64_t) {
         int n;
         double largest_row, radius;
     };
-    for (const Row& row : {Row{2, 1.2729893039, 1.2729893039}, Row{4, 1.2428650171, 1.1431238396}, Row{8, 1.2391144812, 1.0754847461}}) {
+    for (const Row& row :
+         {Row{2, 1.2729893039, 1.2729893039}, Row{4, 1.2428650171, 1.1431238396}, Row{8, 1.2391144812, 1.0754847461}}) {
         Cube cube = patched_cube(row.n);
         for (Eigen::Index u = 0; u < cube.size(); ++u)
             for (Eigen::Index v = 0; v < cube.size(); ++v) {

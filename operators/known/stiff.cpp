@@ -1,5 +1,6 @@
-// Series that hardly fall, start late, or fall at different rates in different places, by every method: a closed room of albedo 0.9 to
-// 1.01, in which K^i Le = ρ^i, and what is left beyond bounce N is ρ^(N+1)/(1−ρ). From 1 on there is no sum, and none may be given.
+// Series that hardly fall, start late, or fall at different rates in different places, by every method: a closed room of albedo 0.9
+// to 1.01, in which K^i Le = ρ^i, and what is left beyond bounce N is ρ^(N+1)/(1−ρ). From 1 on there is no sum, and none may be
+// given.
 #include "core/geometry/area_sampler.h"
 #include "operators/guide/direction_tables.h"
 #include "operators/known/cube.h"
@@ -44,17 +45,18 @@ struct Sampling {
     int bounces = 8;
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
-constexpr Sampling samplings[] = {{Method::walk, "walk", 16, 8, 0.99},   {Method::guided, "guided", 32, 8, 0.9},
-                                  {Method::surface, "surface", 16},      {Method::light, "light", 2048, 2},
-                                  {Method::bidirectional, "bidirectional", 32, 4}, {Method::classic, "classic", 16},
-                                  {Method::pointwise, "pointwise", 16, 5}};
+constexpr Sampling samplings[] = {
+    {Method::walk, "walk", 16, 8, 0.99},    {Method::guided, "guided", 32, 8, 0.9},          {Method::surface, "surface", 16},
+    {Method::light, "light", 2048, 2},      {Method::bidirectional, "bidirectional", 32, 4}, {Method::classic, "classic", 16},
+    {Method::pointwise, "pointwise", 16, 5}};
 
 PictureSampler::Settings settings_of(const Sampling& sampling, const Scene& scene, std::uint64_t seed) {
     PictureSampler::Settings settings;
     settings.method = sampling.method;
     settings.walk.bounces = sampling.bounces;
     settings.walk.rest_probability = 0.0;
-    if (sampling.method == Method::surface || sampling.method == Method::classic) settings.walk.direct = {.direct = DirectLight::light};
+    if (sampling.method == Method::surface || sampling.method == Method::classic)
+        settings.walk.direct = {.direct = DirectLight::light};
     if (sampling.method == Method::guided)
         settings.tables = std::make_shared<const DirectionTables>(
             scene, GuideSettings{.patches = 100, .rays = 2048, .bounces = sampling.bounces, .seed = seed});
@@ -82,7 +84,8 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
     settings.sampler = SamplerKind::independent;
     const Pictures rest = render(scene, settings, batch_count);
     figures.sampled(fmt::format("sum of K^i Le, i > {}", sampling.bounces),
-                    statistic(rest.result.mean_of_term(static_cast<std::size_t>(sampling.bounces) + 1)), rest_of(rho, sampling.bounces));
+                    statistic(rest.result.mean_of_term(static_cast<std::size_t>(sampling.bounces) + 1)),
+                    rest_of(rho, sampling.bounces));
 }
 
 // Whether walks say that the series ends: not from 1 on, and at 0.999999 it takes longer than they are followed.
@@ -115,7 +118,8 @@ void by_fields(Figures& figures, std::uint64_t seed, FieldMethod method, double 
     if (rho < 1.0) {
         const double exact = rest_of(rho, 8);
         // Rows of T sum to 1 up to rounding, which 1/(1 − ρ) enlarges.
-        figures.near("sum of K^i Le, i > 8", found->mean_of_rest().mean / exact, 1.0, 10.0 * closing_error + 1e-6 + 1e-13 / (1.0 - rho));
+        figures.near("sum of K^i Le, i > 8", found->mean_of_rest().mean / exact, 1.0,
+                     10.0 * closing_error + 1e-6 + 1e-13 / (1.0 - rho));
     }
 }
 
@@ -148,8 +152,8 @@ void by_solvers(Figures& figures, std::uint64_t, double rho) {
         figures.near("solvers that converge", right, 0, 0);
 }
 
-// Twelve rooms in a row, and a light in the last one: a tenth of the light of each goes to either neighbour. The first room is dark for
-// eleven bounces, and then becomes brighter for many.
+// Twelve rooms in a row, and a light in the last one: a tenth of the light of each goes to either neighbour. The first room is dark
+// for eleven bounces, and then becomes brighter for many.
 void chain_of_rooms(Figures& figures, std::uint64_t) {
     constexpr Eigen::Index rooms = 12;
     constexpr double rho = 0.99, door = 0.1;
@@ -198,8 +202,8 @@ void chain_of_rooms(Figures& figures, std::uint64_t) {
     }
 }
 
-// Two rooms and a door ajar between them; the light is in one, and the point in the other sees neither it nor what it shines on. All that
-// is emitted is absorbed, wherever: Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
+// Two rooms and a door ajar between them; the light is in one, and the point in the other sees neither it nor what it shines on.
+// All that is emitted is absorbed, wherever: Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
 Scene rooms_with_door(double rho) {
     SceneMaker maker;
     const auto add = [&](const TriangleMesh& mesh) { maker.add(mesh, matte(rho)); };
@@ -236,7 +240,8 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     figures.at_least("K^3 Le over K^2 Le", found.terms[3].mean.r / found.terms[2].mean.r, 1.5);
     figures.at_least("K^4 Le over K^3 Le", found.terms[4].mean.r / found.terms[3].mean.r, 1.0);
     // The rest, asked for while all is dark, is what comes later.
-    const Estimates early = probe(scene, here, Way::mis, {.samples = 4096, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
+    const Estimates early =
+        probe(scene, here, Way::mis, {.samples = 4096, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
     figures.near("sum so far, at bounce 1", early.terms[0].mean.r + early.terms[1].mean.r, 0.0, 0.0);
     const double both = std::hypot(early.rest.standard_error.r, found.reflected.standard_error.r);
     figures.near("rest at bounce 1, and all K^i Le", early.rest.mean.r, found.reflected.mean.r, z_limit * both);
@@ -246,10 +251,12 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
         start.weight = grey((1.0 - rho) / rho);
         return start;
     };
-    figures.sampled("absorbed/emitted",
-                    scaled(sharp_probe(scene, absorbed, Way::mis, {.samples = 1024, .bounces = 1, .rest_probability = 1.0, .seed = seed}).reflected,
-                           AreaSampler(scene.geometry).area() / emitted),
-                    1.0);
+    figures.sampled(
+        "absorbed/emitted",
+        scaled(sharp_probe(scene, absorbed, Way::mis, {.samples = 1024, .bounces = 1, .rest_probability = 1.0, .seed = seed})
+                   .reflected,
+               AreaSampler(scene.geometry).area() / emitted),
+        1.0);
     const TracedSystem system(scene, {.patches = 2000, .rays = 64, .seed = seed});
     const TracedChannel K = system.channel(0);
     const SeriesRun run = run_series(K, system.emitted(0), {.tolerance = 1e-6, .norm = rho});
@@ -259,8 +266,8 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     figures.near("matrix: absorbed/emitted", power, 1.0, 0.05);
 }
 
-// ρ = 0.5 with Le = 1 and ρ = 0.99 with Le = 1e-6 do not see each other: over both, t_n = 0.5^n + 1e-6 · 0.99^n. Half of each net starts
-// in either, with twice the weight.
+// ρ = 0.5 with Le = 1 and ρ = 0.99 with Le = 1e-6 do not see each other: over both, t_n = 0.5^n + 1e-6 · 0.99^n. Half of each net
+// starts in either, with twice the weight.
 void two_furnaces(Figures& figures, std::uint64_t seed) {
     SceneMaker maker;
     maker.add(make_cube(Mat4(1.0), true), glowing(0.5, 1.0));
@@ -277,8 +284,7 @@ void two_furnaces(Figures& figures, std::uint64_t seed) {
         figures.near(fmt::format("K^{} Le", n), found.terms[static_cast<std::size_t>(n)].mean.r, t(n), 1e-14 * t(n));
     const double exact = std::pow(0.5, 20) + 1e-4 * std::pow(0.99, 21), ratio = t(20) / t(19);
     figures.near("rest over what the ratio predicts", exact / (t(20) * ratio / (1.0 - ratio)), 25.11008731388987, 1e-9);
-    const Estimates rest =
-        probe(scene, both, Way::bsdf, {.samples = 8192, .bounces = 20, .rest_probability = 1.0, .seed = seed});
+    const Estimates rest = probe(scene, both, Way::bsdf, {.samples = 8192, .bounces = 20, .rest_probability = 1.0, .seed = seed});
     figures.sampled("sum of K^i Le, i > 20", rest.rest, exact);
 }
 
@@ -293,10 +299,13 @@ Cases stiff_cases() {
                              [=](Figures& figures, std::uint64_t seed) { by_sampling(figures, seed, sampling, rho); }});
         for (const auto& [method, name] :
              {std::pair{FieldMethod::patches, "patches"}, {FieldMethod::matrix, "matrix"}, {FieldMethod::gather, "gather"}})
-            cases.push_back({named(name), "rho^i, rho^(N+1)/(1 - rho): exact",
-                             [=, method = method](Figures& figures, std::uint64_t seed) { by_fields(figures, seed, method, rho); }});
-        cases.push_back({named("pilot"), "converges below 1", [=](Figures& figures, std::uint64_t seed) { by_pilot(figures, seed, rho); }});
-        cases.push_back({named("solvers"), "1/(1 - rho): exact", [=](Figures& figures, std::uint64_t seed) { by_solvers(figures, seed, rho); }});
+            cases.push_back(
+                {named(name), "rho^i, rho^(N+1)/(1 - rho): exact",
+                 [=, method = method](Figures& figures, std::uint64_t seed) { by_fields(figures, seed, method, rho); }});
+        cases.push_back(
+            {named("pilot"), "converges below 1", [=](Figures& figures, std::uint64_t seed) { by_pilot(figures, seed, rho); }});
+        cases.push_back({named("solvers"), "1/(1 - rho): exact",
+                         [=](Figures& figures, std::uint64_t seed) { by_solvers(figures, seed, rho); }});
     }
     cases.push_back({"stiff/late/twelve-rooms", "LU", chain_of_rooms});
     cases.push_back({"stiff/late/door-ajar", "absorbed = emitted", light_behind_a_door});

@@ -1,5 +1,5 @@
-// Two surfaces that each see themselves and the other evenly: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact, values are the same all
-// over each surface, up to the rim where they meet, and one eigenvalue is negative, so that terms alternate.
+// Two surfaces that each see themselves and the other evenly: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact, values are the same
+// all over each surface, up to the rim where they meet, and one eigenvalue is negative, so that terms alternate.
 //
 //     concentric spheres, inner seen from outside:  F12 = 1,  F21 = (r1/r2)²,  F22 = 1 − F21;
 //     a sphere closed by a disc, with the fraction f of the sphere's area:  F_dd = 0, F_ds = 1, F_sd = 1 − f, F_ss = f.
@@ -35,7 +35,8 @@ void add_matrix(Cases& cases, const std::string& name, DenseChannel (*matrix)(),
                                  figures.near(fmt::format("K^{} Le, {}", i, surfaces[k]), found[k][i], known[i][k], 1e-15);
                          const Eigenpairs pairs = leading_eigenpairs(K, 2);
                          const auto& m = K.matrix();
-                         const double trace = m(0, 0) + m(1, 1), root = std::sqrt(trace * trace - 4.0 * (m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0)));
+                         const double trace = m(0, 0) + m(1, 1),
+                                      root = std::sqrt(trace * trace - 4.0 * (m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0)));
                          figures.near("first eigenvalue", pairs.pairs.at(0).value.real(), 0.5 * (trace + root), 1e-14);
                          figures.near("second eigenvalue", pairs.pairs.at(1).value.real(), 0.5 * (trace - root), 1e-14);
                      }});
@@ -54,9 +55,8 @@ void add_dome(Cases& cases, double f, bool disc_glows) {
                  maker.add(Disk{{0, 0, height}, {rim, 0, 0}, {0, rim, 0}, {0, 0, 1}}, surface(rho_disc, disc_glows));
                  maker.add(Sphere{{0, 0, 0}, 1.0, true}, surface(rho_sphere, !disc_glows));
                  const Scene scene = maker.make();
-                 const auto exact = terms_of(
-                     two_by_two(0.0, rho_disc, rho_sphere * (1 - f), rho_sphere * f, 1.0, 1.0),
-                     vector({disc_glows ? 1.0 : 0.0, disc_glows ? 0.0 : 1.0}), 7);
+                 const auto exact = terms_of(two_by_two(0.0, rho_disc, rho_sphere * (1 - f), rho_sphere * f, 1.0, 1.0),
+                                             vector({disc_glows ? 1.0 : 0.0, disc_glows ? 0.0 : 1.0}), 7);
                  const Effort effort{.samples = 1024, .bounces = 5, .seed = seed};
                  const auto add = [&](const std::string& where, const StartPicker& start, const std::vector<double>& values) {
                      const Estimates found = sharp_probe(scene, start, way, effort);

@@ -49,7 +49,7 @@ public:
     MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
 
     EnergyBalance power;  // of light, W: what patches exchange, replicates being the observations; without bounces for importance
-    bool importance;  // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
+    bool importance;      // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
     bool rest_converges = false;
     std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; those for all of them are counted for bounce 2, or the
                                       // rest where there is none

@@ -26,9 +26,9 @@ struct SampleHealth {
     // Among the 1000 largest samples of the picture the one with the largest share of its pixel, fireflies before all others. None
     // where many are alike.
     std::optional<LargestShare> largest;
-    // Among these, samples each of which makes more than half of its pixel's sum of all bounces, brings it, alone, more than the mean
-    // of the picture, and a quarter of what the brightest pixel has of this bounce; at the edge of something bright a sample that
-    // sees it does not. Neither bounce 0 is judged nor fewer than 16 samples a pixel: there it is usual.
+    // Among these, samples each of which makes more than half of its pixel's sum of all bounces, brings it, alone, more than the
+    // mean of the picture, and a quarter of what the brightest pixel has of this bounce; at the edge of something bright a sample
+    // that sees it does not. Neither bounce 0 is judged nor fewer than 16 samples a pixel: there it is usual.
     std::uint64_t fireflies = 0;
 };
 constexpr std::uint64_t fewest_samples_to_judge = 16;

@@ -20,19 +20,29 @@ template <class Continuation>
 class WalkEstimator {
 public:
     WalkEstimator(const Scene& scene, const WalkSettings& settings, const Continuation& continuation)
-        : scene_(&scene), settings_(settings), direct_(scene, settings.direct), continuation_(continuation) {}
+        : scene_(&scene), settings_(settings), direct_(scene, asked(settings)), continuation_(continuation) {}
 
     template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
-        trace(scene_->geometry, rays, samplers, walkers, result);
+        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
+    // For whoever looks on through T: with the rays that were left out because their answers are known.
     template <class Transport, class Sampler>
     void trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                TermSamples& result) const {
-        walk(*scene_, T, direct_, settings_, rays, samplers, walkers, result, continuation_);
+        WalkSettings settings = settings_;
+        settings.left_out = {};
+        walk(*scene_, T, direct_, settings, rays, samplers, walkers, result, continuation_);
     }
 
 private:
+    // Where hitting lights does all, they are not asked beside it.
+    static DirectLightSettings asked(const WalkSettings& settings) {
+        DirectLightSettings direct = settings.direct;
+        if (settings.left_out.questions && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;
+        return direct;
+    }
+
     const Scene* scene_;
     WalkSettings settings_;
     DirectLightSampler direct_;

@@ -73,8 +73,7 @@ TEST(Sphere, IsSeenFromItsOutsideAlongTangents) {
             const Vec3 w = glm::normalize(shape == 0 ? glm::cross(n, Vec3(0.2, 0.5, 0.7)) : Vec3(-n.y, n.x, 0.1));
             const Vec3 touched = shape == 0 ? ball + n * 0.3 : Vec3(-3, 0.3, 0.7) + n * 0.3;
             SurfacePoint hit;
-            if (!scene.geometry.first_hit(touched - w * 1.7, w, std::numeric_limits<double>::infinity(), hit) ||
-                hit.shape != shape)
+            if (!scene.geometry.first_hit(touched - w * 1.7, w, std::numeric_limits<double>::infinity(), hit) || hit.shape != shape)
                 continue;
             ++hits[shape];
             EXPECT_LT(glm::dot(hit.normal, w), 0.0) << i;

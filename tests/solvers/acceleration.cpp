@@ -1,6 +1,7 @@
 // How many applications of K each method takes on the cube of 16 × 16 patches a face whose ceiling emits, until ‖x − L‖∞ ≤ ε ‖L‖∞
 // for ε = 1e-3, 1e-6, 1e-10, with L by LU. The counts were measured with independent programs of the same methods: ours may differ
 // by 2 or by 10%, for where a method starts and in which order it rounds.
+#include "operators/known/cube.h"
 #include "operators/solvers/anderson.h"
 #include "operators/solvers/chebyshev.h"
 #include "operators/solvers/krylov.h"
@@ -8,7 +9,6 @@
 #include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
-#include "operators/known/cube.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The interface, dense and sparse, against each other and against the matrix itself.
-#include "operators/spectrum/closure.h"
 #include "operators/known/small_problems.h"
+#include "operators/spectrum/closure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The unit cube whose ceiling emits 1, K^i Le = ρ^i g_i: known to 1e-13 (g_2) and 1e-8 from quadratures other than patches.
-#include "operators/series/term_series.h"
 #include "operators/known/cube.h"
+#include "operators/series/term_series.h"
 
 #include <gtest/gtest.h>
 

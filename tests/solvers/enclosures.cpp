@@ -1,8 +1,8 @@
 // The two-sided enclosure: widths on the cube with mixed albedos (n = 16, ceiling emits), and that L is inside.
-#include "operators/series/series_run.h"
-#include "operators/solvers/lu.h"
 #include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
+#include "operators/series/series_run.h"
+#include "operators/solvers/lu.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Form factors against closed forms, checked against independent quadrature to 3e-14, and the cube put together of them.
 #include "operators/matrix/form_factors.h"
-#include "operators/spectrum/closure.h"
 #include "operators/known/cube.h"
+#include "operators/spectrum/closure.h"
 
 #include <gtest/gtest.h>
 

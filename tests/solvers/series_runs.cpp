@@ -1,8 +1,8 @@
 // What stops the series, and what must not.
-#include "operators/series/series_run.h"
-#include "operators/spectrum/remaining.h"
 #include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
+#include "operators/series/series_run.h"
+#include "operators/spectrum/remaining.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Spectra: the cube patch by patch, mirrors with complex eigenvalues, norms that are not the spectral radius.
+#include "operators/known/cube.h"
+#include "operators/known/small_problems.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/rounding.h"
 #include "operators/spectrum/spectrum.h"
-#include "operators/known/cube.h"
-#include "operators/known/small_problems.h"
 
 #include <gtest/gtest.h>
 
