@@ -460,7 +460,7 @@ void not_finite(Figures& figures, std::uint64_t seed) {
         settings.seed = seed;
         const Pictures pictures = render(maker.make(), settings, 4);
         // Two terms of 4 pixels × 4 replicates × 8 samples.
-        figures.near(fmt::format("radiance {}: samples counted", number), static_cast<double>(pictures.tally.non_finite_count),
+        figures.near(fmt::format("radiance {}: samples counted", number), static_cast<double>(pictures.tally.non_finite_samples()),
                      2 * 4 * 4 * 8, 0);
         figures.holds(fmt::format("radiance {}: where they were is known", number), !pictures.tally.non_finite.empty());
     }
@@ -494,7 +494,7 @@ void add_cameras(Cases& cases) {
                                   expected * 8.0 * static_cast<double>(i) * eps);
                      figures.near(fmt::format("standard error of K^{} Le", i), mean.standard_error, 0.0, 0.0);
                  }
-                 figures.near("samples that are no numbers", static_cast<double>(pictures.tally.non_finite_count), 0, 0);
+                 figures.near("samples that are no numbers", static_cast<double>(pictures.tally.non_finite_samples()), 0, 0);
              }});
     };
     // It looks along +z, away from the floor that it stands on, and from within a box it sees backs, which are black.

@@ -76,7 +76,7 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
             figures.sampled(fmt::format("K^{} Le{}", i, only_direct && i > 1 ? ", not made" : ""),
                             statistic(found.result.mean_of_term(static_cast<std::size_t>(i))),
                             only_direct && i > 1 ? 0.0 : std::pow(rho, i));
-    figures.near("samples that are no numbers", static_cast<double>(found.tally.non_finite_count), 0.0, 0.0);
+    figures.near("samples that are no numbers", static_cast<double>(found.tally.non_finite_samples()), 0.0, 0.0);
     if (sampling.largest_rest < rho) return;
     settings.walk.rest_probability = 1.0;
     // A geometric distribution: the standard error is 1.05/√(samples) of it.
