@@ -13,9 +13,14 @@ let playing = null;
 
 const series = () => all[state.run];
 const shown = () => ({ i: state.i, sum: state.sum });
+// What is shown, of another run: rest for rest.
+const same = s => {
+  const i = state.i > series().last ? s.last + 1 : state.i;
+  return { i, sum: state.sum, absent: i > s.last && state.i <= series().last };
+};
 // What B is: { series, ref }. Either follows what is shown or stands still.
 const others = [
-  ...(all.length > 1 ? [["run", "the same of the other run", () => [all[1 - state.run], shown()]]] : []),
+  ...(all.length > 1 ? [["run", "the same of the other run", () => [all[1 - state.run], same(all[1 - state.run])]]] : []),
   ["next", "the next bounce", () => [series(), { i: state.i + 1, sum: state.sum }]],
   ["previous", "the bounce before", () => [series(), { i: state.i - 1, sum: state.sum }]],
   ["sum", "bounce or sum, the other", () => [series(), { i: state.i, sum: !state.sum }]],
@@ -138,7 +143,7 @@ const pixelAt = event => {
 };
 
 // Figures of a pixel.
-const withInterval = (value, half) => half === undefined ? number(value) : half === 0 ? number(value) : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
+const withInterval = (value, half) => !half ? number(value) : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
 const drawReadout = () => {
   const at = state.hover ?? state.pixel, s = series(), ref = shown();
   if (!at || missing({ series: s, ref })) {
@@ -164,23 +169,23 @@ const drawReadout = () => {
 };
 
 // Plots.
-const goTo = i => { stop(); set({ i: Math.min(Math.round(i), lastShown()) }); };
-const has = s => s.hasRest;
-const last = Math.max(...all.map(s => s.last)), anyRest = all.some(has);
+const goTo = i => { stop(); set({ i: Math.round(i) }); };
+const last = Math.max(...all.map(s => s.last)), anyRest = all.some(s => s.hasRest);
 const radiance = `${first.importance ? "importance" : "radiance"} / ${first.unit}`;
-const energyPlot = plot("energy", bounceAxis(last, anyRest), `mean ${radiance}`, [here(() => state.i), intervals(() => true)], goTo);
-const pixelPlot = plot("pixel", bounceAxis(last, anyRest), radiance, [here(() => state.i), intervals(() => true)], goTo);
-const errorPlot = plot("error", { ...logAxis("seconds") }, "relative error", [], null);
+const placeOfBounce = () => state.i > series().last ? last + 1 : state.i;
+const energyPlot = plot("energy", bounceAxis(last, anyRest), `mean ${radiance}`, [here(placeOfBounce), intervals(() => true)], goTo);
+const pixelPlot = plot("pixel", bounceAxis(last, anyRest), radiance, [here(placeOfBounce), intervals(() => true)], goTo);
+const errorPlot = plot("error", logAxis("seconds"), "relative error", []);
 const drawPlots = () => {
   const draw = (chart, sets) => {
     chart.data.datasets = sets;
     fitRange(chart, sets);
     chart.update();
   };
-  draw(energyPlot, energySets(all, names));
+  draw(energyPlot, energySets(all, names, last + 1));
   if (state.pixel) {
     const p = state.pixel.y * first.width + state.pixel.x;
-    draw(pixelPlot, pixelSets(all, names, p, state.sum));
+    draw(pixelPlot, pixelSets(all, names, p, state.sum, last + 1));
   }
   const errors = errorSets(all, names, state.i);
   range(errorPlot.options.scales.x, errors.flatMap(s => s.data.map(p => p.x)));

@@ -51,10 +51,10 @@ const fitRange = (chart, sets) => {
 };
 
 // Means with error bars; of a single run also what follows each bounce, its bound, and the fitted decay.
-const energySets = (all, names) => all.flatMap((s, r) => {
+const energySets = (all, names, restAt) => all.flatMap((s, r) => {
   const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r] } : {};
   const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)).filter(positive), main, marks[r], dash)];
-  if (s.hasRest) sets.push(dots("rest" + tag, [point(s.last + 1, s.run.rest.mean, s.wholeMean({ i: s.last + 1 }).interval95)].filter(positive), main, "rectRot", { showLine: false }));
+  if (s.hasRest) sets.push(dots("rest" + tag, [point(restAt, s.run.rest.mean, s.wholeMean({ i: s.last + 1 }).interval95)].filter(positive), main, "rectRot", { showLine: false }));
   if (all.length > 1) return sets;
   if (s.decay) {
     const { ratio, log_at_0, first, last } = s.decay;
@@ -70,11 +70,11 @@ const energySets = (all, names) => all.flatMap((s, r) => {
 });
 
 const channelColours = () => ["#d55e00", "#009e73", matchMedia("(prefers-color-scheme: dark)").matches ? "#56b4e9" : "#0072b2"];
-const pixelSets = (all, names, p, sum) => all.flatMap((s, r) => ["red", "green", "blue"].map((name, c) => {
+const pixelSets = (all, names, p, sum, restAt) => all.flatMap((s, r) => ["red", "green", "blue"].map((name, c) => {
   const data = [];
   for (let i = 0; i <= s.last + (s.hasRest && !sum ? 1 : 0); ++i) {
     const ref = { i, sum };
-    if (s.isLoaded(ref)) data.push(point(i + (c - 1) * .06, s.meanAt(ref, p + c * s.pixels), s.halfInterval(ref, p + c * s.pixels)));
+    if (s.isLoaded(ref)) data.push(point((i > s.last ? restAt : i) + (c - 1) * .06, s.meanAt(ref, p + c * s.pixels), s.halfInterval(ref, p + c * s.pixels)));
   }
   return dots(name + names[r], data.filter(positive), channelColours()[c], marks[c], r ? { borderDash: dashes[1], pointBackgroundColor: color("back") } : {});
 }));

@@ -13,7 +13,7 @@ const inflated = async text => {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
 };
 
-// A picture is named by { i, sum }: bounce i, or the sum up to it; i = last + 1 is the rest.
+// A picture is named by { i, sum }: bounce i, or the sum up to it; i = last + 1 is the rest, unless it is a bounce that is `absent`.
 class Series {
   constructor({ run, convergence, decay, pictures }, index) {
     Object.assign(this, { run, decay, index, width: pictures.width, height: pictures.height, factor: pictures.factor, exposure: pictures.exposure,
@@ -40,8 +40,12 @@ class Series {
     this.sums.clear();
   }
 
-  has({ i, sum }) { return i <= this.last || (i === this.last + 1 && this.hasRest && !sum); }
-  isLoaded({ i, sum }) { return this.has({ i, sum }) && (sum ? Array.from({ length: i + 1 }, (_, k) => k) : [i]).every(k => this.planes[k]); }
+  isRest({ i, absent }) { return i === this.last + 1 && !absent; }
+  has(ref) { return ref.i >= 0 && (ref.i <= this.last || (this.isRest(ref) && this.hasRest && !ref.sum)); }
+  isLoaded(ref) {
+    const { i, sum } = ref;
+    return this.has(ref) && (sum ? Array.from({ length: i + 1 }, (_, k) => k) : [i]).every(k => this.planes[k]);
+  }
 
   // Red, green and blue of all pixels. Sums are made of the terms: each is off by 2⁻¹¹ of itself at most, and so is their sum where
   // none is negative.
@@ -78,8 +82,9 @@ class Series {
     return e === 0 ? 0 : this.intervalFactor === null ? Infinity : e * this.intervalFactor;
   }
 
-  title({ i, sum }) {
-    if (i > this.last) return `rest, all beyond bounce ${this.last}`;
+  title(ref) {
+    const { i, sum } = ref;
+    if (this.isRest(ref)) return `rest, all beyond bounce ${this.last}`;
     return sum && i > 0 ? `sum of bounces 0 to ${i}` : `bounce ${i}`;
   }
   formula({ i, sum }) {

@@ -11,7 +11,7 @@ const at = name => path.join(folder, name);
 const scene = path.join(process.env.SCENES, "cornell-box/cornell-box.xml");
 const side = 32, last = 4, t = 2.13145;  // Student's t, 0.975, of 16 replicates: 15 degrees of freedom
 neumann("render", scene, "-D", `res=${side}`, "-n", `${last}`, "--spp", "512", "-o", at("a"), "--quiet");
-neumann("render", scene, "-D", `res=${side}`, "-n", `${last}`, "--method", "matrix", "--patches", "300", "--spp", "64", "-o", at("b"), "--quiet");
+neumann("render", scene, "-D", `res=${side}`, "-n", `${last + 1}`, "--method", "matrix", "--patches", "300", "--spp", "64", "-o", at("b"), "--quiet");
 neumann("compare", at("a"), at("b"), "-o", at("both"));
 const pixels = JSON.parse(run(process.env.PYTHON, path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "pixels.py"), at("a")));
 const json = JSON.parse(readFileSync(at("a/run.json")));
@@ -202,8 +202,22 @@ const expected = .2126 * sumRow.red.mean_difference + .7152 * sumRow.green.mean_
 const mean = await both.evaluate(() => { let d = 0; for (let p = 0; p < all[0].pixels; ++p) d += image.value(p); return d / all[0].pixels; });
 expectClose(mean, expected, 0, "mean difference", 2 ** -11 * 2 * sumRow.mean);
 await both.selectOption("#view", "z");
-await both.keyboard.press("r");
 await expectNames(both);
+// B has a bounce more. Rest is compared with rest, and a bounce that only one run has with nothing.
+await both.selectOption("#view", "colour");
+for (const key of ["s", "r", "End"]) await both.keyboard.press(key);
+await settled(both);
+assert.deepEqual([await both.locator("#side-a").innerText(), await both.locator("#side-b").innerText()], ["B: rest, all beyond bounce 5", "A: rest, all beyond bounce 4"]);
+await both.keyboard.press("ArrowLeft");
+await settled(both);
+assert.equal(await both.locator("#empty").innerText(), "A: there is no bounce 5");
+await both.selectOption("#other", "previous");
+await both.keyboard.press("s");
+await both.keyboard.press("Home");
+await settled(both);
+assert.equal(await both.locator("#empty").innerText(), "B: there is no bounce before");
+const rests = await both.evaluate(() => energyPlot.data.datasets.filter(d => d.label.startsWith("rest")).map(d => d.data[0].x));
+assert.deepEqual(rests, [6, 6]);
 
 // One sample tells no errors: the warning is on top, intervals are unknown, and the noise is grey.
 neumann("render", scene, "-D", "res=8", "-n", "0", "--spp", "1", "-o", at("one"), "--quiet");
