@@ -4,9 +4,12 @@
 #include "apps/export.h"
 #include "apps/method_options.h"
 #include "apps/options.h"
+#include "apps/plan.h"
 #include "apps/render.h"
+#include "apps/replay.h"
 #include "apps/solve.h"
 #include "apps/spectrum.h"
+#include "apps/stress.h"
 #include "apps/study.h"
 #include "core/base/error.h"
 
@@ -120,6 +123,12 @@ int main(int argc, char** argv) try {
     auto* conform = neumann::add_conform(app, conform_request);
     neumann::StudyRequest study_request;
     auto* study = neumann::add_study(app, study_request);
+    neumann::ReplayRequest replay_request;
+    auto* replay = neumann::add_replay(app, replay_request);
+    neumann::StressRequest stress_request;
+    auto* stress = neumann::add_stress(app, stress_request);
+    neumann::PlanRequest plan_request;
+    auto* plan = neumann::add_plan(app, plan_request);
     auto* help = app.add_subcommand("help", "Show the help of a command");
     std::string topic;
     help->add_option("COMMAND", topic, "Command");
@@ -143,6 +152,9 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     if (*compare) return finish(neumann::compare_command(compare_request));
+    if (*replay) return finish(neumann::replay_command(replay_request));
+    if (*stress) return finish(neumann::stress_command(stress_request));
+    if (*plan) return finish(neumann::plan_command(plan_request));
     if (*conform) return finish(neumann::conform_command(conform_request));
 
     const std::string command_line = join(argc, argv);

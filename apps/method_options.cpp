@@ -14,12 +14,14 @@ void add_method_options(CLI::App& command, RenderRequest& request) {
     command
         .add_option(
             "--method", request.method,
-            "walk: one walk for all bounces; guided: the same with directions drawn by the fields of a matrix solution; surface: the same by points on all surfaces; light: from the lights to the camera; "
+            "walk: one walk for all bounces; guided: the same with directions drawn by the fields of a matrix solution; surface: "
+            "the same by points on all surfaces; light: from the lights to the camera; "
             "bidirectional: from both ends, joined everywhere; classic: by mirrors and glass alone, some of all paths; pointwise: "
             "each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K once more at the "
             "pixel; patches: the patches as they are")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"walk", "guided", "surface", "light", "bidirectional", "classic", "pointwise", "matrix", "gather", "patches"})
+        ->check(CLI::IsMember(
+                    {"walk", "guided", "surface", "light", "bidirectional", "classic", "pointwise", "matrix", "gather", "patches"})
                     .description(""))
         ->capture_default_str();
     add_light_options(command, request.light);
@@ -29,6 +31,12 @@ void add_method_options(CLI::App& command, RenderRequest& request) {
             "Random numbers of the methods that make paths: sobol (scrambled Sobol' points) or independent; the scene's without it")
         ->type_name("NAME")
         ->check(CLI::IsMember({"sobol", "independent"}).description(""));
+    command
+        .add_option("--plan", request.plan,
+                    "auto: what the scene does not need is left out, as `neumann plan` tells; full: nothing is left out")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"auto", "full"}).description(""))
+        ->capture_default_str();
     command.add_option("--patches", request.patches, "Patches of guided, patches, matrix and gather; about as many")
         ->type_name("N")
         ->check(whole_from(0, std::uint64_t{1} << 40));

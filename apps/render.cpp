@@ -70,10 +70,12 @@ int render_command(const RenderRequest& request) {
     if (request.threads > 0)
         threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
 
-    const Scene scene = read_scene(request.scene, request.definitions);
+    Scene scene = read_scene(request.scene, request.definitions);
     OutputFolder folder(request.output);
     const Pilot pilot(scene, direct_light(request.light, scene.emitters), request.seed);
-    const RenderJob job{request, scene, pilot};
+    const Plan plan = plan_of(request, scene);
+    leave_out(plan, scene);
+    const RenderJob job{request, scene, pilot, plan};
     const RenderResult result = render_by_method(job);
 
     Warnings warnings = scene.warnings;
@@ -97,6 +99,8 @@ int render_command(const RenderRequest& request) {
     if (!request.quiet)
         for (const auto& [text, count] : warnings.counts())
             fmt::print(stderr, "warning: {}{}\n", text, count > 1 ? fmt::format(" ({} times)", count) : "");
+    if (!request.quiet)
+        for (const std::string& complaint : result.complaints) fmt::print(stderr, "sick: {}\n", complaint);
     if (request.json)
         fmt::print("{}\n", json.dump(2));
     else if (!request.quiet)

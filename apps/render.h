@@ -22,9 +22,10 @@ struct RenderRequest {
     std::optional<double> relative_error;
     std::string method = "walk";
     LightOptions light;
-    std::optional<int> ways;  // of bidirectional: the bounce of which every way is shown
-    std::string sampler;      // sobol or independent; empty: the scene's
-    bool importance = false;  // of patches: pictures of K*^i We
+    std::optional<int> ways;    // of bidirectional: the bounce of which every way is shown
+    std::string plan = "auto";  // or full: nothing is left out
+    std::string sampler;        // sobol or independent; empty: the scene's
+    bool importance = false;    // of patches: pictures of K*^i We
     std::optional<std::size_t> patches;
     std::optional<std::uint32_t> directions;
     std::string reference;  // a folder of an earlier render, or empty

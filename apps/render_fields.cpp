@@ -1,6 +1,7 @@
 // Renders from fields on patches: patches, matrix and gather.
 #include "apps/render_method.h"
 
+#include "apps/health_json.h"
 #include "apps/interrupt.h"
 #include "apps/progress_line.h"
 #include "core/base/error.h"
@@ -57,7 +58,7 @@ bool has_given_settings(const RenderRequest& request) { return request.samples |
 }  // namespace
 
 RenderResult render_by_fields(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     FieldSettings settings = choose_settings(job);
     if (request.relative_error && has_given_settings(request))
         throw InputError(
@@ -106,7 +107,8 @@ RenderResult render_by_fields(const RenderJob& job) {
                       {"directions", std::uint64_t{run.settings.rays} * run.settings.replicates}};
     if (run.settings.method == FieldMethod::gather) result.samples["gather_rays_per_sample"] = run.settings.gather_rays;
     if (!run.pictures.rest_converges) result.rest["why"] = "the terms do not fall, or too slowly to add them up";
-    result.non_finite = {{"count", 0}, {"first", Json::array()}};
+    result.health = as_json(run.pictures.power);
+    result.complaints = complaints(run.pictures.power);
     const auto pictures = std::make_shared<FieldPictures>(std::move(run.pictures));
     result.series.term = [pictures](std::size_t i) { return pictures->term(i); };
     result.series.sum = [pictures](std::size_t i) { return pictures->sum(i); };

@@ -15,10 +15,38 @@ namespace {
 constexpr double default_tail = 0.01;
 constexpr int default_most_bounces = 64, default_bounces_without_end = 16;
 
+// Those of the plan that the method takes.
+std::vector<bool LeftOut::*> decisions(const RenderRequest& request) {
+    const std::string &method = request.method, &direct = request.light.direct;
+    if (is_field_method(method)) return {};
+    std::vector<bool LeftOut::*> taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};
+    if (direct != "hemisphere" && direct != "cosine") taken.push_back(&LeftOut::shadow_rays_in_room);
+    if ((method == "walk" || method == "guided") && (direct.empty() || direct.starts_with("mis")))
+        taken.push_back(&LeftOut::questions);
+    return taken;
+}
+
 }  // namespace
 
+Plan plan_of(const RenderRequest& request, const Scene& scene) {
+    if (request.plan == "full" && is_field_method(request.method))
+        throw InputError(
+            fmt::format("--plan full belongs to the methods that make paths; fields of {} have one channel where the scene is grey",
+                        request.method));
+    const bool takes_none = request.method == "light" || request.method == "bidirectional" || request.method == "pointwise";
+    if (request.plan == "full" || takes_none) return {};
+    const auto taken = decisions(request);
+    Plan plan = make_plan(scene);
+    std::erase_if(plan.parts, [&](const PlanPart& p) {
+        if (!p.decision || std::find(taken.begin(), taken.end(), p.decision) != taken.end()) return false;
+        plan.walk.*p.decision = false;
+        return true;
+    });
+    return plan;
+}
+
 int choose_bounces(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     if (request.bounces) return *request.bounces;
     if (request.tail) {
         if (!pilot.converges())

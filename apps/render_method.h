@@ -7,6 +7,8 @@
 #include "core/base/warnings.h"
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
+#include "operators/pictures/sampling_settings.h"
+#include "operators/plan/plan.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,13 +18,15 @@ struct RenderJob {
     const RenderRequest& request;
     const Scene& scene;
     const Pilot& pilot;
+    const Plan& plan;  // without parts where nothing is left out
 };
 
 struct RenderResult {
     BounceSeries series;
     Warnings warnings;
     // Parts of run.json that belong to the method.
-    nlohmann::ordered_json options, samples, rest, non_finite;
+    nlohmann::ordered_json options, samples, rest, health;
+    std::vector<std::string> complaints;  // what is sick, a line each
     std::optional<Ways> ways;
 };
 
@@ -32,6 +36,12 @@ inline bool is_field_method(const std::string& method) { return method == "patch
 // By request.method.
 RenderResult render_by_method(const RenderJob& job);
 
+// How the methods that make paths sample a scene, but for the bounces, the rest, the tables and the replicates. Throws InputError.
+SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene, const Plan& plan);
+std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& request, const Scene& scene, int bounces);
+
+// What the method does not need of the scene, unless nothing is to be left out. Throws InputError.
+Plan plan_of(const RenderRequest& request, const Scene& scene);
 // The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
 int choose_bounces(const RenderJob& job);
 

@@ -1,6 +1,7 @@
 // Renders by sampling: walk, guided, surface, classic and pointwise.
 #include "apps/render_method.h"
 
+#include "apps/health_json.h"
 #include "apps/interrupt.h"
 #include "apps/method_options.h"
 #include "apps/progress_line.h"
@@ -60,19 +61,6 @@ Method method_of(const std::string& name) {
     return methods.at(name);
 }
 
-std::shared_ptr<const DirectionTables> direction_tables(const RenderJob& job, int bounces) {
-    const RenderRequest& request = job.request;
-    GuideSettings settings{.bounces = bounces, .seed = request.seed};
-    if (request.patches) settings.patches = *request.patches;
-    if (request.directions) {
-        settings.rays = *request.directions;
-        if (!std::has_single_bit(settings.rays) || settings.rays < CellDistribution::cells)
-            throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
-                                         CellDistribution::cells));
-    }
-    return std::make_shared<const DirectionTables>(job.scene, settings);
-}
-
 // How walks end, at the scene's largest albedo and at albedos near 1; what is infinite is printed as null.
 Json as_json(const Roulette& roulette, double largest_albedo, int bounces) {
     Json furnaces = Json::array();
@@ -89,9 +77,9 @@ RestVerdict rest_verdict(const RenderJob& job) {
     return job.pilot.converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
-BounceSeries bounce_series(const RenderedSeries& series, SeriesReport report) {
+BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
+                           SeriesReport report) {
     BounceSeries out;
-    const auto result = std::make_shared<SeriesMoments::Result>(series.moments.result());
     out.term = [result](std::size_t i) { return result->term(i); };
     out.sum = [result](std::size_t i) { return result->sum(i); };
     if (report.rest_verdict == RestVerdict::measured) out.rest = result->term(result->quantities() - 1);
@@ -107,15 +95,14 @@ BounceSeries bounce_series(const RenderedSeries& series, SeriesReport report) {
 
 }  // namespace
 
-RenderResult render_by_walk(const RenderJob& job) {
-    const auto& [request, scene, pilot] = job;
+SamplingSettings sampling_settings(const RenderRequest& request, const Scene& scene, const Plan& plan) {
     if (request.method != "guided" && (request.patches || request.directions))
         throw InputError(fmt::format("--patches and --directions belong to --method guided, patches, matrix and gather, not to {}",
                                      request.method));
     check_light_options(request.light, request.method);
     if (request.ways && request.method != "bidirectional")
         throw InputError("--ways belongs to --method bidirectional, not to " + request.method);
-    PictureSampler::Settings settings;
+    SamplingSettings settings;
     settings.method = method_of(request.method);
     if (settings.method == Method::pointwise && scene.emitters.has_delta_lights())
         throw InputError(
@@ -124,23 +111,42 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (scene.hide_emitters && splats(settings.method))
         throw InputError(fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk",
                                      request.method));
-    const Paths paths = paths_of(settings.method, scene);
-    settings.walk.bounces = choose_bounces(job);
     settings.walk.direct = direct_light(request.light, scene.emitters);
     // Neither finds lights by directions of its own, but in mirrors.
     if (settings.method == Method::surface || settings.method == Method::classic)
         settings.walk.direct = {.direct = DirectLight::light};
     settings.walk.roulette = roulette(request.light);
     settings.walk.split = split(request.light);
+    settings.walk.left_out = plan.walk;
     settings.sampler = sampler_kind(request.sampler).value_or(scene.sampler.value_or(SamplerKind::sobol));
     settings.seed = request.seed;
+    return settings;
+}
+
+std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& request, const Scene& scene, int bounces) {
+    GuideSettings settings{.bounces = bounces, .seed = request.seed};
+    if (request.patches) settings.patches = *request.patches;
+    if (request.directions) {
+        settings.rays = *request.directions;
+        if (!std::has_single_bit(settings.rays) || settings.rays < CellDistribution::cells)
+            throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
+                                         CellDistribution::cells));
+    }
+    return std::make_shared<const DirectionTables>(scene, settings);
+}
+
+RenderResult render_by_walk(const RenderJob& job) {
+    const auto& [request, scene, pilot, plan] = job;
+    PictureSampler::Settings settings = sampling_settings(request, scene, plan);
+    const Paths paths = paths_of(settings.method, scene);
+    settings.walk.bounces = choose_bounces(job);
 
     SamplingGoal goal{request.samples, request.seconds, request.relative_error};
     if (!goal.samples && !goal.seconds && !goal.relative_error) goal = {std::nullopt, default_seconds, default_error};
     double setup_seconds = 0.0;
     if (settings.method == Method::guided) {
         const Stopwatch watch;
-        settings.tables = direction_tables(job, settings.walk.bounces);
+        settings.tables = direction_tables(request, scene, settings.walk.bounces);
         setup_seconds = watch.seconds();
         // Of the time that was asked for.
         if (goal.seconds) goal.seconds = std::max(*goal.seconds - setup_seconds, shortest_sampling);
@@ -184,7 +190,8 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (paths != Paths::all) report_missing(report, pilot);
 
     RenderResult result;
-    result.series = bounce_series(series, std::move(report));
+    const auto moments = std::make_shared<const SeriesMoments::Result>(series.moments.result());
+    result.series = bounce_series(series, moments, std::move(report));
     result.series.paths = paths;
     Warnings& warnings = result.warnings;
     if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.method != Method::light)
@@ -215,7 +222,6 @@ RenderResult render_by_walk(const RenderJob& job) {
                         request.light.roulette, std::sqrt(settings.walk.roulette.survival), albedo));
     if (series.moments.replicates() < 2 && !request.only_pictures)
         warnings.add("a single replicate was sampled: the standard errors are unknown");
-    warnings.add("sample was not a finite number and was left out", series.tally.non_finite_count);
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
@@ -248,9 +254,14 @@ RenderResult render_by_walk(const RenderJob& job) {
     if (verdict == RestVerdict::not_converging)
         result.rest["why"] = fmt::format("{} of {} walks had not ended after {} bounces and were given up", pilot.given_up(),
                                          pilot.walks(), Pilot::bounces + Pilot::give_up);
-    result.non_finite = {{"count", series.tally.non_finite_count}, {"first", Json::array()}};
-    for (const NonFiniteSample& s : series.tally.non_finite)
-        result.non_finite["first"].push_back({{"x", s.x}, {"y", s.y}, {"bounce", s.bounce}, {"sample", s.sample}});
+    if (request.only_pictures) {
+        warnings.add("sample was not a finite number and was left out", series.tally.non_finite_samples());
+    } else {
+        settings.replicate_size = series.replicate_size;  // smaller where it was interrupted
+        const Health health = examine(scene, settings, series, *moments);
+        result.health = as_json(health, scene, request.output);
+        result.complaints = complaints(health, scene, request.output);
+    }
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/run_json.h"
 
+#include "apps/plan.h"
 #include "core/geometry/ray_caster.h"
 
 #include <cmath>
@@ -93,7 +94,7 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
 }  // namespace
 
 Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, double seconds_total) {
-    const auto& [request, scene, pilot] = job;
+    const auto& [request, scene, pilot, plan] = job;
     const BounceSeries& series = result.series;
     const SeriesReport& report = series.report;
     Json json;
@@ -101,15 +102,16 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     json["command"] = request.command_line;
     json["scene"] = {{"file", request.scene}, {"hash", scene.hash}, {"definitions", request.definitions}};
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
-    json["quantity"] = report.importance
-                           ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
-                           : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
+    json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
+                                         : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
     json["options"] = result.options;
+    json["plan"] = plan.parts.empty() ? Json("full") : plan_json(plan);
     json["paths"] = name(series.paths);
     json["samples"] = result.samples;
     json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;
     json["samples"]["outcome"] = name(series.outcome);
-    json["timing"] = {{"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
+    json["timing"] = {
+        {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
     json["sum"] = mean_json(report.sum, report.infinite_variance());
     add_discretisation(json["sum"], report.sum_discretisation);
@@ -126,7 +128,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     }
     json["rest"] = rest_json(scene, result);
     if (result.ways) json["ways"] = as_json(*result.ways);
-    json["non_finite_samples"] = result.non_finite;
+    json["health"] = result.health;
     json["warnings"] = Json::array();
     for (const auto& [text, count] : warnings.counts()) json["warnings"].push_back({{"text", text}, {"count", count}});
     return json;

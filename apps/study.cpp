@@ -105,7 +105,7 @@ int study_command(const StudyRequest& given) {
     data.pilot_seconds = pilot_watch.seconds();
     RenderRequest any;
     any.bounces = request.bounces;
-    data.bounces = request.resume ? journal.plan.at("bounces").get<int>() : choose_bounces({any, scene, pilot});
+    data.bounces = request.resume ? journal.plan.at("bounces").get<int>() : choose_bounces({any, scene, pilot, {}});
     auto reference = given_reference(request, scene.film, data.bounces);
 
     const auto nothing_done = [&] {

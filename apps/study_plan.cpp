@@ -82,7 +82,7 @@ std::optional<RenderResult> run_method(const StudyMethod& method, const Effort& 
                                        const Scene& scene, const Pilot& pilot) {
     try {
         const RenderRequest request = run_request(method, effort, bounces, seed);
-        RenderResult result = render_by_method({request, scene, pilot});
+        RenderResult result = render_by_method({request, scene, pilot, plan_of(request, scene)});
         if (result.series.outcome == Outcome::interrupted) return std::nullopt;
         return result;
     } catch (const InputError& e) {

@@ -56,8 +56,8 @@ public:
           lights_(scene.geometry, scene.emitters, settings.lights, settings.place) {}
 
     // A path for each ray, `camera` and `light` draw its halves. `found(i, Found)` is told what the i-th brings to its own pixel,
-    // `splatted(position, Found)` what its light half brings to a place on the film, times pixels. `rays`: N + 2
-    // entries. Returns the walks that were given up.
+    // `splatted(i, position, Found)` what its light half brings to a place on the film, times pixels. `rays`: N + 2 entries.
+    // Returns the walks that were given up.
     template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
                                     std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,
@@ -94,7 +94,7 @@ private:
             }
             counts[static_cast<std::size_t>(j)] += work.camera_edges.size();
             splat_what_is_seen(T, walkers, work.camera_edges, [&](std::size_t k, const Vec2& position, const Rgb& value) {
-                splatted(position, Found{j, j + 1, value, work.camera_weights[k]});
+                splatted(work.camera_edges[k].walker, position, Found{j, j + 1, value, work.camera_weights[k]});
             });
         };
         walk_from_lights(*scene_, T, emission_, lights_, walk, samplers, work.light, visit,

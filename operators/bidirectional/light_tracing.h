@@ -13,8 +13,8 @@ struct LightTracingWork {
     std::vector<CameraEdge> edges;
 };
 
-// A path for each sampler. `splatted(position, quantity, value)`: radiance times pixels at a place on the film, of bounces 0 … N
-// and the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
+// A path for each sampler. `splatted(path, position, quantity, value)`: radiance times pixels at a place on the film, of bounces
+// 0 … N and the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
 template <class Transport, class Sampler, class OnSplat>
 NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
                                       const LightSampler& lights, const LightWalkSettings& settings, std::span<Sampler> samplers,
@@ -30,8 +30,8 @@ NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, co
                 if (!is_black(edge.value)) work.edges.push_back(edge);
             }
             rays[quantity(j)] += work.edges.size();
-            splat_what_is_seen(T, walkers, work.edges, [&](std::size_t, const Vec2& position, const Rgb& value) {
-                splatted(position, quantity(j), value);
+            splat_what_is_seen(T, walkers, work.edges, [&](std::size_t k, const Vec2& position, const Rgb& value) {
+                splatted(work.edges[k].walker, position, quantity(j), value);
             });
         },
         [&](int j, std::size_t n) { rays[quantity(j)] += n; });

@@ -6,6 +6,7 @@
 #include "operators/patches/patch_space.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace neumann {
 class RayTable {
 public:
     // `rays`: of a facet; a power of two. Facets with more directions than that have one ray for each. The space is kept by
-    // reference.
-    RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed);
+    // reference. `checkpoint` is called now and then, from any thread, and may throw to give up.
+    RayTable(
+        const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const std::function<void()>& checkpoint = [] {});
     // How many rays that would be in all.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 

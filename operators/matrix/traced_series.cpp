@@ -42,11 +42,16 @@ private:
     std::vector<std::uint32_t> around_;
 };
 
-// x, K x, K² x, …; `second` stands for K x where that is found otherwise.
-template <int C, class Op>
-TracedSeries apply_powers(const Op& K, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
-                          const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings) {
+// x, K x, K² x, …; `second` stands for K x where that is found otherwise. `look(series, term)` at each.
+template <int C, class Op, class Look>
+TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
+                          const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings,
+                          const Look& look) {
     const Coarsening coarsening(space, coarser);
+    const auto K = [&](ExitantVector<C> x) {
+        settings.checkpoint();
+        return product(std::move(x));
+    };
     const auto K_coarse = [&](const ExitantVector<C>& x) { return coarsening.mean<C>(K(coarsening.prolong<C>(x))); };
 
     TracedSeries series{FieldStack(space, settings.bounces), FieldStack(coarser, settings.bounces)};
@@ -54,6 +59,7 @@ TracedSeries apply_powers(const Op& K, ExitantVector<C> term, const std::optiona
     for (int i = 0;; ++i) {
         series.fine.set<C>(i, term);
         series.coarse.set<C>(i, coarse_term);
+        look(series, term);
         if (i == settings.bounces) break;
         term = i == 0 && second ? *second : K(std::move(term));
         coarse_term = i == 0 && second ? coarsening.mean<C>(term) : K_coarse(coarse_term);
@@ -77,13 +83,15 @@ TracedSeries apply_powers(const Op& K, ExitantVector<C> term, const std::optiona
 template <int C>
 TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                          const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed);
+    const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
     const ReflectionMatrix<C> R(scene.materials, space);
     const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
     std::optional<ExitantVector<C>> direct;
     if (sample_lights) direct = direct_light<C>(scene, R, settings.light_samples, settings.seed);
+    const PowerBalance<C> balance(table, R);
     TracedSeries series =
-        apply_powers<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings);
+        apply_powers<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings,
+                        [&](TracedSeries& s, const ExitantVector<C>& term) { s.power.push_back(balance.of(term)); });
     if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
     series.rays = table.seen().size() + series.light_rays;
     return series;
@@ -92,11 +100,11 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
 template <int C>
 TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                            const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed);
+    const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
     const ReflectionMatrix<C> R(scene.materials, space);
-    TracedSeries series =
-        apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),
-                        camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space, coarser, settings);
+    TracedSeries series = apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),
+                                          camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space,
+                                          coarser, settings, [](TracedSeries&, const ExitantVector<C>&) {});
     series.fine.average_over_directions();
     series.coarse.average_over_directions();
     series.rays = table.seen().size() + std::uint64_t{settings.camera_samples} * static_cast<std::uint64_t>(scene.film.crop_width) *

@@ -6,8 +6,11 @@
 
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
+#include "operators/matrix/power_balance.h"
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace neumann {
 
@@ -18,6 +21,8 @@ struct TracedSeriesSettings {
     std::uint64_t seed = 0;
     bool rest = true;                  // Σ_{k>N} is wanted as well
     std::uint32_t camera_samples = 2;  // of a pixel, for We; a power of two
+    // Called now and then, from any thread; may throw to give up.
+    std::function<void()> checkpoint = [] {};
 };
 
 struct TracedSeries {
@@ -25,6 +30,7 @@ struct TracedSeries {
     std::uint64_t rays = 0;        // cast
     std::uint64_t light_rays = 0;  // of these, for b
     bool rest_converges = false;
+    std::vector<PowerOfTerm> power;  // of the terms 0 … N; of light only
 };
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,

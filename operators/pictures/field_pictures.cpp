@@ -27,12 +27,25 @@ struct Workspace {
     std::array<std::uint64_t, 3> rays{};
 };
 
+struct GivenUp {};
+
 // What a patch needs: its rows of T, and for all replicates the quantities of the finer and the coarser field.
 void check_memory(const FieldSettings& settings, double unknowns, double rays) {
     // T* and R* of four channels beside the table.
     const double bytes_of_ray = settings.method == FieldMethod::importance ? 48.0 : 4.0;
     check_patch_memory(settings.patching.patches, settings.rays,
                        300.0 + bytes_of_ray * rays + unknowns * (32.0 + 15.0 * settings.replicates * (settings.bounces + 2.0)));
+}
+
+EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
+    std::vector<std::vector<EnergyShares>> all;
+    for (const TracedSeries& series : replicates) {
+        const std::vector<PowerOfTerm>& power = series.power;
+        auto& shares = all.emplace_back(1, EnergyShares{power[0].emitted, 0.0, power[0].left, power[0].caught});
+        for (std::size_t i = 1; i < power.size(); ++i)
+            shares.push_back({power[i - 1].caught, power[i - 1].absorbed, power[i].left, power[i].caught});
+    }
+    return balance(all);
 }
 
 }  // namespace
@@ -119,15 +132,22 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
+    const auto checkpoint = [&] {
+        if (interrupted()) throw GivenUp();
+    };
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-        if (interrupted()) return std::nullopt;
         const auto trace = result.importance ? trace_importance : trace_series;
-        series.push_back(trace(scene, space, coarser,
-                               {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r, settings.rest,
-                                settings.samples}));
+        try {
+            series.push_back(trace(scene, space, coarser,
+                                   {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r,
+                                    settings.rest, settings.samples, checkpoint}));
+        } catch (const GivenUp&) {
+            return std::nullopt;
+        }
         result.rays[later] += series.back().rays;
         result.rest_converges = result.rest_converges && series.back().rest_converges;
     }
+    if (!result.importance) result.power = power_balance(series);
     result.patches = space.patches().size();
     result.unknowns = space.size();
     result.samples = std::uint64_t{settings.samples} * settings.replicates;

@@ -6,6 +6,7 @@
 #include "core/base/large_array.h"
 #include "core/image/image.h"
 #include "operators/patches/patches.h"
+#include "operators/pictures/energy_balance.h"
 #include "operators/pictures/field_reader.h"
 #include "operators/statistics/picture_statistics.h"
 
@@ -47,7 +48,8 @@ public:
     MeanWithError mean_of_sum(std::size_t i) const { return mean(0, i); }
     MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
 
-    bool importance;  // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
+    EnergyBalance power;  // of light, W: what patches exchange, replicates being the observations; without bounces for importance
+    bool importance;      // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
     bool rest_converges = false;
     std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; those for all of them are counted for bounce 2, or the
                                       // rest where there is none

@@ -1,5 +1,7 @@
 #include "operators/pictures/picture_sampler.h"
 
+#include "operators/pictures/path_group.h"
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -13,42 +15,29 @@ namespace neumann {
 
 namespace {
 
-// Walks that advance together: enough that those that are still on their way fill the packets of rays.
-constexpr std::uint32_t walks_at_once = 64;
-
 // One thread's work space for some pixels at once: the walks' samples, and one node of the tree of replicates for each level and
 // pixel.
 struct Workspace {
-    Workspace(std::size_t pixels, std::size_t replicate_size, std::size_t quantities, std::size_t levels)
-        : rays(pixels * replicate_size),
-          weights(rays.size()),
-          samples(rays.size() * quantities),
-          sum(quantities),
+    Workspace(std::size_t pixels, std::size_t quantities, std::size_t levels)
+        : sum(quantities),
           carry(quantities * PixelMoments::doubles_per_quantity),
           waiting(pixels, std::vector(levels, carry)),
           tally(quantities) {}
-    std::vector<CameraRay> rays;
-    std::vector<double> weights;  // of the film's filter
-    Walkers walkers;
-    std::vector<Rgb> samples, sum;
+    PathGroup group;
+    std::vector<Rgb> sum;
     std::vector<double> carry;
     std::vector<std::vector<std::vector<double>>> waiting;
     Tally tally;
 };
 
-struct Pixel {
-    int x, y;
-};
-
 // Takes down the samples of one quantity that are not finite, makes them zero, and returns the sum of the others.
-Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, const Pixel& pixel, std::uint64_t replicate,
+Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, std::uint32_t pixel, std::uint64_t replicate,
                          Workspace& work) {
     Rgb sum(0.0);
     for (std::size_t i = 0; i < size; ++i) {
         Rgb& x = samples[i * work.sum.size() + q];
         if (!is_finite(x)) {
-            ++work.tally.non_finite_count;
-            work.tally.keep({pixel.x, pixel.y, static_cast<int>(q), replicate * size + i});
+            work.tally.keep({static_cast<int>(q), {pixel, {pixel, replicate * size + i}}});
             x = Rgb(0.0);
         }
         sum += x;
@@ -56,32 +45,8 @@ Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q
     return sum;
 }
 
-// Samples one replicate of some pixels, into work.samples; there is a sampler for each of their samples.
-template <class Estimator, class Sampler>
-void trace(const Scene& scene, const Estimator& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
-           std::uint64_t replicate, Workspace& work) {
-    const Film& film = scene.film;
-    const std::size_t size = samplers.size() / pixels.size();
-    for (std::size_t i = 0; i < samplers.size(); ++i) {
-        const Pixel& pixel = pixels[i / size];
-        samplers[i].start(replicate * size + i % size);
-        const FilmSample sample = film.sample(samplers[i].next2(), pixel.x, pixel.y);
-        work.rays[i] = scene.camera.sample_ray(sample.position, samplers[i]);
-        work.weights[i] = sample.weight;
-    }
-    std::fill(work.samples.begin(), work.samples.end(), Rgb(0.0));
-    TermSamples result{work.samples, work.tally.rays};
-    estimate(std::span<const CameraRay>(work.rays).first(samplers.size()), samplers, work.walkers, result);
-    work.tally.given_up += result.given_up;
-    const std::size_t quantities = work.sum.size();
-    for (std::size_t i = 0; i < samplers.size(); ++i) {
-        if (work.weights[i] == 1.0) continue;
-        for (Rgb& x : std::span(work.samples).subspan(i * quantities, quantities)) x *= work.weights[i];
-    }
-}
-
 // The means of one pixel's samples of a replicate, into work.sum.
-void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::uint64_t replicate, bool has_negative_weights,
+void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_weights,
              const std::optional<glm::dmat3>& colors, Workspace& work) {
     const std::size_t quantities = work.sum.size();
     std::copy_n(samples.begin(), quantities, work.sum.begin());
@@ -95,7 +60,8 @@ void average(std::span<Rgb> samples, std::size_t size, const Pixel& pixel, std::
             sum = leave_out_non_finite(samples, size, q, pixel, replicate, work);
         // Samples that are not negative do not exceed their sum.
         if (has_negative_weights || max_component(sum) > largest.threshold())
-            for (std::size_t i = 0; i < size; ++i) largest.add(max_component(glm::abs(samples[i * quantities + q])));
+            for (std::size_t i = 0; i < size; ++i)
+                largest.add(max_component(glm::abs(samples[i * quantities + q])), {pixel, {pixel, replicate * size + i}});
         sum *= 1.0 / static_cast<double>(size);
         if (colors) sum = *colors * sum;
     }
@@ -111,22 +77,6 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspac
         std::swap(waiting[level], work.carry);
     }
     std::swap(waiting[level], work.carry);
-}
-
-TermEstimator make_estimator(const Scene& scene, const PictureSampler::Settings& settings) {
-    switch (settings.method) {
-        case Method::pointwise:
-            return PointwiseEstimator(scene, settings.walk.bounces);
-        case Method::surface:
-            return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
-        case Method::classic:
-            return WalkEstimator(scene, settings.walk, SpecularContinuation());
-        case Method::guided:
-            if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
-            return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
-        default:
-            return WalkEstimator(scene, settings.walk, MaterialContinuation());
-    }
 }
 
 std::variant<TermEstimator, SplatSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
@@ -154,9 +104,9 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
     MomentsNode node{first, count, std::move(memory)};
     node.data.resize(pixels * stride);
-    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(walks_at_once / size, 1u);
+    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
-        Workspace work(pixels_at_once, size, quantities(), levels);
+        Workspace work(pixels_at_once, quantities(), levels);
         for (std::size_t q = 0; q < quantities(); ++q) work.tally.largest[q].outdo(tally.largest[q]);
         return work;
     });
@@ -169,15 +119,16 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
         std::vector<Pixel> some;
         std::vector<std::decay_t<decltype(sampler_of(begin))>> samplers;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-            some.push_back(
-                {scene_.film.crop_x + static_cast<int>(pixel) % width(), scene_.film.crop_y + static_cast<int>(pixel) / width()});
+            some.push_back(pixel_of(scene_.film, pixel));
             samplers.resize(samplers.size() + size, sampler_of(pixel));
         }
         for (std::uint64_t r = 0; r < count; ++r) {
-            trace(scene_, estimate, std::span(samplers), some, first + r, work);
+            work.tally.given_up += trace(scene_, estimate, std::span(samplers), std::span<const Pixel>(some), first + r, work.group,
+                                         std::span(work.tally.rays));
             for (std::size_t i = 0; i < some.size(); ++i) {
-                average(std::span(work.samples).subspan(i * size * quantities(), size * quantities()), size, some[i], first + r,
-                        std::holds_alternative<SignedFilter>(scene_.film.filter), settings_.colors, work);
+                average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
+                        begin + static_cast<std::uint32_t>(i), first + r, std::holds_alternative<SignedFilter>(scene_.film.filter),
+                        settings_.colors, work);
                 append(r, work.waiting[i], work);
             }
         }

@@ -34,6 +34,11 @@ public:
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
                                    std::vector<double> memory = {}) const;
 
+    // Traces some paths of run() again and tells of them: those of a replicate that advance together (path_group.h), `first` among
+    // them the first one. Returns their samples, all quantities of each, with the bits that run() adds up; nothing is left out.
+    // The pointwise method has no paths: std::logic_error.
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
+
 private:
     const Scene& scene_;
     Settings settings_;

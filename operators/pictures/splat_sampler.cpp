@@ -1,6 +1,6 @@
 #include "operators/pictures/splat_sampler.h"
 
-#include "core/sampling/independent_sampler.h"
+#include "operators/pictures/splat_group.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -15,13 +15,8 @@ namespace neumann {
 
 namespace {
 
-// Paths that advance together, and groups of them that are one piece of work.
-constexpr std::uint32_t paths_at_once = 64, groups_at_once = 8;
-// Paths from the lights that are stratified together.
-constexpr std::uint32_t light_net = 4096;
-// Stands for the lights where random numbers belong to a pixel.
-constexpr std::uint32_t of_lights = 0xffffffffu;
-
+// That are one piece of work.
+constexpr std::uint32_t groups_at_once = 8;
 BidirectionalSettings bidirectional_settings(const Scene& scene, const SamplingSettings& settings) {
     BidirectionalSettings result;
     result.bounces = settings.walk.bounces;
@@ -37,19 +32,6 @@ BidirectionalSettings bidirectional_settings(const Scene& scene, const SamplingS
 }
 
 }  // namespace
-
-// Of a thread.
-struct SplatSampler::Workspace {
-    explicit Workspace(std::size_t quantities) : tally(quantities) {}
-
-    std::vector<CameraRay> rays;
-    std::vector<double> weights;  // of the film's filter
-    std::vector<Rgb> samples;
-    LightTracingWork light;
-    BidirectionalWork bidirectional;
-    std::vector<double> across, down;
-    Tally tally;
-};
 
 // What a piece of work brings to pixels anywhere, in the order in which it was found.
 struct SplatSampler::Chunk {
@@ -73,13 +55,13 @@ SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
       filter_radius_(radius(scene.film.filter)) {}
 
 // Radiance times pixels, of one path among as many as there are pixels.
-void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb& value, std::uint64_t sample, Chunk& chunk,
+void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,
                           Workspace& work) const {
     const Film& film = scene_->film;
     const Rgb each = value / static_cast<double>(pixels_);
+    const SamplePlace place{pixel_at(position), name};
     if (!is_finite(each)) [[unlikely]] {
-        ++work.tally.non_finite_count;
-        work.tally.keep({static_cast<int>(position.x), static_cast<int>(position.y), static_cast<int>(quantity), sample});
+        work.tally.keep({static_cast<int>(quantity), place});
         return;
     }
     const auto reached = [&](double x, int crop, int size) {
@@ -101,81 +83,39 @@ void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb&
             chunk.shares.push_back({static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(quantity), each * weight});
         }
     }
-    work.tally.largest[quantity].add(max_component(each) * largest);
+    work.tally.largest[quantity].add(max_component(each) * largest, place);
 }
 
-template <class Sampler, class SamplerOf>
-void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SamplerOf& sampler_of,
-                                Chunk& chunk, std::span<Rgb> own, Workspace& work) const {
-    const std::size_t Q = settings_.quantities();
-    const std::uint32_t size = settings_.replicate_size;
+std::uint32_t SplatSampler::pixel_at(const Vec2& position) const {
     const Film& film = scene_->film;
-    // Each replicate begins a net of its own.
-    const std::uint64_t paths = (std::uint64_t{pixels_} * size + light_net - 1) / light_net * light_net;
-    std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
-    for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
+    const int x = std::clamp(static_cast<int>(std::floor(position.x)) - film.crop_x, 0, film.crop_width - 1),
+              y = std::clamp(static_cast<int>(std::floor(position.y)) - film.crop_y, 0, film.crop_height - 1);
+    return static_cast<std::uint32_t>(y * film.crop_width + x);
+}
 
-    if (settings_.method == Method::light) {
-        LightWalkSettings walk;
-        walk.vertices = settings_.walk.bounces;
-        walk.rest_probability = settings_.walk.rest_probability;
-        walk.roulette = settings_.walk.roulette;
-        walk.give_up = settings_.walk.give_up;
-        work.tally.given_up += trace_light(
-            *scene_, scene_->geometry, emission_, lights_, walk, std::span(light), work.light,
-            [&](const Vec2& position, std::size_t quantity, const Rgb& value) {
-                spread(position, quantity, value, replicate * size + first, chunk, work);
-            },
-            work.tally.rays);
-        return;
-    }
-
-    std::vector<Sampler> camera;
-    work.rays.resize(samples);
-    work.weights.resize(samples);
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        const std::uint32_t pixel = (first + i) / size;
-        const int x = film.crop_x + static_cast<int>(pixel) % film.crop_width,
-                  y = film.crop_y + static_cast<int>(pixel) / film.crop_width;
-        camera.push_back((first + i) % size == 0 ? sampler_of(camera_points_, pixel) : camera.back());
-        camera.back().start(replicate * size + (first + i) % size);
-        const FilmSample place = film.sample(camera[i].next2(), x, y);
-        work.rays[i] = scene_->camera.sample_ray(place.position, camera[i]);
-        work.weights[i] = place.weight;
-    }
-    work.samples.assign(samples * Q, Rgb(0.0));
-    const int N = settings_.walk.bounces;
-    // To which quantities something found belongs: its bounce, or its way.
-    const auto sort = [&](const Found& f, const auto& add) {
-        if (!settings_.ways_of_last_bounce) {
-            add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value * f.weight);
-        } else if (f.bounce == N) {
-            add(static_cast<std::size_t>(f.s), f.value * f.weight);
-            add(static_cast<std::size_t>(N + 2 + f.s), f.value);
-        }
-    };
-    work.tally.given_up += bidirectional_.trace(
-        scene_->geometry, std::span<const CameraRay>(work.rays), std::span(camera), std::span(light), work.bidirectional,
-        [&](std::uint32_t i, const Found& f) {
-            sort(f, [&](std::size_t q, const Rgb& value) { work.samples[i * Q + q] += value; });
+template <class Sampler>
+void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk,
+                                std::span<Rgb> own, Workspace& work) const {
+    const std::size_t Q = settings_.quantities();
+    const auto name = [&](std::uint32_t i) { return name_in_group(replicate, first, i, settings_.replicate_size); };
+    trace_group<Sampler>(
+        replicate, first, samples, scene_->geometry,
+        [&](std::uint32_t i, std::size_t q, const Rgb& value) { work.group.samples[i * Q + q] += value; },
+        [&](std::uint32_t i, const Vec2& position, std::size_t q, const Rgb& value) {
+            spread(position, q, value, name(i), chunk, work);
         },
-        [&](const Vec2& position, const Found& f) {
-            sort(f, [&](std::size_t q, const Rgb& value) { spread(position, q, value, replicate * size + first, chunk, work); });
-        },
-        work.tally.rays);
+        work);
+    if (settings_.method == Method::light) return;
     for (std::uint32_t i = 0; i < samples; ++i) {
-        const std::uint32_t pixel = (first + i) / size;
+        const SamplePlace place{name(i).pixel, name(i)};
         for (std::size_t q = 0; q < Q; ++q) {
-            Rgb& x = work.samples[i * Q + q];
+            Rgb& x = work.group.samples[i * Q + q];
             if (!is_finite(x)) [[unlikely]] {
-                ++work.tally.non_finite_count;
-                work.tally.keep({film.crop_x + static_cast<int>(pixel) % film.crop_width,
-                                 film.crop_y + static_cast<int>(pixel) / film.crop_width, static_cast<int>(q),
-                                 replicate * size + (first + i) % size});
+                work.tally.keep({static_cast<int>(q), place});
                 x = Rgb(0.0);
             }
-            work.tally.largest[q].add(max_component(glm::abs(x)));
-            own[pixel * Q + q] += x * work.weights[i];
+            work.tally.largest[q].add(max_component(glm::abs(x)), place);
+            own[place.pixel * Q + q] += x * work.group.weights[i];
         }
     }
 }
@@ -197,15 +137,9 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         for (std::uint32_t first = chunk.first; first < chunk.end; first += paths_at_once) {
             const std::uint32_t n = std::min(paths_at_once, chunk.end - first);
             if (settings_.sampler == SamplerKind::sobol)
-                sample_group<SobolSampler>(
-                    replicate, first, n,
-                    [&](const SobolPoints& points, std::uint32_t pixel) { return SobolSampler(points, settings_.seed, pixel); },
-                    chunk, picture, work);
+                sample_group<SobolSampler>(replicate, first, n, chunk, picture, work);
             else
-                sample_group<IndependentSampler>(
-                    replicate, first, n,
-                    [&](const SobolPoints&, std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, chunk,
-                    picture, work);
+                sample_group<IndependentSampler>(replicate, first, n, chunk, picture, work);
         }
     };
     // Pieces are worked on in any order and added up in one: the same bits on any number of threads.

@@ -5,6 +5,7 @@
 #include "core/sampling/sobol_sampler.h"
 #include "operators/bidirectional/bidirectional.h"
 #include "operators/bidirectional/light_tracing.h"
+#include "operators/pictures/path_observer.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/pictures/tally.h"
 #include "operators/statistics/series_moments.h"
@@ -20,6 +21,8 @@ public:
     // As PictureSampler::run().
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                    std::vector<double> memory) const;
+    // As PictureSampler::retrace().
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
 private:
     struct Workspace;
@@ -27,12 +30,18 @@ private:
     // A replicate's picture, all quantities of each pixel, and then their means. False where the work was dropped.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally,
                         const std::function<bool(double)>& part_done) const;
-    // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate.
-    template <class Sampler, class SamplerOf>
-    void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SamplerOf& sampler_of,
-                      Chunk& chunk, std::span<Rgb> own, Workspace& work) const;
-    void spread(const Vec2& position, std::size_t quantity, const Rgb& value, std::uint64_t sample, Chunk& chunk,
+    // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate. `found(path, quantity, value)`: what
+    // a path brings to its own pixel, but for the filter's weight; `splatted(path, position, quantity, value)`: radiance times
+    // pixels.
+    template <class Sampler, class Transport, class OnFound, class OnSplat>
+    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const Transport& T, const OnFound& found,
+                     const OnSplat& splatted, Workspace& work) const;
+    template <class Sampler>
+    void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
+                      Workspace& work) const;
+    void spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,
                 Workspace& work) const;
+    std::uint32_t pixel_at(const Vec2& position) const;
 
     const Scene* scene_;
     SamplingSettings settings_;

@@ -1,6 +1,7 @@
 #include "operators/pictures/tally.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace neumann {
 
@@ -16,6 +17,7 @@ void keep_first(std::vector<NonFiniteSample>& samples) {
 }  // namespace
 
 void Tally::keep(const NonFiniteSample& sample) {
+    ++non_finite_count[static_cast<std::size_t>(sample.bounce)];
     non_finite.push_back(sample);
     if (non_finite.size() > 4 * non_finite_kept) keep_first(non_finite);
 }
@@ -24,11 +26,15 @@ void Tally::merge(const Tally& other) {
     for (std::size_t q = 0; q < rays.size(); ++q) {
         rays[q] += other.rays[q];
         largest[q].merge(other.largest[q]);
+        non_finite_count[q] += other.non_finite_count[q];
     }
     given_up += other.given_up;
-    non_finite_count += other.non_finite_count;
     non_finite.insert(non_finite.end(), other.non_finite.begin(), other.non_finite.end());
     keep_first(non_finite);
+}
+
+std::uint64_t Tally::non_finite_samples() const {
+    return std::accumulate(non_finite_count.begin(), non_finite_count.end(), std::uint64_t{0});
 }
 
 }  // namespace neumann

@@ -1,6 +1,8 @@
-// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result).
+// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result). Walks can be asked
+// to do so by another T.
 #pragma once
 
+#include "operators/pictures/sampling_settings.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
@@ -18,14 +20,29 @@ template <class Continuation>
 class WalkEstimator {
 public:
     WalkEstimator(const Scene& scene, const WalkSettings& settings, const Continuation& continuation)
-        : scene_(&scene), settings_(settings), direct_(scene, settings.direct), continuation_(continuation) {}
+        : scene_(&scene), settings_(settings), direct_(scene, asked(settings)), continuation_(continuation) {}
 
     template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
         walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
+    // For whoever looks on through T: with the rays that were left out because their answers are known.
+    template <class Transport, class Sampler>
+    void trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
+               TermSamples& result) const {
+        WalkSettings settings = settings_;
+        settings.left_out = {};
+        walk(*scene_, T, direct_, settings, rays, samplers, walkers, result, continuation_);
+    }
 
 private:
+    // Where hitting lights does all, they are not asked beside it.
+    static DirectLightSettings asked(const WalkSettings& settings) {
+        DirectLightSettings direct = settings.direct;
+        if (settings.left_out.questions && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;
+        return direct;
+    }
+
     const Scene* scene_;
     WalkSettings settings_;
     DirectLightSampler direct_;
@@ -72,5 +89,6 @@ private:
 
 using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>,
                                    WalkEstimator<SpecularContinuation>, WalkEstimator<GuidedContinuation>, PointwiseEstimator>;
+TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings);
 
 }  // namespace neumann

@@ -70,10 +70,15 @@ public:
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, false); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
 
+    // The mean alone, at one pixel.
+    Rgb term_at(std::size_t pixel, std::size_t i) const { return at(pixel, i, false).first; }
+    Rgb sum_at(std::size_t pixel, std::size_t i) const { return at(pixel, i, true).first; }
+
     double degrees_of_freedom() const { return count_ > 0.0 ? count_ - 1.0 : 0.0; }
     std::size_t quantities() const { return quantities_; }
     int width() const { return width_; }
     int height() const { return height_; }
+    std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
 private:
     friend class SeriesMoments;
@@ -81,7 +86,6 @@ private:
     MeanWithError mean(std::size_t i, bool sum) const;
     // At one pixel: its mean and standard error.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
-    std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
     bool pixels_are_independent() const { return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }
 
     int width_ = 0, height_ = 0;

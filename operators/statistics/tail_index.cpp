@@ -6,26 +6,42 @@
 
 namespace neumann {
 
-void LargestSamples::insert(double x) {
-    heap_.push_back(x);
-    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+namespace {
+
+bool larger(const LargestSamples::Sample& a, const LargestSamples::Sample& b) { return a.value > b.value; }
+
+}  // namespace
+
+void LargestSamples::insert(const Sample& sample) {
+    heap_.push_back(sample);
+    std::push_heap(heap_.begin(), heap_.end(), larger);
     if (heap_.size() > capacity) {
-        std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+        std::pop_heap(heap_.begin(), heap_.end(), larger);
         heap_.pop_back();
     }
-    if (heap_.size() == capacity) threshold_ = heap_.front();
+    if (heap_.size() == capacity) threshold_ = heap_.front().value;
 }
 
 void LargestSamples::merge(const LargestSamples& other) {
     count_ += other.count_;
-    for (const double x : other.heap_)
-        if (x > threshold_) insert(x);
+    for (const Sample& sample : other.heap_)
+        if (sample.value > threshold_) insert(sample);
 }
 
 std::vector<double> LargestSamples::sorted() const {
-    std::vector<double> values = heap_;
+    std::vector<double> values;
+    for (const Sample& sample : heap_) values.push_back(sample.value);
     std::sort(values.begin(), values.end(), std::greater<>());
     return values;
+}
+
+std::vector<LargestSamples::Sample> LargestSamples::standing_out() const {
+    std::vector<Sample> samples;
+    for (const Sample& sample : heap_)
+        if (heap_.size() < capacity || sample.value > threshold_) samples.push_back(sample);
+    std::sort(samples.begin(), samples.end(),
+              [](const Sample& a, const Sample& b) { return a.value != b.value ? a.value > b.value : a.place < b.place; });
+    return samples;
 }
 
 std::optional<TailIndex> tail_index(const LargestSamples& samples) {

@@ -2,6 +2,8 @@
 // on a variance is to be trusted.
 #pragma once
 
+#include "operators/statistics/sample_place.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -15,8 +17,8 @@ public:
     static constexpr std::size_t capacity = 1000;
 
     // Zeros need not be added one by one: add_count() counts samples, add() looks at one.
-    void add(double x) {
-        if (x > threshold_) insert(x);
+    void add(double x, const SamplePlace& place = {}) {
+        if (x > threshold_) insert({x, place});
     }
     void add_count(std::uint64_t n) { count_ += n; }
     void merge(const LargestSamples& other);
@@ -29,11 +31,18 @@ public:
     // Largest first.
     std::vector<double> sorted() const;
 
+    struct Sample {
+        double value;
+        SamplePlace place;
+    };
+    // Likewise, without those that are as large as samples that were not kept: there it is chance which have stayed.
+    std::vector<Sample> standing_out() const;
+
 private:
-    void insert(double x);
+    void insert(const Sample& sample);
     std::uint64_t count_ = 0;
     double threshold_ = 0.0;
-    std::vector<double> heap_;  // smallest on top
+    std::vector<Sample> heap_;  // smallest on top
 };
 
 struct TailIndex {

@@ -14,6 +14,7 @@
 #include "core/scene/pass_lights.h"
 #include "operators/walk/continuation.h"
 #include "operators/walk/direct_light.h"
+#include "operators/walk/left_out.h"
 #include "operators/walk/roulette.h"
 #include "operators/walk/together.h"
 
@@ -37,6 +38,7 @@ struct WalkSettings {
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
+    LeftOut left_out = {};
     // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le, at reciprocal weight; 0: no rest.
     double rest_probability = 1.0;
     // Bounces beyond N after which a walk is given up and counted.
@@ -82,6 +84,7 @@ template <class Transport, class Sampler, class Continuation = MaterialContinuat
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
                       std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
                       const Continuation& continuation = {}) {
+    const LeftOut& left_out = settings.left_out;
     const int N = settings.bounces;
     const std::size_t stride = static_cast<std::size_t>(N) + 2;
     const Emitters& emitters = scene.emitters;
@@ -135,11 +138,23 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         w.light = q.point;
         w.asked = q.w;
     };
+    // What needs no answer.
+    const auto is_in_sight = [&](const Walker& w) {
+        if (direct.asks_directions()) return false;
+        return (left_out.rays_from_surfaces && w.light.is_infinite()) ||
+               (left_out.shadow_rays_in_room && see_through_room(w.x, w.light));
+    };
     // T: the answers. The first points of a pixel's walks are close together.
     const auto look = [&](std::size_t q, bool first) {
         asking.clear();
-        for (const std::uint32_t i : alive)
-            if (!is_black(walker[i].found)) asking.push_back(i);
+        for (const std::uint32_t i : alive) {
+            const Walker& w = walker[i];
+            if (is_black(w.found)) continue;
+            if (is_in_sight(w))
+                add(i, q, w.found);
+            else
+                asking.push_back(i);
+        }
         out.rays[q] += asking.size();
         const auto kind = first ? RayCaster::Rays::alike : RayCaster::Rays::any;
         for (std::size_t k = 0; k < asking.size(); k += packet) {
@@ -246,7 +261,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             look(q, bounce == 1);
 
             // The ray along wi is wanted for this bounce's light, for a further bounce, or for the rest.
-            const bool only_mirrors = !direct.counts_what_is_hit() && bounce == N && settings.rest_probability == 0.0;
+            const bool only_for_light = bounce == N && settings.rest_probability == 0.0;
+            const bool only_mirrors = only_for_light && !direct.counts_what_is_hit();
+            if (only_for_light && left_out.rays_for_light) break;
             filter([&](Walker& w, std::uint32_t i) {
                 if (w.pdf == 0.0 || is_black(w.beta) || (only_mirrors && w.pdf != delta_pdf)) return false;
                 if (rest || settings.roulette.kind != Roulette::Kind::none) {
@@ -261,8 +278,9 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             });
 
             // T: the next vertices.
-            out.rays[q] += alive.size();
+            if (!left_out.rays_from_surfaces) out.rays[q] += alive.size();
             const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
+                if (left_out.rays_from_surfaces) return std::uint32_t{0};
                 if constexpr (Continuation::joins_points) {
                     const std::uint32_t seen = T.visible(
                         n,

@@ -25,7 +25,7 @@ protected:
         for (const auto& [text, count] : expected)
             printed += "warning: " + text + (count > 1 ? " (" + std::to_string(count) + " times)" : "") + "\n";
         EXPECT_EQ(done.err, printed);
-        EXPECT_EQ(run_json("a").at("non_finite_samples").at("count"), 0);
+        EXPECT_EQ(run_json("a").at("health").at("non_finite_samples").at("count"), 0);
     }
     double mean(int bounce) const { return run_json("a").at("bounces").at(bounce).at("mean"); }
 };

@@ -128,7 +128,7 @@ TEST_F(RenderFiles, FourBounces) {
     EXPECT_EQ(run.at("samples").at("degrees_of_freedom"), 5.0);
     EXPECT_EQ(run.at("samples").at("outcome"), "samples reached");
     EXPECT_EQ(run.at("rest").at("verdict"), "measured");
-    EXPECT_EQ(run.at("non_finite_samples").at("count"), 0);
+    EXPECT_EQ(run.at("health").at("non_finite_samples").at("count"), 0);
     EXPECT_EQ(run.at("warnings"), nlohmann::json::array());
     EXPECT_GE(run.at("timing").at("total_seconds").get<double>(), run.at("timing").at("sampling_seconds").get<double>());
 }

@@ -30,10 +30,11 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help", "-o",        "-n",        "--tail",       "--spp",       "--time",
-                                                    "--error",   "--method",  "--direct",  "--lights",     "--roulette",  "--split",
-                                                    "--ways",    "--sampler", "--patches", "--directions", "--reference", "--seed",
-                                                    "-t",        "-D",        "--quiet",   "--json",       "--importance"}));
+    EXPECT_EQ(options(help),
+              (std::set<std::string>{"-h,--help", "-o",        "-n",        "--tail",       "--spp",        "--time",
+                                     "--error",   "--method",  "--direct",  "--lights",     "--roulette",   "--split",
+                                     "--ways",    "--sampler", "--patches", "--directions", "--reference",  "--seed",
+                                     "-t",        "-D",        "--quiet",   "--json",       "--importance", "--plan"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("Usage: neumann render "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -68,12 +69,21 @@ TEST_F(RenderHelp, OptionsOfStudy) {
                                      "--repeats", "-n", "--error", "--resume", "--seed", "-t", "-D", "--quiet", "--json"}));
 }
 
+TEST_F(RenderHelp, OptionsOfStress) {
+    EXPECT_EQ(options(printed({"help", "stress"})),
+              (std::set<std::string>{"-h,--help", "--only", "--list", "--seed", "-t", "--json"}));
+}
+
+TEST_F(RenderHelp, OptionsOfPlan) {
+    EXPECT_EQ(options(printed({"help", "plan"})), (std::set<std::string>{"-h,--help", "-D", "--json"}));
+}
+
 TEST_F(RenderHelp, TheCommands) {
     const std::string help = printed({"--help"});
     EXPECT_EQ(help.substr(0, help.find('\n')),
               "neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.");
-    for (const char* command :
-         {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  study ", "\n  help "})
+    for (const char* command : {"\n  render ", "\n  compare ", "\n  spectrum ", "\n  solve ", "\n  export ", "\n  study ",
+                                "\n  replay ", "\n  stress ", "\n  plan ", "\n  help "})
         EXPECT_NE(help.find(command), std::string::npos) << help;
     EXPECT_EQ(printed({"help"}), help);
 }
@@ -83,7 +93,9 @@ TEST_F(RenderHelp, Version) { EXPECT_TRUE(std::regex_match(printed({"--version"}
 TEST_F(RenderHelp, UnknownCommands) {
     Finished done = run({"help", "rendr"});
     EXPECT_EQ(done.exit_code, 2);
-    EXPECT_EQ(done.err, "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, help\n");
+    EXPECT_EQ(done.err,
+              "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, stress, "
+              "plan, help\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);

@@ -82,7 +82,7 @@ TEST_F(RenderOldRoomSlow, RendersWithAllItsMaterialsAndLights) {
               "strictNormals of an integrator left out", "uoffset, voffset, uscale and vscale taken as a transform to_uv"})
             EXPECT_NE(done.err.find(note), std::string::npos) << note << '\n' << done.err;
         expect_finite("a");
-        EXPECT_EQ(run_json("a").at("non_finite_samples").at("count"), 0);
+        EXPECT_EQ(run_json("a").at("health").at("non_finite_samples").at("count"), 0);
         for (int i = 1; i <= 3; ++i)
             for (int c = 0; c < 3; ++c) means[w].push_back(channel_mean(picture("a", numbered("bounce", i)), c));
     }

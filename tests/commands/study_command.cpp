@@ -238,7 +238,8 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_NE(refusal({"--methods", "walk:direct=nowhere"}).find("--methods walk:direct=nowhere: --direct: nowhere not in {"),
               std::string::npos);
     EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
-              "matrix:direct=light: --direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to matrix\n");
+              "matrix:direct=light: --direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to "
+              "matrix\n");
     EXPECT_EQ(refusal({"--methods", "walk:patches=100", "--samples", "4"}),
               "walk:patches=100: --patches and --directions belong to --method guided, patches, matrix and gather, not to walk\n");
     EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),

@@ -1,11 +1,11 @@
 // Surfaces that are not diffuse: R between cells of directions.
 #include "core/sampling/sobol_sampler.h"
+#include "operators/known/enclosures.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
 #include "operators/series/neumann_series.h"
 #include "tests/matrix/one_matrix.h"
-#include "tests/physics/enclosures.h"
 
 #include <gtest/gtest.h>
 

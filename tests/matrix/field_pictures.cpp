@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 #include <algorithm>
+#include <atomic>
 
 namespace neumann {
 namespace {
@@ -67,6 +69,27 @@ INSTANTIATE_TEST_SUITE_P(, FieldPicturesSlow,
                              std::replace(name.begin(), name.end(), '-', '_');
                              return (std::get<0>(test.param) == FieldMethod::matrix ? "matrix_" : "gather_") + name;
                          });
+
+// Whoever has had enough waits for no step of it: the rays of T, the applications of K and the pixels all ask, and once one was
+// told so, only those that run at the same time ask as well.
+TEST(FieldPictures, AreGivenUpSoonAfterTheInterruption) {
+    const Scene scene = read_scene(SCENES "/facing-mirrors/facing-mirrors.xml", {{"res", "16"}});
+    FieldSettings settings;
+    settings.patching.patches = 500;
+    settings.replicates = 2;
+    std::atomic<int> asked = 0;
+    ASSERT_TRUE(render_fields(scene, settings, [&] {
+        ++asked;
+        return false;
+    }));
+    const int all = asked;
+    EXPECT_GT(all, 50);
+    for (const int patience : {0, 5, all / 4, all / 2, all - 40}) {
+        asked = 0;
+        EXPECT_FALSE(render_fields(scene, settings, [&] { return asked++ >= patience; })) << patience << " of " << all;
+        EXPECT_LE(asked, patience + 1 + oneapi::tbb::this_task_arena::max_concurrency()) << patience << " of " << all;
+    }
+}
 
 }  // namespace
 }  // namespace neumann

@@ -1,11 +1,11 @@
 // What holds by construction, to rounding: rows of T, the furnace, norms, adjoints, and L = Le + K L.
 #include "core/sampling/independent_sampler.h"
+#include "operators/known/enclosures.h"
 #include "operators/matrix/adjoint.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
 #include "operators/series/neumann_series.h"
-#include "tests/physics/enclosures.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/sampling/independent_sampler.h"
-#include "tests/physics/enclosures.h"
+#include "operators/known/enclosures.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Smooth boundaries that let light through: Fresnel's and Snell's laws, and the terms of slabs, panes and glass spheres, which are
 // known one by one. Rough ones are in rough_dielectrics.cpp, holes in masks.cpp.
+#include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

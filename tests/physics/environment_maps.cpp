@@ -2,8 +2,8 @@
 #include "core/emitter/environment_map.h"
 #include "core/image/display.h"
 #include "core/sampling/independent_sampler.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

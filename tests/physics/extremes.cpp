@@ -1,6 +1,6 @@
 // Odd scenes with plain answers.
 #include "core/sampling/warp.h"
-#include "tests/physics/pictures.h"
+#include "operators/known/pictures.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -171,7 +171,7 @@ TEST(Extremes, WithoutLightOrSurfacesAllIsZero) {
                         EXPECT_TRUE(is_black(e.mean.pixels[i]));
                         EXPECT_TRUE(is_black(e.standard_error.pixels[i]));
                     }
-            EXPECT_EQ(pictures.tally.non_finite_count, 0u);
+            EXPECT_EQ(pictures.tally.non_finite_samples(), 0u);
         }
     }
 }

@@ -1,6 +1,6 @@
 // Pictures through reconstruction filters.
+#include "operators/known/pictures.h"
 #include "operators/pictures/field_pictures.h"
-#include "tests/physics/pictures.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 //
 // And K is linear: emitters add up, and emitters that together cover an enclosure evenly add up to the furnace.
 #include "core/geometry/area_sampler.h"
-#include "tests/physics/enclosures.h"
+#include "operators/known/enclosures.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>

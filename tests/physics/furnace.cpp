@@ -1,7 +1,7 @@
 // The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for
 // lights carries exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
-#include "tests/physics/enclosures.h"
-#include "tests/physics/pictures.h"
+#include "operators/known/enclosures.h"
+#include "operators/known/pictures.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
                     EXPECT_LE(error, 8.0 * i * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le";
                     EXPECT_EQ(spread, 0.0) << "K^" << i << " Le";
                 }
-                EXPECT_EQ(pictures.tally.non_finite_count, 0u);
+                EXPECT_EQ(pictures.tally.non_finite_samples(), 0u);
             }
     }
 }

@@ -1,6 +1,6 @@
 // hide_emitters: what the camera sees of a scene whose lights it sees through.
+#include "operators/known/pictures.h"
 #include "operators/pictures/field_pictures.h"
-#include "tests/physics/pictures.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What may not depend on the choice of units or of the origin. The same random numbers make the same walks, so whole pictures are
 // compared, pixel by pixel.
-#include "tests/physics/pictures.h"
+#include "operators/known/pictures.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

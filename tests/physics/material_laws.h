@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/sampling/independent_sampler.h"
-#include "tests/physics/quadrature.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>

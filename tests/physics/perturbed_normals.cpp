@@ -1,6 +1,6 @@
 // Normal and bump maps: the nested material around another normal.
 #include "core/sampling/sobol_sampler.h"
-#include "tests/physics/quadrature.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Rough metals: the laws of a material, by quadrature and χ².
 #include "core/sampling/independent_sampler.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,8 +1,8 @@
 // Furnaces of rough metals without absorption: GGX has known albedos, and known terms in a sphere, where a chord leaves and arrives
 // at the same angle.
 #include "core/base/frame.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

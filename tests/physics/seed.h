@@ -1,6 +1,8 @@
 // The seed of the statistical tests: the same every day, or what NEUMANN_TEST_SEED says, to run them over many.
 #pragma once
 
+#include "operators/known/probe.h"
+
 #include <cstdint>
 #include <cstdlib>
 
@@ -10,6 +12,6 @@ inline std::uint64_t chosen_seed() {
     const char* text = std::getenv("NEUMANN_TEST_SEED");
     return text ? std::strtoull(text, nullptr, 10) : 20240229;
 }
-inline const std::uint64_t fixed_seed = chosen_seed();
+inline const std::uint64_t fixed_seed = known::default_seed = chosen_seed();
 
 }  // namespace neumann::physics

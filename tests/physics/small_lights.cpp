@@ -1,7 +1,7 @@
 // Lights that no ray meets, or that surround the scene alike on all sides: what they bring is known exactly.
 #include "core/sampling/independent_sampler.h"
 #include "core/texture/bitmap.h"
-#include "tests/physics/pictures.h"
+#include "operators/known/pictures.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

@@ -4,7 +4,7 @@
 //
 // A chord leaves and arrives at the same angle, so for emission that depends on the angle, <Le> is 2 ∫ Le(μ) μ dμ, the mean over
 // the cosine-weighted hemisphere. Since G is constant, light sampling has finite variance too.
-#include "tests/physics/enclosures.h"
+#include "operators/known/enclosures.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>
@@ -73,8 +73,7 @@ TEST(Sphere, IsSeenFromItsOutsideAlongTangents) {
             const Vec3 w = glm::normalize(shape == 0 ? glm::cross(n, Vec3(0.2, 0.5, 0.7)) : Vec3(-n.y, n.x, 0.1));
             const Vec3 touched = shape == 0 ? ball + n * 0.3 : Vec3(-3, 0.3, 0.7) + n * 0.3;
             SurfacePoint hit;
-            if (!scene.geometry.first_hit(touched - w * 1.7, w, std::numeric_limits<double>::infinity(), hit) ||
-                hit.shape != shape)
+            if (!scene.geometry.first_hit(touched - w * 1.7, w, std::numeric_limits<double>::infinity(), hit) || hit.shape != shape)
                 continue;
             ++hits[shape];
             EXPECT_LT(glm::dot(hit.normal, w), 0.0) << i;

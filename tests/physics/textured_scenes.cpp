@@ -1,8 +1,8 @@
 // Rendered textures and normal maps against exact integrals. 6 comparisons by z.
 #include "core/scene/shading_normals.h"
 #include "core/texture/bitmap.h"
+#include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
-#include "tests/physics/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

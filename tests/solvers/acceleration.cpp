@@ -1,6 +1,7 @@
 // How many applications of K each method takes on the cube of 16 × 16 patches a face whose ceiling emits, until ‖x − L‖∞ ≤ ε ‖L‖∞
 // for ε = 1e-3, 1e-6, 1e-10, with L by LU. The counts were measured with independent programs of the same methods: ours may differ
 // by 2 or by 10%, for where a method starts and in which order it rounds.
+#include "operators/known/cube.h"
 #include "operators/solvers/anderson.h"
 #include "operators/solvers/chebyshev.h"
 #include "operators/solvers/krylov.h"
@@ -8,13 +9,13 @@
 #include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
-#include "tests/solvers/cube.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 
@@ -91,7 +92,7 @@ void expect_all(Acceleration& cube, const Expected& expected, double lowest, dou
 }
 
 Acceleration uniform(double rho) {
-    const Cube cube = make_symmetric_cube(16);
+    const Cube cube = symmetric_cube(16);
     return {cube, Vector::Constant(cube.size(), rho)};
 }
 
@@ -152,7 +153,7 @@ TEST(Acceleration, Albedo0999) {
 }
 
 TEST(Acceleration, MixedAlbedo) {
-    const Cube whole = make_cube(16);
+    const Cube whole = patched_cube(16);
     Acceleration cube(whole, whole.on_faces({.2, .5, .8, .9, .95, .7}));
     expect_all(cube,
                {{15, 32, 54},
@@ -172,7 +173,7 @@ TEST(Acceleration, MixedAlbedo) {
 // The quotient by the symmetries of the square stands for the whole cube: same iterates, same counts, but for rounding at the
 // threshold.
 TEST(Acceleration, QuotientTakesAsManyAsTheWholeCube) {
-    const Cube cube = make_cube(16);
+    const Cube cube = patched_cube(16);
     Acceleration whole(cube, Vector::Constant(cube.size(), 0.9)), quotient = uniform(0.9);
     for (const char* method : {"neumann", "ratio-tail", "aitken", "vector-epsilon", "anderson-3", "cg", "gmres"}) {
         const Solver& solve = find_solver(method)->solve;

@@ -1,16 +1,17 @@
 // Where methods have no answer, or one that must not be believed.
+#include "operators/known/small_problems.h"
 #include "operators/solvers/chebyshev.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
-#include "tests/solvers/small_problems.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 

@@ -1,10 +1,11 @@
 // The interface, dense and sparse, against each other and against the matrix itself.
+#include "operators/known/small_problems.h"
 #include "operators/spectrum/closure.h"
-#include "tests/solvers/small_problems.h"
 
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 TEST(Channels, DenseAndSparseAreTheMatrix) {
     DenseChannel::Matrix m(3, 3);

@@ -1,6 +1,6 @@
 // The unit cube whose ceiling emits 1, K^i Le = ρ^i g_i: known to 1e-13 (g_2) and 1e-8 from quadratures other than patches.
+#include "operators/known/cube.h"
 #include "operators/series/term_series.h"
-#include "tests/solvers/cube.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <numbers>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 
@@ -61,7 +62,7 @@ constexpr Faces middle_2 = {0.16324094849141, 0.13875246294508, 0.20828374308929
 }  // namespace
 
 TEST(CubeBounces, FirstBounceIsExactOnAverage) {
-    const Cube cube = make_symmetric_cube(8);
+    const Cube cube = symmetric_cube(8);
     EXPECT_LT(means(cube, bounce(cube, 1)).largest_difference(mean_1), 1e-13);
 }
 
@@ -73,7 +74,7 @@ TEST(CubeBounces, ErrorsOfTheMeans) {
     };
     for (const Row& row :
          {Row{4, 6.83e-3, 2.15e-4}, Row{8, 2.02e-3, 1.16e-4}, Row{16, 5.80e-4, 4.96e-5}, Row{32, 1.63e-4, 1.78e-5}}) {
-        const Cube cube = make_symmetric_cube(row.n);
+        const Cube cube = symmetric_cube(row.n);
         EXPECT_NEAR(means(cube, bounce(cube, 2)).largest_difference(mean_2), row.g2, 5e-3 * row.g2) << row.n;
         EXPECT_NEAR(means(cube, bounce(cube, 5)).largest_difference(mean_5), row.g5, 5e-3 * row.g5) << row.n;
     }
@@ -85,7 +86,7 @@ TEST(CubeBounces, ErrorsInTheMiddleOfFaces) {
         double g2;
     };
     for (const Row& row : {Row{4, 2.18e-3}, Row{8, 6.01e-4}, Row{16, 1.54e-4}}) {
-        const Cube cube = make_cube(row.n);
+        const Cube cube = patched_cube(row.n);
         const Vector g = bounce(cube, 1);
         const auto& faces = cube_faces();
         const Faces middle = {gathered(cube, g, faces[x0]), gathered(cube, g, faces[cube_floor]),
@@ -97,7 +98,7 @@ TEST(CubeBounces, ErrorsInTheMiddleOfFaces) {
 // Closed and diffuse: power falls by ρ a bounce, whatever is emitted; and with any ρ what is absorbed, (1−ρ)/ρ K^i Le, adds up to
 // what was emitted.
 TEST(CubeBounces, PowerIsConserved) {
-    const Cube cube = make_cube(8);
+    const Cube cube = patched_cube(8);
     const Vector rho = cube.on_faces({.2, .5, .8, .9, .95, .7});
     const DenseChannel K7 = cube.channel(0.7), K = cube.channel(rho);
     TermSeries even(K7, cube.ceiling()), mixed(K, cube.ceiling());
@@ -113,7 +114,7 @@ TEST(CubeBounces, PowerIsConserved) {
 
 // ⟨We, K^i Le⟩ = ⟨K*^i We, Le⟩ with We the mean over 4 × 4 patches in a corner of the floor, n = 16.
 TEST(CubeBounces, ImportanceGivesTheSame) {
-    const Cube cube = make_cube(16);
+    const Cube cube = patched_cube(16);
     const DenseChannel K = cube.channel(cube.on_faces({.2, .5, .8, .9, .95, .7}));
     Vector We = Vector::Zero(cube.size());
     for (Eigen::Index u = 0; u < cube.size(); ++u) {

@@ -1,12 +1,13 @@
 // The two-sided enclosure: widths on the cube with mixed albedos (n = 16, ceiling emits), and that L is inside.
+#include "operators/known/cube.h"
+#include "operators/known/small_problems.h"
 #include "operators/series/series_run.h"
 #include "operators/solvers/lu.h"
-#include "tests/solvers/cube.h"
-#include "tests/solvers/small_problems.h"
 
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 // t_{n−1} against t_n; widths, the norm bound of S_n and its true tail relative to ‖L‖∞.
 TEST(Enclosures, CubeWithMixedAlbedos) {
@@ -20,7 +21,7 @@ TEST(Enclosures, CubeWithMixedAlbedos) {
         {12, 0.6611265176542338, 0.6643522929078157, 4.397083129864574e-5, 0.029458148131107566, 0.0030449503372995523},
         {16, 0.6621676895838545, 0.6625043154258586, 8.821492623268e-7, 0.0056769834858819805, 0.0005859710348624664},
         {24, 0.662255079198025, 0.6622598142276755, 4.590114439222745e-10, 0.0002100999651593624, 2.1682606323683657e-05}};
-    const Cube cube = make_cube(16);
+    const Cube cube = patched_cube(16);
     const DenseChannel K = cube.channel(cube.on_faces({.2, .5, .8, .9, .95, .7}));
     Problem problem;
     problem.K = &K;
@@ -46,7 +47,7 @@ TEST(Enclosures, CubeWithMixedAlbedos) {
 }
 
 TEST(Enclosures, StopTheSeriesEarly) {
-    const Cube cube = make_symmetric_cube(16);
+    const Cube cube = symmetric_cube(16);
     const DenseChannel K = cube.channel(0.99);
     Problem problem;
     problem.K = &K;

@@ -1,13 +1,14 @@
 // Form factors against closed forms, checked against independent quadrature to 3e-14, and the cube put together of them.
 #include "operators/matrix/form_factors.h"
+#include "operators/known/cube.h"
 #include "operators/spectrum/closure.h"
-#include "tests/solvers/cube.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 
@@ -92,14 +93,14 @@ TEST(FormFactors, SlantedFarPairs) {
 }
 
 TEST(FormFactors, CubeIsClosedAndReciprocal) {
-    const Cube cube = make_cube(16);
+    const Cube cube = patched_cube(16);
     const DenseChannel F = cube.channel(1.0);
     EXPECT_LT(closure_defect(F), 1e-12);
     EXPECT_LT(reciprocity_defect(F), 1e-14);
     EXPECT_LT(adjoint_defect(F), 1e-14);
-    EXPECT_LT(closure_defect(make_symmetric_cube(16).channel(1.0)), 1e-12);
+    EXPECT_LT(closure_defect(symmetric_cube(16).channel(1.0)), 1e-12);
     // The whole cube and its quotient are the same operator: g_3 agrees.
-    const Cube quotient = make_symmetric_cube(16);
+    const Cube quotient = symmetric_cube(16);
     Vector g = cube.ceiling(), q = quotient.ceiling();
     for (int i = 0; i < 3; ++i) {
         g = cube.factors.F * g;

@@ -1,12 +1,13 @@
 // What stops the series, and what must not.
+#include "operators/known/cube.h"
+#include "operators/known/small_problems.h"
 #include "operators/series/series_run.h"
 #include "operators/spectrum/remaining.h"
-#include "tests/solvers/cube.h"
-#include "tests/solvers/small_problems.h"
 
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 // K^n Le = ρ^n; relative remainder after S_n is ρ^{n+1}: terms for 1e-6 and 1e-12.
 TEST(SeriesRuns, Furnace) {
@@ -117,7 +118,7 @@ TEST(SeriesRuns, LimitIsNotConvergence) {
 
 // Closed and uniform: Σ_{k>n} ρ^k / Σ ρ^k = ρ^{n+1}, whatever is emitted.
 TEST(SeriesRuns, BouncesUntilLittleRemains) {
-    const Cube cube = make_symmetric_cube(4);
+    const Cube cube = symmetric_cube(4);
     const DenseChannel K = cube.channel(0.9);
     const std::vector<SeriesRow> rows = run_series(K, cube.ceiling(), {.tolerance = 1e-9, .norm = 0.9}).rows;
     EXPECT_EQ(bounces_until(rows, 0.1), 21);    // 0.9^22 = 0.0985

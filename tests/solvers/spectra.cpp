@@ -1,9 +1,9 @@
 // Spectra: the cube patch by patch, mirrors with complex eigenvalues, norms that are not the spectral radius.
+#include "operators/known/cube.h"
+#include "operators/known/small_problems.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/rounding.h"
 #include "operators/spectrum/spectrum.h"
-#include "tests/solvers/cube.h"
-#include "tests/solvers/small_problems.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,14 @@
 #include <numbers>
 
 using namespace neumann;
+using namespace neumann::known;
 
 // λ₂(n) of n × n patches a face, threefold; of the whole cube. It grows on with n, towards 0.5945 of the corners, like 1/(ln n)².
 TEST(Spectra, CubeByPatches) {
     const std::pair<int, double> rows[] = {
         {2, 0.35378252258065523}, {4, 0.4473321313543558}, {8, 0.4969093656850799}, {16, 0.5253458862440682}};
     for (const auto& [n, second] : rows) {
-        const Cube cube = make_cube(n);
+        const Cube cube = patched_cube(n);
         const Eigenpairs found = leading_eigenpairs(cube.channel(1.0), 4);
         ASSERT_TRUE(found.converged) << n;
         ASSERT_EQ(found.pairs.size(), 4u);
@@ -31,7 +32,7 @@ TEST(Spectra, CubeByPatches) {
 }
 
 TEST(Spectra, MixedAlbedos) {
-    const Cube cube = make_cube(16);
+    const Cube cube = patched_cube(16);
     const DenseChannel K = cube.channel(cube.on_faces({.2, .5, .8, .9, .95, .7}));
     EXPECT_NEAR(spectral_radius(K), 0.6622559026688091, 1e-11);
     const Eigenpairs right = leading_eigenpairs(K, 1), left = leading_eigenpairs(K, 1, true);
@@ -86,7 +87,7 @@ TEST(Spectra, CentreToCentreFormFactorsDoNotClose) {
     };
     for (const Row& row :
          {Row{2, 1.2729893039, 1.2729893039}, Row{4, 1.2428650171, 1.1431238396}, Row{8, 1.2391144812, 1.0754847461}}) {
-        Cube cube = make_cube(row.n);
+        Cube cube = patched_cube(row.n);
         for (Eigen::Index u = 0; u < cube.size(); ++u)
             for (Eigen::Index v = 0; v < cube.size(); ++v) {
                 if (cube.face[u] == cube.face[v]) continue;
@@ -124,7 +125,7 @@ TEST(Spectra, WhereSumsStagnate) {
         EXPECT_NEAR(expected_stagnation(std::numeric_limits<float>::epsilon(), rho), bounce, 0.1 * bounce);
     }
     // The cube with 16 × 16 patches a face: 140 and 1201.
-    const Cube cube = make_symmetric_cube(16);
+    const Cube cube = symmetric_cube(16);
     EXPECT_NEAR(*stagnation<float>(cube.channel(0.9), cube.ceiling(), 2000), 140, 2);
     EXPECT_NEAR(*stagnation<float>(cube.channel(0.99), cube.ceiling(), 2000), 1201, 12);
     // In double: ρ^n < 2^-53 / (1 − ρ), n = 326 at 0.9.

@@ -1,12 +1,13 @@
 // Two unknowns, where everything can be written down: near-parallel plates (concentric spheres) and the dome over a disc.
+#include "operators/known/small_problems.h"
 #include "operators/series/series_run.h"
 #include "operators/solvers/solvers.h"
 #include "operators/spectrum/spectrum.h"
-#include "tests/solvers/small_problems.h"
 
 #include <gtest/gtest.h>
 
 using namespace neumann;
+using namespace neumann::known;
 
 namespace {
 

@@ -45,6 +45,9 @@ void expect_same(const Tally& a, const Tally& b) {
     for (std::size_t q = 0; q < a.largest.size(); ++q) {
         EXPECT_EQ(a.largest[q].count(), b.largest[q].count());
         EXPECT_TRUE(same_bits(a.largest[q].sorted(), b.largest[q].sorted())) << q;
+        const auto of_a = a.largest[q].standing_out(), of_b = b.largest[q].standing_out();
+        ASSERT_EQ(of_a.size(), of_b.size());
+        for (std::size_t i = 0; i < of_a.size(); ++i) EXPECT_EQ(of_a[i].place, of_b[i].place) << q;
     }
 }
 void expect_same(const SeriesMoments& a, const SeriesMoments& b) {

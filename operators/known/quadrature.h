@@ -6,7 +6,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-namespace neumann::physics {
+namespace neumann::known {
 
 template <int points = 31, class Function>
 double integrate(double from, double to, double tolerance, const Function& f) {
@@ -39,4 +39,4 @@ inline double albedo(const Bsdf& bsdf, double mu, int channel = 0, double tolera
     return over_hemisphere(mu, tolerance, [&](const Vec3& wi) { return eval(bsdf, {}, at_cosine(mu), wi)[channel] * wi.z; });
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::known

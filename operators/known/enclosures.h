@@ -1,12 +1,12 @@
 // Closed scenes of many shapes, for laws that hold in all of them.
 #pragma once
 
-#include "tests/physics/scene_maker.h"
+#include "operators/known/scene_maker.h"
 
 #include <string>
 #include <vector>
 
-namespace neumann::physics {
+namespace neumann::known {
 
 struct Enclosure {
     std::string name;
@@ -35,4 +35,4 @@ inline std::vector<Enclosure> enclosures(const Surface& surface) {
     return all;
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::known

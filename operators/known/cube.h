@@ -9,7 +9,7 @@
 #include <memory>
 #include <tuple>
 
-namespace neumann {
+namespace neumann::known {
 
 enum CubeFace { x0, x1, y0, y1, cube_floor, cube_ceiling };
 
@@ -50,7 +50,7 @@ struct Cube {
     }
 };
 
-inline Cube make_cube(int n) {
+inline Cube patched_cube(int n) {
     Cube cube;
     for (int f = 0; f < 6; ++f)
         for (const Parallelogram& patch : cells(cube_faces()[f], n, n)) {
@@ -64,7 +64,7 @@ inline Cube make_cube(int n) {
 // The same for what is symmetric under the eight symmetries of the square (x, y): one unknown for all patches that these turn into
 // each other, of their area. All walls are x0. Every method that treats equal unknowns equally, and weights them with their area,
 // has the same iterates as on the whole cube.
-inline Cube make_symmetric_cube(int n) {
+inline Cube symmetric_cube(int n) {
     const auto kind = [n](const Vec3& centre) {
         const auto folded = [n](double x) {
             const long k = std::lround(2 * n * x);
@@ -98,4 +98,4 @@ inline Cube make_symmetric_cube(int n) {
     return cube;
 }
 
-}  // namespace neumann
+}  // namespace neumann::known

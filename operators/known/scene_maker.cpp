@@ -1,4 +1,4 @@
-#include "tests/physics/scene_maker.h"
+#include "operators/known/scene_maker.h"
 
 #include "core/base/frame.h"
 #include "core/sampling/warp.h"
@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-namespace neumann::physics {
+namespace neumann::known {
 
 std::uint32_t SceneMaker::add(Shape shape, const Surface& surface) {
     Materials::Sides sides;
@@ -133,4 +133,4 @@ TriangleMesh transformed(TriangleMesh mesh, const Mat4& to_world) {
     return mesh;
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::known

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-namespace neumann {
+namespace neumann::known {
 
 inline Vector vector(std::initializer_list<double> values) {
     Vector x(static_cast<Eigen::Index>(values.size()));
@@ -42,4 +42,4 @@ inline DenseChannel sphere_halves(double a, double b) { return two_by_two(a / 2,
 // Rooms that do not see each other, of one unknown each.
 inline DenseChannel separate_rooms(double a, double b) { return two_by_two(a, 0.0, 0.0, b, 1.0, 1.0); }
 
-}  // namespace neumann
+}  // namespace neumann::known

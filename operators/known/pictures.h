@@ -3,7 +3,7 @@
 
 #include "operators/pictures/picture_sampler.h"
 
-namespace neumann::physics {
+namespace neumann::known {
 
 struct Pictures {
     SeriesMoments::Result result;
@@ -19,4 +19,4 @@ inline Pictures render(const Scene& scene, const PictureSampler::Settings& setti
     return {moments.result(), std::move(tally)};
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::known

@@ -1,0 +1,67 @@
+#include "apps/plan.h"
+
+#include "apps/options.h"
+#include "core/reader/read_scene.h"
+#include "operators/pictures/pilot.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+namespace {
+
+// Bounces that a render has pictures of where none are asked for.
+PlanPart late_bounces(const Scene& scene) {
+    constexpr const char* part = "late bounces";
+    if (scene.bounces)
+        return {part, false, fmt::format("the scene's max_depth asks for bounces 0 to {}", *scene.bounces),
+                "pictures of all later ones: their sum is measured as the rest"};
+    constexpr double tail = 0.01;
+    const Pilot pilot(scene, {}, 0);
+    const int n = pilot.bounces_for_tail(tail);
+    if (n < 0 || !pilot.converges()) return {part, true, "the series falls too slowly, or does not end", ""};
+    return {part, false,
+            fmt::format("by {} walks, bounces after {} are below {} of the sum: {:.2g} of it", pilot.walks(), n, tail,
+                        pilot.sum() > 0.0 ? pilot.rest(n).mean / pilot.sum() : 0.0),
+            "pictures of these: their sum is measured as the rest"};
+}
+
+}  // namespace
+
+nlohmann::ordered_json plan_json(const Plan& plan) {
+    auto json = nlohmann::ordered_json::array();
+    for (const PlanPart& p : plan.parts) {
+        json.push_back({{"part", p.part}, {"kept", p.kept}, {"reason", p.reason}});
+        if (!p.kept) json.back()["saves"] = p.saves;
+    }
+    return json;
+}
+
+CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
+    auto* command = app.add_subcommand("plan", "Print what a scene needs of the machinery, what is left out, and why");
+    command->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
+    add_definitions(*command, request.definitions);
+    command->add_flag("--json", request.json, "Print JSON");
+    return command;
+}
+
+int plan_command(const PlanRequest& request) {
+    const Scene scene = read_scene(request.scene, parse_definitions(request.definitions));
+    Plan plan = make_plan(scene);
+    plan.parts.push_back(late_bounces(scene));
+    if (request.json) {
+        fmt::print("{}\n", plan_json(plan).dump(2));
+        return 0;
+    }
+    for (const bool kept : {true, false}) {
+        fmt::print("{}\n", kept ? "Kept:" : "\nLeft out:");
+        for (const PlanPart& p : plan.parts) {
+            if (p.kept != kept) continue;
+            fmt::print("  {}\n      {}\n", p.part, p.reason);
+            if (!kept) fmt::print("      saves {}\n", p.saves);
+        }
+    }
+    return 0;
+}
+
+}  // namespace neumann

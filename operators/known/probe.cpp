@@ -1,0 +1,275 @@
+#include "operators/known/probe.h"
+
+#include "core/geometry/area_sampler.h"
+#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sobol_sampler.h"
+#include "operators/pointwise/emission.h"
+#include "operators/pointwise/reflection.h"
+#include "operators/pointwise/surface_reflection.h"
+#include "operators/pointwise/transport.h"
+#include "operators/series/neumann_series.h"
+#include "operators/walk/walk.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+
+namespace neumann::known {
+
+namespace {
+
+// Mean and squared deviations, under which equal samples have exactly no variance.
+struct Welford {
+    double n = 0.0;
+    Rgb mean{0.0}, m2{0.0};
+
+    void add(const Rgb& x) {
+        n += 1.0;
+        const Rgb difference = x - mean;
+        mean += difference / n;
+        m2 += difference * (x - mean);
+    }
+    Rgb variance() const { return m2 / (n - 1.0); }
+    Statistic statistic() const { return {mean, glm::sqrt(variance() / n)}; }
+};
+
+// T of walks whose first points are given instead of looked for: the k-th ray hits starts[k].
+struct TransportFrom {
+    const Geometry* geometry;
+    std::span<const CameraRay> rays;
+    std::span<const Start> starts;
+
+    template <class HitAt>
+    std::uint32_t first_hits(std::span<const CameraRay> some, const HitAt& hit) const {
+        const auto first = static_cast<std::size_t>(some.data() - rays.data());
+        for (std::size_t i = 0; i < some.size(); ++i) hit(i) = starts[first + i].point;
+        return (1u << some.size()) - 1u;
+    }
+    template <class FromAt, class HitAt>
+    std::uint32_t first_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
+        return geometry->first_hits(n, from, hit);
+    }
+    template <class PairAt>
+    std::uint32_t visible(std::size_t n, const PairAt& pair, RayCaster::Rays kind) const {
+        return geometry->visible(n, pair, kind);
+    }
+};
+
+template <class Sampler>
+struct FromSampler : Random {
+    explicit FromSampler(Sampler& s) : sampler(s) {}
+    double next() override { return sampler.next(); }
+    Sampler& sampler;
+};
+
+DirectLight direct_light(Way way) {
+    return way == Way::bsdf ? DirectLight::bsdf : way == Way::light ? DirectLight::light : DirectLight::mis;
+}
+
+// The terms as functions, for the ways that are not walks.
+struct Series {
+    std::optional<AreaSampler> surfaces;
+    std::vector<ExitantField> terms;
+
+    template <class Reflection>
+    void develop(const Scene& scene, const Reflection& R, int bounces) {
+        const auto K = R * TransportOperator(scene.geometry);
+        NeumannSeries series(K, emission(scene.emitters));
+        for (terms.push_back(series.term()); series.bounce() < bounces; terms.push_back(series.term())) series.advance();
+    }
+    Series(const Scene& scene, Way way, int bounces) {
+        if (way == Way::pointwise) develop(scene, ReflectionOperator(scene.materials), bounces);
+        if (way == Way::surfaces) {
+            surfaces.emplace(scene.geometry);
+            develop(scene, SurfaceReflectionOperator(scene.geometry, *surfaces, scene.materials), bounces);
+        }
+    }
+};
+
+struct Batch {
+    std::vector<Welford> quantities;  // 0 … N, the rest, Σ_{i≥1}
+    std::vector<std::uint64_t> rays;
+    std::vector<LargestSamples> largest;
+    std::uint64_t given_up = 0;
+};
+
+template <class Sampler>
+Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
+                const Sampler& sampler) {
+    const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
+    const WalkSettings settings{.bounces = effort.bounces,
+                                .direct = effort.direct.value_or(DirectLightSettings{direct_light(way)}),
+                                .roulette = effort.roulette,
+                                .split = effort.split,
+                                .rest_probability = effort.rest_probability,
+                                .give_up = effort.give_up};
+    const DirectLightSampler direct(scene, settings.direct);
+    Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities),
+                std::vector<LargestSamples>(quantities), 0};
+    const std::uint32_t together = std::min(effort.samples, 64u);
+    std::vector<Sampler> samplers(together, sampler);
+    std::vector<Start> starts(together);
+    std::vector<CameraRay> rays(together);
+    std::vector<Rgb> samples(together * quantities);
+    Walkers walkers;
+    TermSamples result{samples, batch.rays};
+    const auto walk_on = [&](const auto& continuation) {
+        walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
+             std::span<Sampler>(samplers), walkers, result, continuation);
+    };
+    for (std::uint32_t first = 0; first < effort.samples; first += together) {
+        std::fill(samples.begin(), samples.end(), Rgb(0.0));
+        for (std::uint32_t i = 0; i < together; ++i) {
+            samplers[i].start(first + i);
+            FromSampler<Sampler> random(samplers[i]);
+            starts[i] = pick(random);
+            rays[i].origin = starts[i].point.position + starts[i].wo;
+            rays[i].direction = -starts[i].wo;
+            for (std::size_t k = 0; k < series.terms.size(); ++k)
+                samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
+        }
+        if (series.terms.empty()) {
+            if (effort.going_on == GoingOn::material) walk_on(MaterialContinuation());
+            if (effort.going_on == GoingOn::surfaces) walk_on(SurfaceContinuation(scene.geometry));
+            if (effort.going_on == GoingOn::specular) walk_on(SpecularContinuation());
+        }
+        for (std::uint32_t i = 0; i < together; ++i) {
+            Rgb reflected(0.0);
+            for (std::size_t q = 0; q < quantities; ++q) {
+                const Rgb x = starts[i].weight * samples[i * quantities + q];
+                batch.quantities[q].add(x);
+                batch.largest[q].add(max_component(x));
+                if (q > 0) reflected += x;
+            }
+            batch.quantities[quantities].add(reflected);
+        }
+    }
+    for (LargestSamples& largest : batch.largest) largest.add_count(effort.samples);
+    batch.given_up = result.given_up;
+    return batch;
+}
+
+const SobolPoints& sobol_points(std::uint32_t size) {
+    static std::mutex mutex;
+    static std::map<std::uint32_t, SobolPoints> known;
+    const std::lock_guard lock(mutex);
+    return known.try_emplace(size, size).first->second;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Scene& scene, const Vec3& p, const Vec3& normal, double height) {
+    SurfacePoint point;
+    if (!scene.geometry.first_hit(p + normal * height, -normal, 2.0 * height, point) ||
+        glm::length(point.position - p) > 0.1 * height)
+        throw std::logic_error("there is no surface here");
+    point.position = p;
+    return point;
+}
+
+StartPicker at(const Scene& scene, const Vec3& p, const Vec3& normal, double height) {
+    return [start = Start{surface_point(scene, p, normal, height), normal}](Random&) { return start; };
+}
+
+StartPicker seen(const Scene& scene, const Vec3& origin, const Vec3& direction) {
+    const Vec3 d = glm::normalize(direction);
+    SurfacePoint p;
+    if (!scene.geometry.first_hit(origin, d, 1e9, p)) throw std::logic_error("there is no surface here");
+    return [start = Start{p, -d}](Random&) { return start; };
+}
+
+StartPicker anywhere_on(const Scene& scene, std::uint32_t shape) {
+    std::vector<double> cumulative;
+    for (std::uint32_t i = 0; i < scene.geometry.primitive_count(shape); ++i)
+        cumulative.push_back(scene.geometry.area(shape, i) + (i ? cumulative.back() : 0.0));
+    return [&geometry = scene.geometry, shape, cumulative](Random& random) {
+        const double choice = random.next() * cumulative.back();
+        std::uint32_t primitive = 0;
+        while (primitive + 1 < cumulative.size() && cumulative[primitive] <= choice) ++primitive;
+        const SurfacePoint p = geometry.point(shape, primitive, random.next2());
+        return Start{p, p.normal};
+    };
+}
+
+StartPicker anywhere(const Scene& scene) {
+    return [surfaces = AreaSampler(scene.geometry)](Random& random) {
+        const double choice = random.next();
+        const SurfacePoint p = surfaces.sample(choice, random.next2());
+        return Start{p, p.normal};
+    };
+}
+
+std::string name(Way way) {
+    switch (way) {
+        case Way::mis:
+            return "walk, direct light by MIS";
+        case Way::bsdf:
+            return "walk, direct light by BSDF sampling";
+        case Way::light:
+            return "walk, direct light by light sampling";
+        case Way::pointwise:
+            return "operators, R over the hemisphere";
+        case Way::surfaces:
+            return "operators, R over surfaces";
+    }
+    return "";
+}
+
+std::string short_name(Way way) {
+    constexpr const char* names[] = {"mis", "bsdf", "light", "pointwise", "surfaces"};
+    return names[static_cast<std::size_t>(way)];
+}
+
+Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort) {
+    const Series series(scene, way, effort.bounces);
+    std::vector<Batch> batches(batch_count);
+    const SobolPoints* points = effort.sampler == SamplerKind::sobol ? &sobol_points(effort.samples) : nullptr;
+    oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
+        batches[b] = points ? run_batch(scene, start, way, effort, series, SobolSampler(*points, effort.seed, b))
+                            : run_batch(scene, start, way, effort, series, IndependentSampler(effort.seed, b));
+    });
+
+    const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
+    std::vector<Welford> means(quantities + 1), variances(quantities);
+    Welford rays;
+    Estimates result;
+    result.rays.resize(quantities);
+    result.largest.resize(quantities);
+    for (const Batch& batch : batches) {
+        double batch_rays = 0.0;
+        for (std::size_t q = 0; q < quantities; ++q) {
+            variances[q].add(batch.quantities[q].variance());
+            result.rays[q] += static_cast<double>(batch.rays[q]) / effort.samples / batch_count;
+            batch_rays += static_cast<double>(batch.rays[q]) / effort.samples;
+            result.largest[q].merge(batch.largest[q]);
+        }
+        for (std::size_t q = 0; q <= quantities; ++q) means[q].add(batch.quantities[q].mean);
+        rays.add(Rgb(batch_rays));
+        result.given_up += batch.given_up;
+    }
+    for (std::size_t q = 0; q + 1 < quantities; ++q) {
+        result.terms.push_back(means[q].statistic());
+        result.variance.push_back(variances[q].statistic());
+    }
+    result.rest_variance = variances[quantities - 1].statistic();
+    result.rest = means[quantities - 1].statistic();
+    result.reflected = means[quantities].statistic();
+    result.rays_mean = rays.statistic().mean.r;
+    result.rays_error = rays.statistic().standard_error.r;
+    result.samples = std::uint64_t{batch_count} * effort.samples;
+    return result;
+}
+
+Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, Effort effort, std::uint32_t most) {
+    const auto is_sharp = [](const Statistic& s) { return s.standard_error.r <= 0.0017 * std::abs(s.mean.r); };
+    for (;; effort.samples *= 2) {
+        Estimates found = probe(scene, start, way, effort);
+        const bool sharp = std::all_of(found.terms.begin() + 1, found.terms.end(), is_sharp) &&
+                           (effort.rest_probability == 0.0 || is_sharp(found.rest));
+        if (sharp || effort.samples >= most) return found;
+    }
+}
+
+}  // namespace neumann::known

@@ -1,0 +1,136 @@
+// Inside a diffuse sphere every point sees every other alike: G is constant, K has rank one, and for any ρ(p) and Le(p)
+//
+//     K^i Le (p) = ρ(p) <ρ>^(i−1) <Le>,   i ≥ 1,   <·> the mean over the sphere.
+//
+// A chord leaves and arrives at the same angle, so emission that depends on the angle enters by its mean over the cosine-weighted
+// hemisphere, <Le> = 2 ∫ Le(μ) μ dμ, and T is the identity on functions of the angle: with ρd/π and a mirror of ρs beside it, Le =
+// μ² gives K^i Le = ρs^i (μ² − ½) + (ρs + ρd)^i/2.
+#include "core/base/frame.h"
+#include "core/material/blend.h"
+#include "operators/known/groups.h"
+#include "operators/known/quadrature.h"
+#include "operators/known/scene_maker.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace neumann::known {
+
+namespace {
+
+const Vec3 center(0.3, -0.7, 1.1);
+constexpr double radius = 2.5;
+constexpr Way all_ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise, Way::surfaces};
+// Operators start anew for every term.
+int bounces_of(Way way) { return way == Way::pointwise || way == Way::surfaces ? 3 : 8; }
+
+double height(const SurfacePoint& p) { return (p.position.z - center.z) / radius; }
+// The point in direction `n` from the centre.
+StartPicker at_pole(const Scene& scene, const Vec3& n) { return at(scene, center + n * radius, -n); }
+Vec3 pole(double z) { return {std::sqrt(1.0 - z * z), 0, z}; }
+
+Scene sphere(const SurfaceFunction& reflectance, const AreaLight& emission) {
+    SceneMaker maker;
+    maker.add(Sphere{center, radius, true}, {reflectance, emission});
+    return maker.make();
+}
+std::vector<double> geometric(double first, double ratio, int count) {
+    std::vector<double> values{first};
+    while (static_cast<int>(values.size()) < count) values.push_back(values.back() * ratio);
+    return values;
+}
+SurfaceFunction two_halves(double above, double below) {
+    return {[=](const SurfacePoint& p) { return grey(height(p) > 0.0 ? above : below); }, grey(above)};
+}
+
+}  // namespace
+
+Cases sphere_cases() {
+    Cases cases;
+    for (const Way way : all_ways) {
+        const std::string name = short_name(way);
+        cases.push_back(
+            {"sphere/varying-albedo/" + name, "rho(p) <rho>^(i-1) <Le>: exact", [way](Figures& figures, std::uint64_t seed) {
+                 const Scene scene =
+                     sphere({[](const SurfacePoint& p) { return grey(0.5 + 0.4 * height(p)); }, grey(0.9)},
+                            {[](const SurfacePoint& p, const Vec3&) { return grey(1.0 + height(p) * height(p)); }, grey(2.0)});
+                 figures.terms(sharp_probe(scene, at_pole(scene, pole(0.5)), way,
+                                           {.samples = 1024, .bounces = bounces_of(way), .seed = seed}),
+                               geometric(0.7 * 4.0 / 3.0, 0.5, bounces_of(way)));
+             }});
+        // The map from the square to the sphere takes a square to the cap, of which most nets have the same number of points: no
+        // spread would be left to tell the error from.
+        if (looks_for_lights(way))
+            cases.push_back(
+                {"sphere/emitting-cap/" + name, "10 f rho^i, f = (1 - cos 20)/2: exact",
+                 [way](Figures& figures, std::uint64_t seed) {
+                     const double edge = std::cos(pi / 9.0), f = 0.5 * (1.0 - edge);
+                     const Scene scene = sphere(
+                         grey(0.9),
+                         {[=](const SurfacePoint& p, const Vec3&) { return grey(height(p) > edge ? 10.0 : 0.0); }, grey(10.0)});
+                     figures.terms(sharp_probe(scene, at_pole(scene, {0.6, 0, 0.8}), way,
+                                               {.samples = 1024,
+                                                .bounces = bounces_of(way),
+                                                .sampler = way == Way::light ? SamplerKind::independent : SamplerKind::sobol,
+                                                .seed = seed}),
+                                   geometric(10.0 * f * 0.9, 0.9, bounces_of(way)));
+                 }});
+        cases.push_back(
+            {"sphere/emission-by-angle/" + name, "rho^i/2 for Le = mu^2: exact", [way](Figures& figures, std::uint64_t seed) {
+                 const Scene scene = sphere(
+                     grey(0.8),
+                     {[](const SurfacePoint& p, const Vec3& w) { return grey(std::pow(glm::dot(p.normal, w), 2)); }, grey(1.0)});
+                 figures.terms(sharp_probe(scene, at_pole(scene, {0.36, 0.48, 0.8}), way,
+                                           {.samples = 1024, .bounces = bounces_of(way), .seed = seed}),
+                               geometric(0.4, 0.8, bounces_of(way)));
+             }});
+    }
+    // Largest albedo above 1, mean below: converges, but that is to be warned of.
+    for (const double z : {0.5, -0.5})
+        cases.push_back(
+            {z > 0.0 ? "sphere/albedo-above-1/bright-half" : "sphere/albedo-above-1/dark-half", "rho(p) 0.9^(i-1): exact",
+             [z](Figures& figures, std::uint64_t seed) {
+                 const Scene scene = sphere(two_halves(1.6, 0.2), grey(1.0));
+                 figures.holds("is warned of", scene.warnings.counts().count(
+                                                   "reflectance above 1: a surface gives back more light than it receives") > 0);
+                 figures.terms(
+                     sharp_probe(scene, at_pole(scene, pole(z)), Way::bsdf, {.samples = 1024, .bounces = 5, .seed = seed}),
+                     geometric(z > 0.0 ? 1.6 : 0.2, 0.9, 5));
+             }});
+    // P(β > x) ~ x^−α with (1.6^α + 0.2^α)/2 = 1 for what roulette leaves alone: α = 1.25 where it cuts below 1.
+    cases.push_back(
+        {"sphere/albedo-above-1/rest", "infinite variance: tail index below 2", [](Figures& figures, std::uint64_t seed) {
+             const Scene scene = sphere(two_halves(1.6, 0.2), grey(1.0));
+             const Estimates found =
+                 probe(scene, at_pole(scene, {0, 0, 1}), Way::bsdf,
+                       {.samples = 8192, .bounces = 4, .rest_probability = 1.0, .sampler = SamplerKind::independent, .seed = seed});
+             const auto tail = tail_index(found.largest.back());
+             figures.at_most("upper bound on the tail index", tail ? tail->upper : 1e9, 2.0);
+         }});
+    // Half of the material is a white diffuse surface, half a mirror of 0.6.
+    for (const Way way : {Way::mis, Way::bsdf, Way::pointwise})
+        cases.push_back({"sphere/mirror-and-diffuse/" + short_name(way), "rs^i (mu^2 - 1/2) + (rs + rd)^i/2: exact",
+                         [way](Figures& figures, std::uint64_t seed) {
+                             const double rs = 0.3, rd = 0.5, mu = 0.1;
+                             SceneMaker maker;
+                             maker.add(Sphere{center, radius, true},
+                                       made_of(Blend(std::make_shared<const Bsdf>(Diffuse(grey(1.0))),
+                                                     std::make_shared<const Bsdf>(Conductor({}, grey(0.6))), grey(0.5)),
+                                               AreaLight([](const SurfacePoint& p,
+                                                            const Vec3& w) { return grey(std::pow(glm::dot(p.normal, w), 2)); },
+                                                         grey(1.0))));
+                             const Scene scene = maker.make();
+                             const SurfacePoint p = surface_point(scene, center + radius * pole(0.8), -pole(0.8));
+                             const Start start{p, Frame(p.normal).to_world(at_cosine(mu))};
+                             std::vector<double> exact;
+                             for (int i = 0; i <= (way == Way::pointwise ? 3 : 6); ++i)
+                                 exact.push_back(std::pow(rs, i) * (mu * mu - 0.5) + 0.5 * std::pow(rs + rd, i));
+                             figures.terms(
+                                 sharp_probe(scene, [start](Random&) { return start; }, way,
+                                             {.samples = 1024, .bounces = static_cast<int>(exact.size()) - 1, .seed = seed}),
+                                 exact, 0);
+                         }});
+    return cases;
+}
+
+}  // namespace neumann::known

@@ -1,0 +1,71 @@
+// Paths that advance together: those of some consecutive pixels in one replicate, one after the other.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/statistics/sample_place.h"
+#include "operators/walk/walk.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+// Enough that those that are still on their way fill the packets of rays.
+constexpr std::uint32_t paths_at_once = 64;
+
+struct Pixel {
+    int x, y;
+};
+inline Pixel pixel_of(const Film& film, std::uint32_t number) {
+    const auto width = static_cast<std::uint32_t>(film.crop_width);
+    return {film.crop_x + static_cast<int>(number % width), film.crop_y + static_cast<int>(number / width)};
+}
+
+// Where the paths of a replicate are numbered pixel by pixel: the first of a group, and the sample's number there.
+struct PlaceInGroup {
+    std::uint64_t replicate;
+    std::uint32_t first, path;
+};
+inline PlaceInGroup place_in_group(const SampleName& name, std::uint32_t replicate_size) {
+    const auto path = name.pixel * replicate_size + static_cast<std::uint32_t>(name.sample % replicate_size);
+    return {name.sample / replicate_size, path / paths_at_once * paths_at_once, path % paths_at_once};
+}
+inline SampleName name_in_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t path, std::uint32_t replicate_size) {
+    return {(first + path) / replicate_size, replicate * replicate_size + (first + path) % replicate_size};
+}
+
+struct PathGroup {
+    std::vector<CameraRay> rays;
+    std::vector<double> weights;  // of the film's filter
+    Walkers walkers;
+    std::vector<Rgb> samples;  // path by path, all quantities of each
+};
+
+// Samples one replicate of some pixels; there is a sampler for each of their samples. estimate(rays, samplers, walkers, result).
+// `rays`: cast, for each quantity; added to. Returns the walks that were given up.
+template <class Estimate, class Sampler>
+std::uint64_t trace(const Scene& scene, const Estimate& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
+                    std::uint64_t replicate, PathGroup& group, std::span<std::uint64_t> rays) {
+    const Film& film = scene.film;
+    const std::size_t size = samplers.size() / pixels.size(), quantities = rays.size();
+    group.rays.resize(samplers.size());
+    group.weights.resize(samplers.size());
+    for (std::size_t i = 0; i < samplers.size(); ++i) {
+        const Pixel& pixel = pixels[i / size];
+        samplers[i].start(replicate * size + i % size);
+        const FilmSample sample = film.sample(samplers[i].next2(), pixel.x, pixel.y);
+        group.rays[i] = scene.camera.sample_ray(sample.position, samplers[i]);
+        group.weights[i] = sample.weight;
+    }
+    group.samples.assign(samplers.size() * quantities, Rgb(0.0));
+    TermSamples result{group.samples, rays};
+    estimate(std::span<const CameraRay>(group.rays), samplers, group.walkers, result);
+    for (std::size_t i = 0; i < samplers.size(); ++i) {
+        if (group.weights[i] == 1.0) continue;
+        for (Rgb& x : std::span(group.samples).subspan(i * quantities, quantities)) x *= group.weights[i];
+    }
+    return result.given_up;
+}
+
+}  // namespace neumann

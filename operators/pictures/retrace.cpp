@@ -1,0 +1,69 @@
+// Paths traced again, for an observer: the same walks with another T and any sampler, compiled to be small and not fast.
+#include "operators/pictures/any_sampler.h"
+#include "operators/pictures/path_group.h"
+#include "operators/pictures/picture_sampler.h"
+#include "operators/pictures/splat_group.h"
+#include "operators/pictures/watched_halves.h"
+#include "operators/pictures/watched_walk.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace neumann {
+
+std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
+        return whole_pictures->retrace(replicate, first, observer);
+    const std::uint32_t size = settings_.replicate_size,
+                        pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()), begin = first / size,
+                        end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
+    std::vector<Pixel> some;
+    std::vector<AnySampler> samplers;
+    for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+        some.push_back(pixel_of(scene_.film, pixel));
+        samplers.resize(samplers.size() + size, AnySampler(settings_.sampler, sobol_, settings_.seed, pixel));
+    }
+    PathGroup group;
+    std::vector<std::uint64_t> rays(quantities());
+    std::visit(
+        [&](const auto& estimator) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(estimator)>, PointwiseEstimator>) {
+                throw std::logic_error("PictureSampler: the pointwise method has no paths");
+            } else {
+                const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
+                    const WatchedWalk T(scene_.geometry, camera_rays, walkers, result.quantities, settings_.walk.split.walks > 1,
+                                        observer);
+                    estimator.trace(T, camera_rays, random, walkers, result);
+                    T.finish();
+                };
+                trace(scene_, watched, std::span(samplers), std::span<const Pixel>(some), replicate, group, std::span(rays));
+            }
+        },
+        std::get<TermEstimator>(sampler_));
+    return std::move(group.samples);
+}
+
+std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    const std::size_t Q = settings_.quantities();
+    const std::uint32_t samples = std::min(paths_at_once, pixels_ * settings_.replicate_size - first);
+    Workspace work(Q);
+    const bool light = settings_.method == Method::light;
+    PathGroup& group = work.group;
+    group.rays.resize(samples);  // where trace_group() puts them, so that T can point there
+    const WatchedHalves T(scene_->geometry, light ? work.light.walkers : work.bidirectional.light, work.bidirectional.walker,
+                          group.rays, settings_.walk.split.walks > 1, observer);
+    trace_group<AnySampler>(
+        replicate, first, samples, T,
+        [&](std::uint32_t i, std::size_t q, const Rgb& value) {
+            group.samples[i * Q + q] += value;
+            T.found(i, q, value, nullptr);
+        },
+        [&](std::uint32_t i, const Vec2& position, std::size_t q, const Rgb& value) {
+            T.found(i, q, value / static_cast<double>(pixels_), &position);
+        },
+        work);
+    for (std::size_t k = 0; k < group.samples.size(); ++k) group.samples[k] *= group.weights[k / Q];
+    return std::move(group.samples);
+}
+
+}  // namespace neumann

@@ -1,0 +1,86 @@
+// Paths from the lights, with or without a half from the camera, that advance together: what SplatSampler does with each group.
+#pragma once
+
+#include "operators/pictures/any_sampler.h"
+#include "operators/pictures/path_group.h"
+#include "operators/pictures/splat_sampler.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+// Paths from the lights that are stratified together.
+constexpr std::uint32_t light_net = 4096;
+// Stands for the lights where random numbers belong to a pixel.
+constexpr std::uint32_t of_lights = 0xffffffffu;
+
+// Of a thread.
+struct SplatSampler::Workspace {
+    explicit Workspace(std::size_t quantities) : tally(quantities) {}
+
+    PathGroup group;
+    LightTracingWork light;
+    BidirectionalWork bidirectional;
+    std::vector<double> across;
+    Tally tally;
+};
+
+template <class Sampler, class Transport, class OnFound, class OnSplat>
+void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const Transport& T,
+                               const OnFound& found, const OnSplat& splatted, Workspace& work) const {
+    const std::size_t Q = settings_.quantities();
+    const std::uint32_t size = settings_.replicate_size;
+    const Film& film = scene_->film;
+    const auto sampler_of = [&](const SobolPoints& points, std::uint32_t pixel) {
+        return make_sampler<Sampler>(settings_.sampler, points, settings_.seed, pixel);
+    };
+    // Each replicate begins a net of its own.
+    const std::uint64_t paths = (std::uint64_t{pixels_} * size + light_net - 1) / light_net * light_net;
+    std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
+    for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
+
+    if (settings_.method == Method::light) {
+        LightWalkSettings walk;
+        walk.vertices = settings_.walk.bounces;
+        walk.rest_probability = settings_.walk.rest_probability;
+        walk.roulette = settings_.walk.roulette;
+        walk.give_up = settings_.walk.give_up;
+        work.tally.given_up +=
+            trace_light(*scene_, T, emission_, lights_, walk, std::span(light), work.light, splatted, work.tally.rays);
+        return;
+    }
+
+    std::vector<Sampler> camera;
+    PathGroup& group = work.group;
+    group.rays.resize(samples);
+    group.weights.resize(samples);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const std::uint32_t number = (first + i) / size;
+        const Pixel pixel = pixel_of(film, number);
+        camera.push_back((first + i) % size == 0 ? sampler_of(camera_points_, number) : camera.back());
+        camera.back().start(replicate * size + (first + i) % size);
+        const FilmSample place = film.sample(camera[i].next2(), pixel.x, pixel.y);
+        group.rays[i] = scene_->camera.sample_ray(place.position, camera[i]);
+        group.weights[i] = place.weight;
+    }
+    group.samples.assign(samples * Q, Rgb(0.0));
+    const int N = settings_.walk.bounces;
+    // To which quantities something found belongs: its bounce, or its way.
+    const auto sort = [&](const Found& f, const auto& add) {
+        if (!settings_.ways_of_last_bounce) {
+            add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value * f.weight);
+        } else if (f.bounce == N) {
+            add(static_cast<std::size_t>(f.s), f.value * f.weight);
+            add(static_cast<std::size_t>(N + 2 + f.s), f.value);
+        }
+    };
+    work.tally.given_up += bidirectional_.trace(
+        T, std::span<const CameraRay>(group.rays), std::span(camera), std::span(light), work.bidirectional,
+        [&](std::uint32_t i, const Found& f) { sort(f, [&](std::size_t q, const Rgb& value) { found(i, q, value); }); },
+        [&](std::uint32_t i, const Vec2& position, const Found& f) {
+            sort(f, [&](std::size_t q, const Rgb& value) { splatted(i, position, q, value); });
+        },
+        work.tally.rays);
+}
+
+}  // namespace neumann

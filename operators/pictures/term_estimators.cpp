@@ -1,0 +1,23 @@
+#include "operators/pictures/term_estimators.h"
+
+#include <stdexcept>
+
+namespace neumann {
+
+TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings) {
+    switch (settings.method) {
+        case Method::pointwise:
+            return PointwiseEstimator(scene, settings.walk.bounces);
+        case Method::surface:
+            return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
+        case Method::classic:
+            return WalkEstimator(scene, settings.walk, SpecularContinuation());
+        case Method::guided:
+            if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
+            return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
+        default:
+            return WalkEstimator(scene, settings.walk, MaterialContinuation());
+    }
+}
+
+}  // namespace neumann

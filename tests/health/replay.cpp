@@ -1,0 +1,131 @@
+// A sample that is traced again has the bits of the render: the means of pixels, put together from replayed samples alone, are
+// those of the pictures.
+#include "operators/pictures/replay.h"
+#include "core/reader/read_scene.h"
+#include "operators/guide/direction_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace neumann {
+namespace {
+
+constexpr std::uint32_t size = 4;
+constexpr int bounces = 3;
+
+struct Case {
+    const char* name;
+    Method method;
+    SamplerKind sampler = SamplerKind::sobol;
+    Split split = {};
+    friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+};
+
+bool same_bits(const Rgb& a, const Rgb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+class ReplayEvery : public testing::TestWithParam<Case> {
+protected:
+    // 49 pixels: the last of the 64 paths that advance together are fewer.
+    Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "7"}});
+    SamplingSettings settings() const {
+        SamplingSettings s{.method = GetParam().method,
+                           .walk = {.bounces = bounces, .split = GetParam().split, .rest_probability = 0.7},
+                           .sampler = GetParam().sampler,
+                           .seed = 5,
+                           .replicate_size = size};
+        if (s.method == Method::guided)
+            s.tables = std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
+        return s;
+    }
+};
+
+TEST_P(ReplayEvery, PixelsAreTheMeansOfReplayedSamples) {
+    const PictureSampler sampler(scene, settings());
+    const std::size_t Q = sampler.quantities();
+    constexpr std::uint64_t replicate = 1;
+    Tally tally(Q);
+    const MomentsNode node = *sampler.run(replicate, 1, tally);
+    const std::size_t pixels = 49;
+    std::vector<Rgb> own(pixels * Q, Rgb(0.0)), splatted = own;
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const Replay found = replay(sampler, {pixel, replicate * size + i});
+            for (std::size_t q = 0; q < Q; ++q) own[pixel * Q + q] += found.terms[q];
+            for (const ReplayedStep& step : found.steps)
+                for (const auto& f : step.found) {
+                    if (!f.pixel) continue;
+                    const auto x = static_cast<std::size_t>(f.pixel->x), y = static_cast<std::size_t>(f.pixel->y);
+                    splatted[(7 * y + x) * Q + f.quantity] += f.value;
+                }
+        }
+    std::size_t lit = 0;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+        const std::size_t pixel = k / Q, q = k % Q;
+        const double* mean = node.data.data() + k * PixelMoments::doubles_per_quantity;
+        const Rgb rendered(mean[0], mean[1], mean[2]), replayed = (own[k] + splatted[k]) * (1.0 / size);
+        // What comes from the lights is added to the rest in another order here.
+        if (splats(GetParam().method) && q == Q - 1)
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(rendered[c], replayed[c], 1e-14 * std::abs(rendered[c]));
+        else
+            EXPECT_TRUE(same_bits(rendered, replayed))
+                << "pixel " << pixel << ", quantity " << q << ": " << rendered.r << ", " << replayed.r;
+        lit += !is_black(rendered);
+    }
+    EXPECT_GT(lit, pixels / 2) << "nothing but zeros were compared";
+}
+
+// What the steps bring adds up to the terms.
+TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
+    const PictureSampler sampler(scene, settings());
+    for (std::uint32_t pixel = 0; pixel < 49; pixel += 6) {
+        const Replay found = replay(sampler, {pixel, 2});
+        if (!splats(GetParam().method) || GetParam().method == Method::bidirectional) {
+            EXPECT_FALSE(found.steps.empty());
+        }
+        std::vector<Rgb> sum(sampler.quantities(), Rgb(0.0));
+        for (const ReplayedStep& step : found.steps)
+            for (const auto& f : step.found)
+                if (!f.pixel) sum[f.quantity] += f.value;
+        for (std::size_t q = 0; q < sum.size(); ++q)
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[q][c], found.terms[q][c], 1e-13 * std::abs(found.terms[q][c])) << q;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Method, ReplayEvery,
+    testing::Values(Case{"Walk", Method::walk}, Case{"WalkIndependent", Method::walk, SamplerKind::independent},
+                    Case{"WalkSplit", Method::walk, SamplerKind::sobol, {3, 2}}, Case{"Guided", Method::guided},
+                    Case{"Surface", Method::surface}, Case{"Classic", Method::classic}, Case{"Light", Method::light},
+                    Case{"LightIndependent", Method::light, SamplerKind::independent}, Case{"Bidirectional", Method::bidirectional},
+                    Case{"BidirectionalSplit", Method::bidirectional, SamplerKind::sobol, {3, 2}}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.
+TEST(Replay, APathIsJoined) {
+    const Scene scene = read_scene(SCENES "/furnace/furnace.xml", {{"res", "4"}, {"albedo", ".25,.5,.75"}});
+    const SamplingSettings settings{.walk = {.bounces = 3, .rest_probability = 0.0}, .replicate_size = 1};
+    const Replay found = replay(PictureSampler(scene, settings), {5, 3});
+    Rgb weight(1.0);
+    SurfacePoint at;
+    int reflections = 0;
+    for (const auto& [step, brought] : found.steps) {
+        if (step.kind == PathStep::Kind::asks) {
+            EXPECT_EQ(step.bounce, reflections + 1);
+            continue;
+        }
+        EXPECT_EQ(step.bounce, step.kind == PathStep::Kind::first ? 0 : ++reflections);
+        if (step.kind == PathStep::Kind::goes_on) {
+            weight *= Rgb(0.25, 0.5, 0.75);
+            EXPECT_EQ(step.from.position, at.position);
+            EXPECT_GT(step.pdf, 0.0);
+        }
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(step.beta[c], weight[c], 1e-15);
+        EXPECT_TRUE(step.found);
+        at = step.to;
+    }
+    EXPECT_EQ(reflections, 3);
+}
+
+}  // namespace
+}  // namespace neumann
