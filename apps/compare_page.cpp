@@ -31,8 +31,8 @@ Json read_run(const fs::path& path) {
     Json run;
     try {
         run = Json::parse(text_of(path));
-        for (const char* part : {"command", "scene", "picture", "quantity", "options", "samples", "timing", "sum", "bounces",
-                                 "rest", "non_finite_samples", "warnings"})
+        for (const char* part :
+             {"command", "scene", "picture", "quantity", "options", "samples", "timing", "sum", "bounces", "rest", "warnings"})
             static_cast<void>(run.at(part));
         for (const char* side : {"width", "height"}) static_cast<void>(run["picture"].at(side).get<int>());
         if (run["bounces"].empty()) throw InputError(path.string() + ": no bounces");

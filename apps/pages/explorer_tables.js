@@ -53,7 +53,6 @@ all.forEach(s => {
   if (run.health) section(`Health${tag}`, generic(run.health));
   const what = { command: run.command, ...run };
   for (const part of ["plan", "health", "bounces", "warnings", "ways"]) delete what[part];
-  if (run.non_finite_samples.count === 0) delete what.non_finite_samples;
   section(`The run${tag}`, generic(what));
 });
 section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits), standard errors to 3%. " +
