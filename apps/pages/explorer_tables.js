@@ -4,6 +4,7 @@ const sceneOf = s => s.run.scene.file.split("/").pop();
 const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.total_seconds)} s`;
 document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": A and B" : "");
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
+all.forEach(s => (s.run.health?.complaints ?? []).forEach(c => $("warnings").append(element("p", `${runName(s)}sick: ${c}`, "warning"))));
 all.forEach(s => s.run.warnings.forEach(w => $("warnings").append(element("p", runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : ""), "warning"))));
 
 // Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
