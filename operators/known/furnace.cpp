@@ -103,20 +103,20 @@ void add_laws(Cases& cases) {
         {"furnace/superposition/six-faces", "sum of K^i over emitters = rho^i", [](Figures& figures, std::uint64_t seed) {
              const double rho = 0.6;
              const auto faces = room({0, 0, 0}, {1.2, 0.9, 0.7});
-             std::vector<Statistic> sums(9);
+             std::vector<Statistic> sums(5);
              for (std::size_t lit = 0; lit < 6; ++lit) {
                  SceneMaker maker;
                  for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == lit ? glowing(rho, 1.0) : matte(rho));
                  const Scene scene = maker.make();
-                 const Estimates found =
-                     sharp_probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 1024, .seed = seed + lit});
+                 const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis,
+                                               {.samples = 8192, .bounces = 4, .seed = seed + lit});
                  for (std::size_t i = 0; i < sums.size(); ++i) {
                      const Rgb a = sums[i].standard_error, b = found.terms[i].standard_error;
                      sums[i].mean += found.terms[i].mean;
                      sums[i].standard_error = glm::sqrt(a * a + b * b);
                  }
              }
-             for (std::size_t i = 1; i <= 8; ++i)
+             for (std::size_t i = 1; i <= 4; ++i)
                  figures.sampled(fmt::format("sum of K^{} Le", i), sums[i], std::pow(rho, static_cast<double>(i)));
          }});
     // Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
@@ -150,7 +150,7 @@ void add_laws(Cases& cases) {
                                  figures.sampled(
                                      fmt::format("absorbed/emitted, {}", short_name(way)),
                                      scaled(sharp_probe(scene, absorbed, way,
-                                                        {.samples = 1024, .bounces = 4, .rest_probability = 1.0, .seed = seed})
+                                                        {.samples = 1024, .bounces = 0, .rest_probability = 1.0, .seed = seed})
                                                 .reflected,
                                             AreaSampler(scene.geometry).area() / emitted),
                                      1.0);

@@ -46,7 +46,7 @@ struct Sampling {
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
 constexpr Sampling samplings[] = {
-    {Method::walk, "walk", 16, 8, 0.99},    {Method::guided, "guided", 32, 8, 0.9},          {Method::surface, "surface", 16},
+    {Method::walk, "walk", 16, 8, 0.9},     {Method::guided, "guided", 32, 8, 0.9},          {Method::surface, "surface", 16},
     {Method::light, "light", 2048, 2},      {Method::bidirectional, "bidirectional", 32, 4}, {Method::classic, "classic", 16},
     {Method::pointwise, "pointwise", 16, 5}};
 
@@ -253,7 +253,7 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     };
     figures.sampled(
         "absorbed/emitted",
-        scaled(sharp_probe(scene, absorbed, Way::mis, {.samples = 1024, .bounces = 1, .rest_probability = 1.0, .seed = seed})
+        scaled(sharp_probe(scene, absorbed, Way::mis, {.samples = 1024, .bounces = 0, .rest_probability = 1.0, .seed = seed})
                    .reflected,
                AreaSampler(scene.geometry).area() / emitted),
         1.0);

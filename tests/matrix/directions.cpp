@@ -14,7 +14,7 @@
 namespace neumann {
 namespace {
 
-using namespace physics;
+using namespace known;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 Bsdf rough(double alpha) { return RoughConductor<Ggx>(Ggx(alpha)); }

@@ -14,7 +14,7 @@
 namespace neumann {
 namespace {
 
-using namespace physics;
+using namespace known;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 template <int C>

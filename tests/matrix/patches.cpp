@@ -12,7 +12,7 @@
 namespace neumann {
 namespace {
 
-using namespace physics;
+using namespace known;
 
 std::vector<Enclosure> surfaces() {
     std::vector<Enclosure> all = enclosures(matte(0.5));

@@ -12,6 +12,8 @@
 
 namespace neumann::physics {
 
+using namespace known;
+
 // ∫ f(ω) dω over z and φ between bounds: Gauss's rule of 20 × 20 points.
 template <class Function>
 double over_cell(double from_z, double to_z, double from_phi, double to_phi, const Function& f) {

@@ -1,7 +1,7 @@
 // What is left out changes no picture: not by a bit where the random numbers are the same, and elsewhere not beyond what chance
 // does.
-#include "tests/physics/pictures.h"
 #include "core/reader/read_scene.h"
+#include "operators/known/pictures.h"
 #include "operators/plan/plan.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"
