@@ -88,7 +88,7 @@ TEST_F(Health, SamplesThatAreNoNumbers) {
     write("scene.xml", scene.replace(scene.find(one), one.size(), "name=\"radiance\" value=\"1e308\""));
     const Finished done = render("scene.xml", "a", {"-n", "2", "--spp", "4", "--seed", "1"});
     EXPECT_NE(done.err.find("sick: "), std::string::npos) << done.err;
-    EXPECT_NE(done.err.find("samples are no finite numbers and were left out, the first in bounce"), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find("samples are no finite numbers and were left out, the first in "), std::string::npos) << done.err;
     EXPECT_NE(done.err.find("neumann replay a 1"), std::string::npos) << done.err;
     const nlohmann::json found = health("a");
     EXPECT_EQ(found.at("sick"), true);

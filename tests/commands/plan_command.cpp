@@ -70,7 +70,8 @@ TEST_F(PlanCommand, FullLeavesNothingOutAndShowsTheSame) {
 TEST_F(PlanCommand, OfMethods) {
     const auto has_questions = [&](const std::vector<std::string>& options, const std::string& folder) {
         rendered(furnace_, options, folder);
-        for (const auto& p : json(folder).at("plan"))
+        const nlohmann::json of_run = json(folder);
+        for (const auto& p : of_run.at("plan"))
             if (p.at("part").get<std::string>().starts_with("asking lights")) return true;
         return false;
     };
