@@ -1,6 +1,6 @@
 """K = R T as a matrix: of a scene, or anyone's."""
 
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterator, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import scipy.sparse
@@ -12,7 +12,7 @@ from ._progress import run
 from ._report import Report
 
 Vector = NDArray[np.float64]
-Matrix = Union[scipy.sparse.spmatrix, NDArray[np.float64]]
+Matrix = Union[scipy.sparse.spmatrix, ArrayLike]
 
 SOLVERS: Dict[str, str] = dict(_neumann.solvers)
 """The names that solve() takes, and what they stand for."""
@@ -84,12 +84,11 @@ class Matrices:
         return f"<Matrices of {self.title}, {self.channel}: T {self.T.shape}, R {self.R.shape}, spectral radius {self.radius:.6f}>"
 
 
-def _operator(K: Matrix, measure: Optional[ArrayLike]) -> Tuple["_neumann.Operator", int]:
-    size = K.shape[0]
-    m = np.ones(size) if measure is None else np.asarray(measure, dtype=float)
-    if scipy.sparse.issparse(K):
-        return _neumann.sparse(scipy.sparse.csr_matrix(K, dtype=float), m), size
-    return _neumann.dense(np.ascontiguousarray(K, dtype=float), m), size
+def _operator(K: Matrix, measure: Optional[ArrayLike]) -> "_neumann.Operator":
+    sparse = scipy.sparse.issparse(K)
+    K = scipy.sparse.csr_matrix(K, dtype=float) if sparse else np.ascontiguousarray(K, dtype=float)
+    m = np.ones(K.shape[0]) if measure is None else np.asarray(measure, dtype=float)
+    return _neumann.sparse(K, m) if sparse else _neumann.dense(K, m)
 
 
 def series(
@@ -116,7 +115,7 @@ def series(
     rate, by how much the last terms fall a bounce;
     enclosure: exists, why not, low and high (n,), between which L lies, width, c1, c2 (Collatz and Wielandt's quotients).
     """
-    operator, _ = _operator(K, measure)
+    operator = _operator(K, measure)
     made = run(_neumann.series(operator, np.asarray(Le, dtype=float), error, most, norm), quiet)
     _report.warn(made["warnings"])
     made["rows"] = _report.rows(made["rows"], _bounds)
@@ -170,7 +169,7 @@ def solve(
     setup_applications of these, seconds, and history, a structured array: applications, estimate, error (nan where L is not known),
     seconds. Of several solvers: Solutions, these by name. Raises InputError for an unknown solver.
     """
-    operator, _ = _operator(K, measure)
+    operator = _operator(K, measure)
     array = lambda x: None if x is None else np.asarray(x, dtype=float)
 
     def one(name: str) -> Report:
@@ -191,7 +190,7 @@ def spectrum(K: Matrix, count: int = 4, *, measure: Optional[ArrayLike] = None, 
     Returns a Report of norms ("1", "2", "inf"; they belong to Σ m|f|, (Σ m f²)^½ and max |f|), spectral_radius, series ("converges" …),
     eigenvalues (count,) by falling modulus, eigenvectors (n, count), residuals, eigenvalues_converged, applications of K.
     """
-    operator, _ = _operator(K, measure)
+    operator = _operator(K, measure)
     made = run(_neumann.spectrum_of(operator, count, adjoint), quiet)
     made["norms"] = Report(made["norms"])
     return Report(made)
