@@ -55,8 +55,7 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
     command.add_flag("--json", options.json, "Print JSON");
 }
 
-PatchScene::PatchScene(const PatchOptions& options)
-    : PatchScene(options, read(options), parse_definitions(options.definitions)) {}
+PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(options), parse_definitions(options.definitions)) {}
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
                        std::map<std::string, std::string> definitions)

@@ -46,8 +46,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     folder.write("series.csv", series_table(series.report));
     const std::string convergence = convergence_table(series.convergence);
     folder.write("convergence.csv", convergence);
-    const auto json =
-        run_json(rendering.job(), result, warnings, folder.path().string(), rendering.seconds + watch.seconds());
+    const auto json = run_json(rendering.job(), result, warnings, folder.path().string(), rendering.seconds + watch.seconds());
     const ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
     folder.write("index.html", explorer_page({&explored}));
     folder.write("run.json", json.dump(2) + "\n");

@@ -68,8 +68,9 @@ void print_table(const PatchScene& scene, const SolveRequest& request, const Cho
     fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n", scene.channel_name(chosen.channel),
                chosen.why, chosen.radius, applications_text(chosen.applications));
     if (chosen.traps_light)
-        fmt::print("Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
-                   "all the same: residuals alone are looked at.\n");
+        fmt::print(
+            "Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
+            "all the same: residuals alone are looked at.\n");
     if (scene.system().samples_lights())
         fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
     if (!all.no_reference.empty())

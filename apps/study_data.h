@@ -74,9 +74,11 @@ struct StudyEnd {
     bool complete;
     std::size_t done, runs;
 };
-// Does what is asked for, in request.output, and shows `found` what there is, where there is anything. Throws InputError and RunError.
-StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
-                   const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const nlohmann::ordered_json&)>& found);
+// Does what is asked for, in request.output, and shows `found` what there is, where there is anything. Throws InputError and
+// RunError.
+StudyEnd run_study(
+    StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
+    const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const nlohmann::ordered_json&)>& found);
 
 std::string study_csv(const StudyData& data);
 nlohmann::ordered_json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictures);

@@ -35,8 +35,7 @@ void Job::run(int threads, const Work& work) {
                 working_ = true;
             }
             std::optional<oneapi::tbb::global_control> limit;
-            if (threads > 0)
-                limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+            if (threads > 0) limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
             finish = work(*this);
         } catch (...) {
             error = std::current_exception();

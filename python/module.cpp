@@ -8,10 +8,10 @@ PYBIND11_MODULE(_neumann, m) {
     using namespace neumann;
     m.doc() = "The compiled part of neumann; see the package neumann.";
     m.attr("version") = NEUMANN_VERSION;
-    py::register_exception<InputError>(m, "InputError", PyExc_ValueError)
-        .doc() = "The scene, a file or an argument is wrong: 'file:line:column: what is wrong, what was expected'.";
-    py::register_exception<RunError>(m, "RunError", PyExc_RuntimeError)
-        .doc() = "Something failed while running, such as a disk that is full.";
+    py::register_exception<InputError>(m, "InputError", PyExc_ValueError).doc() =
+        "The scene, a file or an argument is wrong: 'file:line:column: what is wrong, what was expected'.";
+    py::register_exception<RunError>(m, "RunError", PyExc_RuntimeError).doc() =
+        "Something failed while running, such as a disk that is full.";
 
     const auto without_lock = py::call_guard<py::gil_scoped_release>();
     // Its last owner must not keep Python waiting.

@@ -5,8 +5,8 @@
 #include "core/scene/scene.h"
 #include "python/job.h"
 
-#include <CLI/CLI.hpp>
 #include <pybind11/numpy.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <map>

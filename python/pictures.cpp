@@ -62,8 +62,8 @@ py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stde
     const Metrics m = compare(test.mean, reference.mean);
     py::dict d;
     d["rmse"] = m.rmse;
-    d["rmse_by_noise"] = a_stderr.is_none() && b_stderr.is_none() ? py::object(py::none())
-                                                                  : py::object(py::float_(expected_rmse(test, reference)));
+    d["rmse_by_noise"] =
+        a_stderr.is_none() && b_stderr.is_none() ? py::object(py::none()) : py::object(py::float_(expected_rmse(test, reference)));
     d["rel_mse"] = m.rel_mse;
     d["mape"] = m.mape;
     d["smape"] = m.smape;

@@ -1,10 +1,10 @@
 // Renders, as `neumann render` makes and writes them.
+#include "apps/patch_options.h"
 #include "apps/progress_line.h"
 #include "apps/rendering.h"
 #include "apps/run_json.h"
 #include "apps/series_files.h"
 #include "python/module.h"
-#include "apps/patch_options.h"
 
 #include <pybind11/stl.h>
 
@@ -62,10 +62,8 @@ void bind_render(py::module_& m) {
         .def("ways", &ways)
         .def("table", [](const Rendering& r) { return series_table(r.result.series.report); })
         .def("convergence", [](const Rendering& r) { return convergence_table(r.result.series.convergence); })
-        .def("run",
-             [](const Rendering& r, const std::string& folder) {
-                 return run_json(r.job(), r.result, r.warnings(), folder, r.seconds).dump();
-             })
+        .def("run", [](const Rendering& r,
+                       const std::string& folder) { return run_json(r.job(), r.result, r.warnings(), folder, r.seconds).dump(); })
         .def_property_readonly("warnings", [](const Rendering& r) { return texts(r.result.warnings); })
         .def("complaints", &Rendering::complaints)
         .def("save", &save);

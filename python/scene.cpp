@@ -1,9 +1,9 @@
 // Scenes: read, and looked at.
+#include "apps/patch_options.h"
 #include "apps/plan.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 #include "python/module.h"
-#include "apps/patch_options.h"
 
 #include <pybind11/stl.h>
 

@@ -148,8 +148,8 @@ std::unique_ptr<Job> start_solver(const std::string& name, const Operator& K, co
         if (reflectance) problem.reflectance = &*reflectance;
         if (exact) problem.exact = &*exact;
         problem.observer = [&](const SolverStep& step) {
-            job.tell(fmt::format("{}   {:.0f} applications of K   error about {:.2g}", solver->title, step.applications,
-                                 step.estimate));
+            job.tell(
+                fmt::format("{}   {:.0f} applications of K   error about {:.2g}", solver->title, step.applications, step.estimate));
         };
         const Stopwatch watch;
         auto row = std::make_shared<SolverRow>(SolverRow{solver, solver->solve(problem), 0.0, 0.0});
@@ -197,9 +197,7 @@ std::unique_ptr<Job> start_cube(int n) {
     return std::make_unique<Job>(0, [n](Job& job) -> Job::Finish {
         job.tell("integrating form factors");
         const auto cube = std::make_shared<const known::Cube>(known::patched_cube(n));
-        return [cube]() -> py::object {
-            return py::make_tuple(cube->factors.F, cube->factors.area, cube->face);
-        };
+        return [cube]() -> py::object { return py::make_tuple(cube->factors.F, cube->factors.area, cube->face); };
     });
 }
 

@@ -58,9 +58,8 @@ void look_through(const Scene& scene, const PatchSpace& space, std::uint32_t sam
 template <int C>
 ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed) {
     ExitantVector<C> We = ExitantVector<C>::Zero(C, space.size() + 1);
-    look_through(scene, space, samples, seed, [&](std::uint32_t, std::uint32_t unknown, double weight) {
-        We.col(unknown) += to_channels<C>(Rgb(weight));
-    });
+    look_through(scene, space, samples, seed,
+                 [&](std::uint32_t, std::uint32_t unknown, double weight) { We.col(unknown) += to_channels<C>(Rgb(weight)); });
     We.col(space.nothing()).setZero();
     const double all = static_cast<double>(scene.film.crop_width) * scene.film.crop_height * samples;
     for (const Facet& facet : space.facets()) We.middleCols(facet.first, facet.cells.size()) /= all * space.measure(facet);

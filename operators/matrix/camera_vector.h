@@ -14,8 +14,9 @@ namespace neumann {
 template <int C>
 ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed);
 
-// The camera as a matrix: a row for each pixel, row 0 of the picture first, a column for each unknown, so that the picture of a field
-// f on patches, as it is there, is the matrix times f. Of as many camera rays; rows sum to the part of them that meets an unknown.
+// The camera as a matrix: a row for each pixel, row 0 of the picture first, a column for each unknown, so that the picture of a
+// field f on patches, as it is there, is the matrix times f. Of as many camera rays; rows sum to the part of them that meets an
+// unknown.
 Eigen::SparseMatrix<double, Eigen::RowMajor> camera_matrix(const Scene& scene, const PatchSpace& space, std::uint32_t samples,
                                                            std::uint64_t seed);
 

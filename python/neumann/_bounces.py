@@ -246,13 +246,17 @@ def compare(a: Comparable, b: Comparable) -> Any:
     "rest"), with a column ``rmse_by_noise``, the RMSE that the standard errors alone explain. Raises InputError where sizes differ.
     """
     if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
-        return Report(_neumann.compare(a, b))
-    a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))  # type: ignore[arg-type]
-    both, rows = min(len(a), len(b)), []
-    named = [(f"bounce_{i:03}", "terms", i) for i in range(both)] + [(f"sum_{i:03}", "sums", i) for i in range(both)]
-    for name, kind, i in named:
-        of = [getattr(x, kind + end) for end in ("", "_stderr") for x in (a, b)]
-        rows.append((name, _neumann.compare(*(p if p is None else p[i] for p in of))))
+        return Report(_neumann.compare(np.asarray(a), np.asarray(b)))
+    a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
+    both, rows = range(min(len(a), len(b))), []
+
+    def of(series: BounceSeries, kind: str, i: int) -> Any:
+        return tuple(None if pictures is None else pictures[i] for pictures in getattr(series, kind))
+
+    for name, kind in (("bounce", "_terms"), ("sum", "_sums")):
+        for i in both:
+            (x, x_stderr, _), (y, y_stderr, _) = of(a, kind, i), of(b, kind, i)
+            rows.append((f"{name}_{i:03}", _neumann.compare(x, y, x_stderr, y_stderr)))
     if a.rest is not None and b.rest is not None and len(a) == len(b):
         rows.append(("rest", _neumann.compare(a.rest, b.rest, a.rest_stderr, b.rest_stderr)))
     columns = [name for name in rows[0][1] if name not in ("pixels", "not_finite")]

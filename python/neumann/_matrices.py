@@ -170,10 +170,11 @@ def solve(
     seconds. Of several solvers: Solutions, these by name. Raises InputError for an unknown solver.
     """
     operator = _operator(K, measure)
-    array = lambda x: None if x is None else np.asarray(x, dtype=float)
+    light = np.asarray(Le, dtype=float)
+    rho, L = (None if x is None else np.asarray(x, dtype=float) for x in (reflectance, exact))
 
     def one(name: str) -> Report:
-        job = _neumann.solve_one(name, operator, array(Le), error, most, radius, lowest, array(reflectance), array(exact))
+        job = _neumann.solve_one(name, operator, light, error, most, radius, lowest, rho, L)
         made = run(job, quiet)
         made["history"] = _report.rows(made["history"], STEPS)
         return Report(made)

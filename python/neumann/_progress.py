@@ -10,12 +10,20 @@ from . import _neumann
 _steps = " ▏▎▍▌▋▊▉█"
 
 
-def _bar(fraction: float, width: int = 20) -> str:
+def _bar(fraction: float, width: int = 10) -> str:
     whole, part = divmod(round(min(max(fraction, 0.0), 1.0) * width * 8), 8)
     return ("█" * whole + (_steps[part] if part else "")).ljust(width)
 
 
-class _Terminal:
+class _Nothing:
+    def show(self, text: str, fraction: Optional[float]) -> None:
+        pass
+
+    def clear(self) -> None:
+        pass
+
+
+class _Terminal(_Nothing):
     """One line on stderr that is written over again; nothing where that is not a terminal."""
 
     def __init__(self) -> None:
@@ -36,7 +44,7 @@ class _Terminal:
             self._shown = False
 
 
-class _Notebook:
+class _Notebook(_Nothing):
     """A bar below the cell, which goes away at the end."""
 
     def __init__(self) -> None:
@@ -58,14 +66,6 @@ class _Notebook:
 
             self._handle.update(HTML(""))
             self._handle = None
-
-
-class _Nothing:
-    def show(self, text: str, fraction: Optional[float]) -> None:
-        pass
-
-    def clear(self) -> None:
-        pass
 
 
 def _in_notebook() -> bool:

@@ -4,6 +4,7 @@ import base64
 import contextlib
 import html.parser
 import io
+import os
 import re
 import struct
 import sys
@@ -82,7 +83,7 @@ class Display(Case):
                 return True
 
         for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
-            with contextlib.redirect_stderr(stream):
+            with contextlib.redirect_stderr(stream), mock.patch.dict(os.environ, COLUMNS="200"):
                 cornell(32).render(bounces=4, time=1.0)
             self.assertEqual("bounces 0..4 and rest" in stream.getvalue(), shown)
             if shown:

@@ -29,7 +29,7 @@ class Errors(Case):
     def test_arguments(self):
         box = scene_file("cornell-box")
         for keywords, options in (
-            ({"bounces": -1}, ["-n", "-1"]),
+            ({"bounces": 1.5}, ["-n", "1.5"]),
             ({"spp": 0}, ["--spp", "0"]),
             ({"spp": "many"}, ["--spp", "many"]),
             ({"method": "photons"}, ["--method", "photons"]),
@@ -42,6 +42,8 @@ class Errors(Case):
         ):
             with self.subTest(**keywords):
                 self.expect_as_command(lambda: cornell().render(**keywords), "render", box, "-D", "res=16", *options)
+        with self.assertRaisesRegex(neumann.InputError, "^-n: '-1' is not a whole number from 0 to 100000$"):
+            cornell().render(bounces=-1)
         with self.assertRaises(TypeError):
             cornell().render(samples=4)
 

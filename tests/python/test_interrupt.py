@@ -49,7 +49,7 @@ class Interrupt(Case):
 
     def test_study(self):
         stop, seconds = self.interrupted(
-            lambda: furnace().study(["walk", "light"], budgets=[0.05], repeats=1000, bounces=1, reference="values:1,0.5"), 2.0
+            lambda: furnace().study(["walk", "light"], budgets=[0.02], repeats=1000, bounces=1, reference="values:1,0.5"), 4.0
         )
         self.assertLess(seconds, 2.0)
         self.assertFalse(stop.result.complete)

@@ -58,6 +58,10 @@ class Matrices(Case):
         picture = made.picture(made.Le, spp=4)
         self.assertEqual(picture.shape, (8, 8))
         np.testing.assert_allclose(picture, 1.0, rtol=1e-14)
+        # ⟨K*² We, Le⟩ is the mean of the picture of bounce 2, albedo².
+        We = made.camera(4).sum(axis=0).A1 / picture.size / made.measure
+        adjoint = lambda f: made.K.T @ (made.measure * f) / made.measure
+        self.assertAlmostEqual(np.sum(made.measure * adjoint(adjoint(We)) * made.Le), 0.25, 13)
         # The lamp is on top.
         made = cornell().matrices(channel="g", **SIZE)
         picture = made.picture(made.Le)

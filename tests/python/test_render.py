@@ -96,7 +96,6 @@ class Render(Case):
         self.assertTrue((series.terms_stderr <= 1e-6).all())
 
     def test_importance(self):
-        # Light of 1 given off by everything: the sum of measure · importance of bounce i is the mean of its picture, albedo^i.
         series = furnace(0.5).render(bounces=2, spp=16, method="patches", importance=True, patches=100, directions=32)
         self.assertTrue(series.run.quantity.name.startswith("importance"))
         self.assertGreater(series.terms[1].mean(), 0.0)
