@@ -62,8 +62,9 @@ PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene>
     : options_(options), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     if (options.threads > 0)
         threads_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    const TracedSettings traced = settings(options);
     try {
-        system_ = std::make_unique<TracedSystem>(*scene_, settings(options));
+        system_ = std::make_unique<TracedSystem>(*scene_, traced);
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }

@@ -18,9 +18,9 @@ class Errors(Case):
 
     def test_scenes(self):
         path = self.folder / "wrong.xml"
-        path.write_text('<scene version="3.0.0">\n  <shape type="sphre"/>\n</scene>\n')
+        path.write_text('<scene version="3.0.0">\n  <sensor type="perspective"/>\n  <shape type="sphre"/>\n</scene>\n')
         self.expect_as_command(lambda: neumann.load(path), "render", path)
-        with self.assertRaisesRegex(neumann.InputError, r"wrong\.xml:2:\d+: "):
+        with self.assertRaisesRegex(neumann.InputError, r"wrong\.xml:3:\d+: "):
             neumann.load(path)
         self.expect_as_command(lambda: neumann.load(self.folder / "none.xml"), "render", self.folder / "none.xml")
         box = scene_file("cornell-box")

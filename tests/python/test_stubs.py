@@ -68,7 +68,7 @@ class Stubs(unittest.TestCase):
         known = {"o": None, "n": "bounces", "t": "threads", "D": None, "json": None, "quiet": "quiet", "help": None, "h": None}
         for command, function in (("render", neumann.Scene.render), ("study", neumann.Scene.study), ("spectrum", neumann.Scene.spectrum)):
             text = subprocess.run([os.environ["NEUMANN"], command, "--help"], capture_output=True, text=True).stdout
-            options = {word.strip(",").lstrip("-") for line in text.splitlines() if line.startswith("  -") for word in line.split()[:1]}
+            options = {word.split(",")[0].lstrip("-") for line in text.splitlines() if line.startswith("  -") for word in line.split()[:1]}
             for option in options:
                 name = known.get(option, option.replace("-", "_"))
                 if name not in (None, "csv", "resume"):
