@@ -49,7 +49,7 @@ Plan plan_of(const RenderRequest& request, const Scene& scene) {
 }
 
 int choose_bounces(const RenderJob& job) {
-    const auto& [request, scene, pilot, plan] = job;
+    const auto& [request, scene, pilot, plan, progress] = job;
     if (request.bounces) return *request.bounces;
     if (request.tail) {
         if (!pilot.converges())
