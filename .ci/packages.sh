@@ -28,6 +28,8 @@ fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
 packages_to_test='
 libgtest-dev        | GoogleTest                              | gtest/gtest.h
 libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h
+dpkg-dev            | what cpack finds dependencies with      | dpkg-shlibdeps
+file                | file, which cpack asks of each file     | file
 python3             | Python 3                                | python3
 python3-numpy       | NumPy                                   |
 python3-scipy       | SciPy, which reads what export writes    |

@@ -12,7 +12,6 @@
 #include "operators/statistics/conformity.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -194,19 +193,14 @@ CLI::App* add_conform(CLI::App& app, ConformRequest& request) {
         ->type_name("N")
         ->check(whole_from(1, std::uint64_t{1} << 40))
         ->capture_default_str();
-    conform->add_option("--seed", request.seed, "Seed of the random numbers")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    conform->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_seed(*conform, request.seed);
+    add_threads(*conform, request.threads);
     conform->add_flag("--json", request.json, "Print JSON");
     return conform;
 }
 
 int conform_command(const ConformRequest& request) {
-    std::optional<oneapi::tbb::global_control> threads;
-    if (request.threads > 0)
-        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
+    const ThreadLimit threads(request.threads);
     catch_interrupts();
     const std::vector<ConformScene> scenes = find_scenes(request);
     std::vector<ConformResult> results;

@@ -73,7 +73,11 @@ bool is_output_name(std::string_view name) {
     constexpr std::string_view names[] = {"rest.exr",        "contact-sheet.png",
                                           "bounces.gif",     "series.csv",
                                           "convergence.csv", "run.json",
-                                          "ways.png",        "index.html",  // render
+                                          "ways.png",        "index.html",
+                                          "strip-terms.png", "strip-terms.gif",
+                                          "strip-sums.png",  "strip-sums.gif",
+                                          "strip-doubling.png",
+                                          "strip-doubling.gif",             // render
                                           "study.csv",       "study.json",  // study
                                           "compare.json",                   // compare
                                           "T.mtx",           "R.mtx",

@@ -8,13 +8,15 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
 struct RenderRequest {
     std::string scene;
-    std::map<std::string, std::string> definitions;  // -D name=value
-    std::string output;
+    std::vector<std::string> definition_texts;       // -D name=value, as typed
+    std::map<std::string, std::string> definitions;  // likewise, read
+    std::string output;  // a folder; empty: out/NAME
     std::optional<int> bounces;
     std::optional<double> tail;
     std::optional<std::uint64_t> samples;
@@ -37,6 +39,7 @@ struct RenderRequest {
     std::string command_line;  // as typed, for run.json
 };
 
+CLI::App* add_render(CLI::App& app, RenderRequest& request);
 // Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 
