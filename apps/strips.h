@@ -18,7 +18,7 @@ struct SeriesPictures {
     const Image* rest = nullptr;         // of all others, and the sum of all, where they are known
     const Image* limit = nullptr;
     std::string K = "K", Le = "Le";  // or "K*", "We"
-    std::string kind;                // ", some paths", where labels say so
+    std::string kind = {};           // ", some paths", where labels say so
 
     // "Le", "K Le", "K^2 Le", …, "rest, beyond 6", "bounce 0", "bounces 0 to 1", …, "all bounces".
     Pictures all() const;

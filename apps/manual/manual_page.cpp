@@ -15,8 +15,8 @@ using Kind = ManualBlock::Kind;
 // "-n BOUNCES", "-h,--help", "SCENE".
 std::string usage(const CLI::Option& option) {
     if (option.get_positional()) return option.get_name(true, false);
-    const std::string type = option.get_type_size() != 0 ? " " + option.get_type_name() : "";
-    return option.get_name(false, true) + type;
+    const std::string type = option.get_type_name();
+    return option.get_name(false, true) + (type.empty() ? "" : " " + type);
 }
 
 std::string meaning(const CLI::Option& option) {

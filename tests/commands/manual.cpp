@@ -91,7 +91,7 @@ TEST_F(Manual, EveryCommandHasAPageWithItsOptionsInIt) {
         std::istringstream lines(text);
         for (std::string line; std::getline(lines, line);) {
             const auto characters = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
-            if (line.find(' ', 6) != std::string::npos) EXPECT_LE(characters, 88) << line;
+            EXPECT_TRUE(characters <= 88 || line.find(' ', 6) == std::string::npos) << line;
         }
         EXPECT_EQ(run({command, "--help"}).out, text);
     }
@@ -109,7 +109,7 @@ TEST_F(Manual, ExamplesAreCommandsThatAreUnderstood) {
             ASSERT_TRUE(commands().contains(command)) << example;
             const Options known = options(command);
             for (std::string word; words >> word;)
-                if (word[0] == '-') EXPECT_TRUE(known.contains(word)) << example;
+                EXPECT_TRUE(word[0] != '-' || known.contains(word)) << example;
         }
     }
 }

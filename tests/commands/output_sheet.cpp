@@ -142,7 +142,7 @@ TEST_F(Strips, TermsAtOneExposureAndBelowAsBrightAsTheyCanBe) {
         EXPECT_EQ(strip[1][i].picture, &terms[i]);
     }
     // What is too bright is not darkened, and nothing is made of nothing.
-    for (const LabelledPicture& p : strip_of_terms(up_to(0), dark, 8.0)[1]) EXPECT_EQ(p.label, "Le");
+    EXPECT_EQ(labels(strip_of_terms(up_to(0), dark, 8.0)[1]), Labels{"Le"});
     SeriesPictures black{std::span(&dark, 1), std::span(&dark, 1)};
     EXPECT_EQ(strip_of_terms(black, dark, 0.25)[1][0].label, "Le");
 }
