@@ -25,12 +25,17 @@ libjs-chart.js      | Chart.js 3 or 4, for plots of pages     | /usr/share/javas
 fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
 '
 
+packages_to_python='
+python3             | Python 3                                | python3
+python3-dev         | its headers                             |
+pybind11-dev        | pybind11 2.10 or later                  |
+python3-numpy       | NumPy                                   |
+python3-scipy       | SciPy: T, R and K are its matrices      |
+'
+
 packages_to_test='
 libgtest-dev        | GoogleTest                              | gtest/gtest.h
 libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h
-python3             | Python 3                                | python3
-python3-numpy       | NumPy                                   |
-python3-scipy       | SciPy, which reads what export writes    |
 python3-openimageio | the Python module of OpenImageIO        |
 chromium            | Chromium, in which pages are tested     | chromium chromium-browser google-chrome
 nodejs              | Node.js 18 or later, which drives it    | node nodejs

@@ -21,35 +21,12 @@ namespace fs = std::filesystem;
 // A ray's entry while a matrix is put together and turned into text.
 constexpr double bytes_of_entry = 90.0;
 
-void check_memory(const ExportRequest& request, const TracedSystem& system) {
-    // R of a rough side has an entry for each ray and direction.
-    const auto rays = static_cast<double>(std::max(system.rays(), reflection_entries(system.table(), system.reflection(0))));
-    const double fitting = std::min(0.5 * physical_memory() / bytes_of_entry, double{std::numeric_limits<int>::max()});
-    if (rays > fitting)
-        throw InputError(fmt::format(
-            "{}: the matrices of {} patches of {} rays are too large to export; at most {:.0f} patches of as many rays fit",
-            request.patches.scene, system.space().patches().size(), request.patches.rays,
-            fitting / rays * static_cast<double>(system.space().patches().size())));
-}
-
 // A run replaces what an earlier one left in its folder; pictures are not to go that way.
 void check_folder(const std::string& output) {
     std::error_code error;
     if (fs::exists(fs::path(output) / "bounce_000.exr", error))
         throw InputError(output +
                          ": holds the pictures of a render, which the matrices would replace; name another folder with -o");
-}
-
-std::string patches_table(const PatchSpace& space) {
-    std::string csv = "unknown,directions,patch,side,shape,x,y,z,nx,ny,nz,area\n";
-    for (const Facet& facet : space.facets()) {
-        const SurfacePoint p = space.patches().point(facet.patch, Vec2(0.5));
-        const Vec3 n = facet.front ? p.normal : -p.normal;
-        csv += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", facet.first,
-                           facet.cells.size(), facet.patch, facet.front ? "front" : "back", p.shape, p.position.x, p.position.y,
-                           p.position.z, n.x, n.y, n.z, space.patches().area(facet.patch));
-    }
-    return csv;
 }
 
 // Files of an export, with what they are called in Python.
@@ -93,14 +70,6 @@ Eigen::MatrixXd columns(int channels, const auto& column) {
     return matrix;
 }
 
-Vector ray_measures(const RayTable& table) {
-    Vector measure(static_cast<Eigen::Index>(table.seen().size()));
-    for (std::uint32_t f = 0; f < table.space().facets().size(); ++f)
-        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray)
-            measure[static_cast<Eigen::Index>(ray)] = table.measure(f);
-    return measure;
-}
-
 void print_how_to_read(const PatchScene& scene, const ExportRequest& request, const std::string& output, const std::string& lines) {
     const std::string suffix = scene.system().channels() == 1 ? "" : "_r";
     fmt::print("{}\n\n{}\nIn Python, in the folder {}:\n\n", scene.title(), lines, output);
@@ -112,6 +81,37 @@ void print_how_to_read(const PatchScene& scene, const ExportRequest& request, co
 }
 
 }  // namespace
+
+void check_matrix_memory(const PatchOptions& options, const TracedSystem& system) {
+    // R of a rough side has an entry for each ray and direction.
+    const auto rays = static_cast<double>(std::max(system.rays(), reflection_entries(system.table(), system.reflection(0))));
+    const double fitting = std::min(0.5 * physical_memory() / bytes_of_entry, double{std::numeric_limits<int>::max()});
+    if (rays > fitting)
+        throw InputError(fmt::format(
+            "{}: the matrices of {} patches of {} rays are too large to export; at most {:.0f} patches of as many rays fit",
+            options.scene, system.space().patches().size(), options.rays,
+            fitting / rays * static_cast<double>(system.space().patches().size())));
+}
+
+std::string patches_table(const PatchSpace& space) {
+    std::string csv = "unknown,directions,patch,side,shape,x,y,z,nx,ny,nz,area\n";
+    for (const Facet& facet : space.facets()) {
+        const SurfacePoint p = space.patches().point(facet.patch, Vec2(0.5));
+        const Vec3 n = facet.front ? p.normal : -p.normal;
+        csv += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", facet.first,
+                           facet.cells.size(), facet.patch, facet.front ? "front" : "back", p.shape, p.position.x, p.position.y,
+                           p.position.z, n.x, n.y, n.z, space.patches().area(facet.patch));
+    }
+    return csv;
+}
+
+Vector ray_measures(const RayTable& table) {
+    Vector measure(static_cast<Eigen::Index>(table.seen().size()));
+    for (std::uint32_t f = 0; f < table.space().facets().size(); ++f)
+        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray)
+            measure[static_cast<Eigen::Index>(ray)] = table.measure(f);
+    return measure;
+}
 
 CLI::App* add_export(CLI::App& app, ExportRequest& request) {
     auto* command = app.add_subcommand("export", "Write T, R and Le of a scene as files that SciPy reads");
@@ -128,7 +128,7 @@ int export_command(const ExportRequest& request) {
                                    : request.output;
     const PatchScene scene(request.patches);
     const TracedSystem& system = scene.system();
-    check_memory(request, system);
+    check_matrix_memory(request.patches, system);
     check_folder(output);
     Export files(output, request.patches.quiet);
 
@@ -153,7 +153,7 @@ int export_command(const ExportRequest& request) {
     files.add("patches.csv", patches_table(system.space()), fmt::format("{} rows", system.space().facets().size()),
               "first unknown of a side, how many directions, patch, shape, …");
 
-    const std::vector<std::string> warnings = texts(scene.scene().warnings);
+    const std::vector<std::string> warnings = scene.warnings();
     nlohmann::ordered_json json = scene.json();
     json["channels"] = nlohmann::ordered_json::array();
     for (int c = 0; c < channels; ++c) json["channels"].push_back(scene.channel_name(c));

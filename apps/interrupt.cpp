@@ -1,15 +1,17 @@
 #include "apps/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace neumann {
 
 namespace {
 
-volatile std::sig_atomic_t caught = 0;
+std::atomic<bool> caught = false;
+static_assert(std::atomic<bool>::is_always_lock_free);  // may be set in a signal handler
 
 void on_signal(int number) {
-    caught = 1;
+    caught = true;
     std::signal(number, SIG_DFL);
 }
 
@@ -20,6 +22,7 @@ void catch_interrupts() {
     std::signal(SIGTERM, on_signal);
 }
 
-bool interrupted() { return caught != 0; }
+bool interrupted() { return caught; }
+void set_interrupted(bool now) { caught = now; }
 
 }  // namespace neumann

@@ -5,5 +5,7 @@ namespace neumann {
 
 void catch_interrupts();
 bool interrupted();
+// The same from within: where another program has its own hands on the signals, as Python has.
+void set_interrupted(bool now);
 
 }  // namespace neumann

@@ -2,7 +2,6 @@
 #include "apps/compare.h"
 #include "apps/conform.h"
 #include "apps/export.h"
-#include "apps/method_options.h"
 #include "apps/options.h"
 #include "apps/plan.h"
 #include "apps/render.h"
@@ -47,51 +46,6 @@ std::string commands(const CLI::App& app) {
     return names;
 }
 
-void add_render(CLI::App& app, neumann::RenderRequest& request, std::vector<std::string>& definitions) {
-    auto* render = app.add_subcommand("render", "Render the bounces K^i Le of a scene, their sums, and what is left out");
-    render->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
-    render->add_option("-o", request.output, "Folder for the pictures and tables; out/NAME without it")->type_name("DIR");
-    auto* bounces = render->add_option("-n", request.bounces, "The last bounce with a picture of its own")
-                        ->type_name("BOUNCES")
-                        ->check(neumann::whole_from(0, 100000));
-    render->add_option("--tail", request.tail, "As many bounces as it takes until the rest is below this part of the sum")
-        ->type_name("EPS")
-        ->check(neumann::above_zero())
-        ->excludes(bounces);
-    render->add_option("--spp", request.samples, "Samples a pixel")
-        ->type_name("N")
-        ->check(neumann::whole_from(1, std::uint64_t{1} << 40));
-    render->add_option("--time", request.seconds, "Sample for so many seconds")->type_name("S")->check(neumann::above_zero());
-    render
-        ->add_option("--error", request.relative_error,
-                     "Sample until the relative standard error of every bounce is at most this, looked at when the samples are a "
-                     "power of two")
-        ->type_name("REL")
-        ->check(neumann::above_zero());
-    neumann::add_method_options(*render, request);
-    render
-        ->add_option("--ways", request.ways,
-                     "Of bidirectional: pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
-                     "camera, weighted and by itself")
-        ->type_name("BOUNCE")
-        ->check(neumann::whole_from(1, 1000));
-    render->add_flag(
-        "--importance", request.importance,
-        "Of patches: pictures of K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows with "
-        "the radiance given off at each point, per area and projected solid angle (m⁻²·sr⁻¹), mean over directions");
-    render
-        ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
-        ->type_name("DIR");
-    render->add_option("--seed", request.seed, "Seed of the random numbers")
-        ->type_name("N")
-        ->check(neumann::whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(neumann::whole_from(1, 4096));
-    neumann::add_definitions(*render, definitions);
-    render->add_flag("--quiet", request.quiet, "Print nothing but errors");
-    render->add_flag("--json", request.json, "Print run.json");
-}
-
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -103,8 +57,7 @@ int main(int argc, char** argv) try {
     app.set_version_flag("--version", "neumann " NEUMANN_VERSION);
 
     neumann::RenderRequest request;
-    std::vector<std::string> definitions;
-    add_render(app, request, definitions);
+    neumann::add_render(app, request);
     neumann::CompareRequest compare_request;
     auto* compare = app.add_subcommand(
         "compare", "Print error metrics between two pictures or two output folders; the second is the reference");
@@ -175,7 +128,7 @@ int main(int argc, char** argv) try {
         return finish(neumann::export_command(export_request));
     }
 
-    request.definitions = neumann::parse_definitions(definitions);
+    request.definitions = neumann::parse_definitions(request.definition_texts);
     request.command_line = command_line;
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();

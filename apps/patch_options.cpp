@@ -28,6 +28,11 @@ TracedSettings settings(const PatchOptions& options) {
     return {options.patches, static_cast<std::uint32_t>(rays), options.seed};
 }
 
+std::shared_ptr<const Scene> read(const PatchOptions& options) {
+    settings(options);  // before anything is read
+    return std::make_shared<const Scene>(read_scene(options.scene, parse_definitions(options.definitions)));
+}
+
 }  // namespace
 
 void add_patch_options(CLI::App& command, PatchOptions& options) {
@@ -50,19 +55,16 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
     command.add_flag("--json", options.json, "Print JSON");
 }
 
-Scene PatchScene::read(const PatchOptions& options) {
-    settings(options);  // before anything is read
-    Scene scene = read_scene(options.scene, parse_definitions(options.definitions));
-    if (has_shading_normals(scene)) scene.warnings.add(patches_are_flat);
-    return scene;
-}
+PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(options), parse_definitions(options.definitions)) {}
 
-PatchScene::PatchScene(const PatchOptions& options)
-    : options_(options), definitions_(parse_definitions(options.definitions)), scene_(read(options)) {
+PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
+                       std::map<std::string, std::string> definitions)
+    : options_(options), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     if (options.threads > 0)
         threads_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    const TracedSettings traced = settings(options);
     try {
-        system_ = std::make_unique<TracedSystem>(scene_, settings(options));
+        system_ = std::make_unique<TracedSystem>(*scene_, traced);
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }
@@ -77,6 +79,12 @@ const char* PatchScene::channel_letter(int c) const {
     return system_->channels() == 1 ? "" : letters[c];
 }
 
+std::vector<std::string> PatchScene::warnings() const {
+    Warnings all = scene_->warnings;
+    if (has_shading_normals(*scene_)) all.add(patches_are_flat);
+    return texts(all);
+}
+
 std::string PatchScene::title() const {
     return fmt::format("{}: {} patches, {} unknowns, {} rays each, seed {}", options_.scene, system_->space().patches().size(),
                        system_->space().size(), options_.rays, options_.seed);
@@ -86,7 +94,7 @@ nlohmann::ordered_json PatchScene::json() const {
     nlohmann::ordered_json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = options_.command_line;
-    json["scene"] = {{"file", options_.scene}, {"hash", scene_.hash}, {"definitions", definitions_}};
+    json["scene"] = {{"file", options_.scene}, {"hash", scene_->hash}, {"definitions", definitions_}};
     json["options"] = {{"patches", options_.patches}, {"directions", options_.rays}, {"seed", options_.seed}};
     json["patches"] = system_->space().patches().size();
     json["unknowns"] = system_->space().size();

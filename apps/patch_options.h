@@ -37,13 +37,17 @@ class PatchScene {
 public:
     // Throws InputError, with the option or the scene that is wrong, and what would do.
     explicit PatchScene(const PatchOptions& options);
+    // Of a scene that was read before, with these definitions.
+    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions);
 
-    const Scene& scene() const { return scene_; }
+    const Scene& scene() const { return *scene_; }
     const TracedSystem& system() const { return *system_; }
 
     // "grey", or "red", "green", "blue"; and "", or "r", "g", "b", as in names of files.
     const char* channel_name(int c) const;
     const char* channel_letter(int c) const;
+
+    std::vector<std::string> warnings() const;
 
     // One line: "scene.xml: 1994 patches, 2006 unknowns, 64 rays each, seed 0".
     std::string title() const;
@@ -51,12 +55,10 @@ public:
     nlohmann::ordered_json json() const;
 
 private:
-    static Scene read(const PatchOptions& options);
-
     PatchOptions options_;
     std::optional<oneapi::tbb::global_control> threads_;
     std::map<std::string, std::string> definitions_;
-    Scene scene_;
+    std::shared_ptr<const Scene> scene_;
     std::unique_ptr<TracedSystem> system_;
 };
 

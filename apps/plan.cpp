@@ -28,6 +28,12 @@ PlanPart late_bounces(const Scene& scene) {
 
 }  // namespace
 
+Plan plan_with_bounces(const Scene& scene) {
+    Plan plan = make_plan(scene);
+    plan.parts.push_back(late_bounces(scene));
+    return plan;
+}
+
 nlohmann::ordered_json plan_json(const Plan& plan) {
     auto json = nlohmann::ordered_json::array();
     for (const PlanPart& p : plan.parts) {
@@ -46,9 +52,7 @@ CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
 }
 
 int plan_command(const PlanRequest& request) {
-    const Scene scene = read_scene(request.scene, parse_definitions(request.definitions));
-    Plan plan = make_plan(scene);
-    plan.parts.push_back(late_bounces(scene));
+    const Plan plan = plan_with_bounces(read_scene(request.scene, parse_definitions(request.definitions)));
     if (request.json) {
         fmt::print("{}\n", plan_json(plan).dump(2));
         return 0;

@@ -21,6 +21,8 @@ CLI::App* add_plan(CLI::App& app, PlanRequest& request);
 // Exit code 0. Throws InputError.
 int plan_command(const PlanRequest& request);
 
+// All parts of a scene, and the bounces that a render would leave out.
+Plan plan_with_bounces(const Scene& scene);
 // A list of parts, each kept or left out, with its reason.
 nlohmann::ordered_json plan_json(const Plan& plan);
 

@@ -17,22 +17,26 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(int bounces, bool quiet) : bounces_(bounces), active_(!quiet && isatty(STDERR_FILENO)) {}
+std::string progress_text(int bounces, const RenderProgress& progress) {
+    std::string line =
+        fmt::format("bounces 0..{} and rest   {} samples a pixel   {}", bounces, progress.samples, duration(progress.seconds));
+    if (progress.seconds_left)
+        line += fmt::format("   {:.0f}%   {} left", 100.0 * std::min(progress.fraction, 1.0), duration(*progress.seconds_left));
+    return line;
+}
+
+ProgressLine::ProgressLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
-void ProgressLine::show(const RenderProgress& progress) {
+void ProgressLine::show(int bounces, const RenderProgress& progress) {
     if (!active_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     const auto now = std::chrono::steady_clock::now();
     if (!lock || now - last_ < std::chrono::milliseconds(200)) return;
     last_ = now;
     shown_ = true;
-    std::string line =
-        fmt::format("bounces 0..{} and rest   {} samples a pixel   {}", bounces_, progress.samples, duration(progress.seconds));
-    if (progress.seconds_left)
-        line += fmt::format("   {:.0f}%   {} left", 100.0 * std::min(progress.fraction, 1.0), duration(*progress.seconds_left));
-    fmt::print(stderr, "\r\033[K{}", line);
+    fmt::print(stderr, "\r\033[K{}", progress_text(bounces, progress));
     std::fflush(stderr);
 }
 

@@ -5,21 +5,24 @@
 
 #include <chrono>
 #include <mutex>
+#include <string>
 
 namespace neumann {
+
+// "bounces 0..8 and rest   64 samples a pixel   3 s   50%   3 s left"
+std::string progress_text(int bounces, const RenderProgress& progress);
 
 class ProgressLine {
 public:
     // Writes to stderr, and only if that is a terminal and `quiet` is not set.
-    ProgressLine(int bounces, bool quiet);
+    explicit ProgressLine(bool quiet);
     ~ProgressLine();
 
     // From any thread; most calls do nothing.
-    void show(const RenderProgress& progress);
+    void show(int bounces, const RenderProgress& progress);
     void clear();
 
 private:
-    int bounces_;
     bool active_;
     bool shown_ = false;
     std::mutex mutex_;

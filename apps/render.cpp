@@ -1,10 +1,8 @@
 #include "apps/render.h"
 
 #include "apps/interrupt.h"
-#include "apps/pages/explorer_page.h"
-#include "apps/render_method.h"
-#include "apps/run_json.h"
-#include "apps/series_files.h"
+#include "apps/progress_line.h"
+#include "apps/rendering.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 
@@ -72,40 +70,25 @@ int render_command(const RenderRequest& request) {
 
     Scene scene = read_scene(request.scene, request.definitions);
     OutputFolder folder(request.output);
-    const Pilot pilot(scene, direct_light(request.light, scene.emitters), request.seed);
-    const Plan plan = plan_of(request, scene);
-    leave_out(plan, scene);
-    const RenderJob job{request, scene, pilot, plan};
-    const RenderResult result = render_by_method(job);
-
-    Warnings warnings = scene.warnings;
-    for (const auto& [text, count] : result.warnings.counts()) warnings.add(text, count);
-    PackedSeries packed(scene.film.crop_width, scene.film.crop_height,
-                        result.series.report.bounces.size() + (result.series.rest ? 1 : 0));
-    const WrittenPictures written = write_pictures(folder, result.series, packed);
-    if (!written.warning.empty()) warnings.add(written.warning);
-    if (packed.factor() > 1) warnings.add(packed.reduction());
-    if (result.ways) write_ways(folder, *result.ways);
-    folder.write("series.csv", series_table(result.series.report));
-    const std::string convergence = convergence_table(result.series.convergence);
-    folder.write("convergence.csv", convergence);
-    const double seconds = watch.seconds();
-    const auto json = run_json(job, result, warnings, seconds);
-    const ExploredRun explored{json, convergence, written.exposure, std::move(packed), result.series.rest.has_value()};
-    folder.write("index.html", explorer_page({&explored}));
-    folder.write("run.json", json.dump(2) + "\n");
-    folder.commit();
+    const double reading_seconds = watch.seconds();
+    ProgressLine line(request.quiet);
+    const auto rendering =
+        render(request, std::move(scene), [&](int bounces, const RenderProgress& so_far) { line.show(bounces, so_far); });
+    line.clear();
+    rendering->seconds += reading_seconds;
+    const auto [warnings, json] = write_rendering(*rendering, folder);
 
     if (!request.quiet)
         for (const auto& [text, count] : warnings.counts())
             fmt::print(stderr, "warning: {}{}\n", text, count > 1 ? fmt::format(" ({} times)", count) : "");
     if (!request.quiet)
-        for (const std::string& complaint : result.complaints) fmt::print(stderr, "sick: {}\n", complaint);
+        for (const std::string& complaint : rendering->complaints(request.output)) fmt::print(stderr, "sick: {}\n", complaint);
+    const std::optional<Ways>& ways = rendering->result.ways;
     if (request.json)
         fmt::print("{}\n", json.dump(2));
     else if (!request.quiet)
-        print_summary(result.series, request.output);
-    if (result.ways && !request.json && !request.quiet) fmt::print("{}", ways_table(*result.ways));
+        print_summary(rendering->result.series, request.output);
+    if (ways && !request.json && !request.quiet) fmt::print("{}", ways_table(*ways));
     return 0;
 }
 

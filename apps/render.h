@@ -8,12 +8,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
 struct RenderRequest {
     std::string scene;
-    std::map<std::string, std::string> definitions;  // -D name=value
+    std::vector<std::string> definition_texts;  // -D name=value
+    std::map<std::string, std::string> definitions;
     std::string output;
     std::optional<int> bounces;
     std::optional<double> tail;
@@ -37,6 +39,7 @@ struct RenderRequest {
     std::string command_line;  // as typed, for run.json
 };
 
+CLI::App* add_render(CLI::App& app, RenderRequest& request);
 // Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 

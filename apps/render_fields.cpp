@@ -3,7 +3,6 @@
 
 #include "apps/health_json.h"
 #include "apps/interrupt.h"
-#include "apps/progress_line.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/scene/shading_normals.h"
@@ -58,7 +57,7 @@ bool has_given_settings(const RenderRequest& request) { return request.samples |
 }  // namespace
 
 RenderResult render_by_fields(const RenderJob& job) {
-    const auto& [request, scene, pilot, plan] = job;
+    const auto& [request, scene, pilot, plan, progress] = job;
     FieldSettings settings = choose_settings(job);
     if (request.relative_error && has_given_settings(request))
         throw InputError(
@@ -66,16 +65,14 @@ RenderResult render_by_fields(const RenderJob& job) {
     std::optional<Reference> reference;
     if (!request.reference.empty()) reference.emplace(request.reference, settings.bounces, scene.film);
 
-    ProgressLine line(settings.bounces, request.quiet);
     RenderObserver observer;
-    observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
+    observer.progress = [&](const RenderProgress& so_far) { job.progress(settings.bounces, so_far); };
     // Without any goal, what a short wait gives.
     const Stopwatch watch;
     observer.interrupted = [&] { return interrupted() || (!request.relative_error && watch.seconds() > default_seconds); };
     auto rendered = has_given_settings(request)
                         ? render_fields_once(scene, settings, interrupted)
                         : render_fields_to_error(scene, settings, request.relative_error.value_or(default_error), observer);
-    line.clear();
     if (!rendered) throw RunError("interrupted before the pictures were finished: nothing was written");
     FieldRun& run = *rendered;
     if (run.outcome == Outcome::interrupted && !interrupted()) run.outcome = Outcome::time_reached;
@@ -107,8 +104,7 @@ RenderResult render_by_fields(const RenderJob& job) {
                       {"directions", std::uint64_t{run.settings.rays} * run.settings.replicates}};
     if (run.settings.method == FieldMethod::gather) result.samples["gather_rays_per_sample"] = run.settings.gather_rays;
     if (!run.pictures.rest_converges) result.rest["why"] = "the terms do not fall, or too slowly to add them up";
-    result.health = as_json(run.pictures.power);
-    result.complaints = complaints(run.pictures.power);
+    result.health = [power = run.pictures.power](const std::string&) { return as_json(power); };
     const auto pictures = std::make_shared<FieldPictures>(std::move(run.pictures));
     result.series.term = [pictures](std::size_t i) { return pictures->term(i); };
     result.series.sum = [pictures](std::size_t i) { return pictures->sum(i); };

@@ -46,7 +46,7 @@ Plan plan_of(const RenderRequest& request, const Scene& scene) {
 }
 
 int choose_bounces(const RenderJob& job) {
-    const auto& [request, scene, pilot, plan] = job;
+    const auto& [request, scene, pilot, plan, progress] = job;
     if (request.bounces) return *request.bounces;
     if (request.tail) {
         if (!pilot.converges())

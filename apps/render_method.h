@@ -19,14 +19,17 @@ struct RenderJob {
     const Scene& scene;
     const Pilot& pilot;
     const Plan& plan;  // without parts where nothing is left out
+    // Told how far it is with bounces 0 … N and the rest, from any thread.
+    std::function<void(int bounces, const RenderProgress&)> progress = [](int, const RenderProgress&) {};
 };
 
 struct RenderResult {
     BounceSeries series;
     Warnings warnings;
     // Parts of run.json that belong to the method.
-    nlohmann::ordered_json options, samples, rest, health;
-    std::vector<std::string> complaints;  // what is sick, a line each
+    nlohmann::ordered_json options, samples, rest;
+    // Likewise; it says how to replay what a folder will hold. Empty where only pictures are wanted.
+    std::function<nlohmann::ordered_json(const std::string& folder)> health;
     std::optional<Ways> ways;
 };
 

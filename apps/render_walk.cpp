@@ -4,7 +4,6 @@
 #include "apps/health_json.h"
 #include "apps/interrupt.h"
 #include "apps/method_options.h"
-#include "apps/progress_line.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
@@ -136,7 +135,7 @@ std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& req
 }
 
 RenderResult render_by_walk(const RenderJob& job) {
-    const auto& [request, scene, pilot, plan] = job;
+    const auto& [request, scene, pilot, plan, progress] = job;
     PictureSampler::Settings settings = sampling_settings(request, scene, plan);
     const Paths paths = paths_of(settings.method, scene);
     settings.walk.bounces = choose_bounces(job);
@@ -162,9 +161,8 @@ RenderResult render_by_walk(const RenderJob& job) {
         settings.walk.rest_probability =
             verdict == RestVerdict::measured ? pilot.rest_probability(std::min(N, Pilot::bounces)) : 0.0;
 
-        ProgressLine line(N, request.quiet);
         RenderObserver observer;
-        observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
+        observer.progress = [&](const RenderProgress& so_far) { job.progress(N, so_far); };
         observer.interrupted = interrupted;
         observer.checkpoints = !request.only_pictures;
         std::optional<Reference> reference;
@@ -227,9 +225,8 @@ RenderResult render_by_walk(const RenderJob& job) {
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
     if (request.ways) {
         check_memory(scene.film, 2 * *request.ways + 2);
-        ProgressLine line(*request.ways, request.quiet);
         RenderObserver observer;
-        observer.progress = [&](const RenderProgress& progress) { line.show(progress); };
+        observer.progress = [&](const RenderProgress& so_far) { job.progress(*request.ways, so_far); };
         observer.interrupted = interrupted;
         result.ways = render_ways(scene, settings, *request.ways, series.samples, observer);
     }
@@ -258,9 +255,9 @@ RenderResult render_by_walk(const RenderJob& job) {
         warnings.add("sample was not a finite number and was left out", series.tally.non_finite_samples());
     } else {
         settings.replicate_size = series.replicate_size;  // smaller where it was interrupted
-        const Health health = examine(scene, settings, series, *moments);
-        result.health = as_json(health, scene, request.output);
-        result.complaints = complaints(health, scene, request.output);
+        result.health = [health = examine(scene, settings, series, *moments), &scene = job.scene](const std::string& folder) {
+            return as_json(health, scene, folder);
+        };
     }
     return result;
 }

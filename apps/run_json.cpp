@@ -93,8 +93,9 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
 
 }  // namespace
 
-Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, double seconds_total) {
-    const auto& [request, scene, pilot, plan] = job;
+Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, const std::string& folder,
+              double seconds_total) {
+    const auto& [request, scene, pilot, plan, progress] = job;
     const BounceSeries& series = result.series;
     const SeriesReport& report = series.report;
     Json json;
@@ -128,7 +129,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     }
     json["rest"] = rest_json(scene, result);
     if (result.ways) json["ways"] = as_json(*result.ways);
-    json["health"] = result.health;
+    json["health"] = result.health ? result.health(folder) : Json(nullptr);
     json["warnings"] = Json::array();
     for (const auto& [text, count] : warnings.counts()) json["warnings"].push_back({{"text", text}, {"count", count}});
     return json;

@@ -7,6 +7,8 @@
 
 namespace neumann {
 
-nlohmann::ordered_json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, double seconds_total);
+// `folder`: where the samples that it names are replayed from.
+nlohmann::ordered_json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings,
+                                const std::string& folder, double seconds_total);
 
 }  // namespace neumann

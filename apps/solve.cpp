@@ -3,10 +3,6 @@
 #include "apps/interrupt.h"
 #include "apps/options.h"
 #include "core/base/error.h"
-#include "operators/matrix/scene_patches.h"
-#include "operators/solvers/side_by_side.h"
-#include "operators/spectrum/convergence.h"
-#include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -16,37 +12,6 @@
 namespace neumann {
 
 namespace {
-
-struct Chosen {
-    int channel = 0;
-    double radius = 0.0;
-    bool traps_light = false;   // within glass: the radius is 1, and says nothing of light that does not get there
-    double applications = 0.0;  // to find the radius, of all channels looked at
-    std::string why;
-};
-
-// Throws InputError before the scene is read.
-void check_channel_name(const std::string& name) {
-    if (!name.empty() && name != "r" && name != "g" && name != "b") throw InputError("--channel " + name + ": expected r, g or b");
-}
-
-Chosen choose(const PatchScene& scene, const std::string& wanted) {
-    Chosen chosen;
-    const int channels = scene.system().channels();
-    const bool given = !wanted.empty() && channels > 1;
-    double applications = 0.0;
-    for (int c = 0; c < channels; ++c) {
-        if (given && wanted != scene.channel_letter(c)) continue;
-        const Eigenpairs leading = leading_eigenpairs(scene.system().channel(c), 1);
-        applications += leading.applications;
-        const double radius = leading.pairs.empty() ? std::numeric_limits<double>::quiet_NaN() : std::abs(leading.pairs[0].value);
-        if (given || c == 0 || radius > chosen.radius) chosen = {c, radius, false, 0.0, ""};
-    }
-    chosen.applications = applications;
-    chosen.traps_light = has_glass(scene.system().space()) && judge(chosen.radius, 0.0) == Convergence::at_one;
-    chosen.why = channels == 1 ? "the scene is grey" : given ? "as asked for" : "it has the largest spectral radius";
-    return chosen;
-}
 
 bool is_reference(const SolverRow& row) { return std::string_view(row.solver->name) == "lu"; }
 
@@ -98,13 +63,14 @@ void print_notes(const SideBySide& all) {
     if (all.interrupted) fmt::print("Interrupted: the other solvers were not run.\n");
 }
 
-void print_table(const PatchScene& scene, const SolveRequest& request, const Chosen& chosen, const SideBySide& all) {
+void print_table(const PatchScene& scene, const SolveRequest& request, const ChosenChannel& chosen, const SideBySide& all) {
     fmt::print("{}\n", scene.title());
     fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n", scene.channel_name(chosen.channel),
                chosen.why, chosen.radius, applications_text(chosen.applications));
     if (chosen.traps_light)
-        fmt::print("Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
-                   "all the same: residuals alone are looked at.\n");
+        fmt::print(
+            "Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
+            "all the same: residuals alone are looked at.\n");
     if (scene.system().samples_lights())
         fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
     if (!all.no_reference.empty())
@@ -131,8 +97,10 @@ void print_csv(const SideBySide& all) {
                        step.seconds);
 }
 
-nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const Chosen& chosen,
-                                  const SideBySide& all) {
+}  // namespace
+
+nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved) {
+    const auto& [chosen, all] = solved;
     using Json = nlohmann::ordered_json;
     Json json = scene.json();
     json["channel"] = {{"name", scene.channel_name(chosen.channel)}, {"why", chosen.why}};
@@ -165,8 +133,6 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     return json;
 }
 
-}  // namespace
-
 CLI::App* add_solve(CLI::App& app, SolveRequest& request) {
     auto* command = app.add_subcommand("solve", "Solve L = Le + K L by the series and by all other solvers, side by side");
     add_patch_options(*command, request.patches);
@@ -184,11 +150,8 @@ CLI::App* add_solve(CLI::App& app, SolveRequest& request) {
     return command;
 }
 
-int solve_command(const SolveRequest& request) {
-    check_channel_name(request.channel);
-    const PatchScene scene(request.patches);
-    catch_interrupts();
-    const Chosen chosen = choose(scene, request.channel);
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories) {
+    const ChosenChannel chosen = choose_channel(scene, request.channel);
     const TracedChannel K = scene.system().channel(chosen.channel);
 
     Problem problem;
@@ -198,15 +161,22 @@ int solve_command(const SolveRequest& request) {
     problem.most = request.most;
     if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
     problem.reflectance = &K.reflectance();
-    const SideBySide all = solve_side_by_side(problem, {request.csv || request.patches.json, interrupted});
+    return {chosen, solve_side_by_side(problem, {histories, interrupted})};
+}
 
-    print_warnings(texts(scene.scene().warnings), request.patches.quiet);
+int solve_command(const SolveRequest& request) {
+    check_channel_name(request.channel);
+    const PatchScene scene(request.patches);
+    catch_interrupts();
+    const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json);
+
+    print_warnings(scene.warnings(), request.patches.quiet);
     if (request.patches.json)
-        fmt::print("{}\n", solve_json(scene, request, chosen, all).dump(2));
+        fmt::print("{}\n", solve_json(scene, request, solved).dump(2));
     else if (request.csv)
-        print_csv(all);
+        print_csv(solved.all);
     else
-        print_table(scene, request, chosen, all);
+        print_table(scene, request, solved.chosen, solved.all);
     return 0;
 }
 

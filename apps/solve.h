@@ -1,7 +1,8 @@
 // `neumann solve SCENE`: the series beside all other solvers of L = Le + K L.
 #pragma once
 
-#include "apps/patch_options.h"
+#include "apps/channel_choice.h"
+#include "operators/solvers/side_by_side.h"
 
 #include <string>
 
@@ -14,6 +15,14 @@ struct SolveRequest {
     int most = 10000;  // applications of K
     bool csv = false;
 };
+
+struct SolvedScene {
+    ChosenChannel chosen;
+    SideBySide all;
+};
+// `histories`: with true errors at each step. Throws InputError.
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories);
+nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved);
 
 CLI::App* add_solve(CLI::App& app, SolveRequest& request);
 

@@ -59,7 +59,7 @@ SpectrumReport spectrum_report(const PatchScene& scene, int eigenvalues) {
     report.reciprocity_defect = reciprocity_defect(transport);
     report.emits = !scene.scene().emitters.empty();
     report.coarser = coarser_spectra(scene.scene(), system.settings());
-    report.warnings = texts(scene.scene().warnings);
+    report.warnings = scene.warnings();
     for (int c = 0; c < system.channels(); ++c) {
         const ChannelSpectrum& s = report.channels.emplace_back(channel_spectrum(scene, c, eigenvalues, report.coarser));
         if (s.norms.sup >= 1.0)

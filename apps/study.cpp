@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 
 namespace neumann {
@@ -76,24 +78,27 @@ void expect_sense(const StudyRequest& request) {
     expect_growing("--samples", request.samples);
 }
 
+// On a terminal, what is being done.
+class Status {
+public:
+    explicit Status(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
+    ~Status() { show(""); }
+    void show(const std::string& text) const {
+        if (!active_) return;
+        fmt::print(stderr, "\r\033[K{}", text);
+        std::fflush(stderr);
+    }
+
+private:
+    bool active_;
+};
+
 }  // namespace
 
-int study_command(const StudyRequest& given) {
-    StudyRequest request = given;
-    request.definitions = parse_definitions(request.definition_texts);
-    if (request.output.empty())
-        request.output =
-            (std::filesystem::path("out") / (std::filesystem::path(request.scene).stem().string() + "-study")).string();
+StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
+                   const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const Json&)>& found) {
     expect_sense(request);
     const std::vector<StudyMethod> methods = study_methods(request);
-    catch_interrupts();
-    std::optional<oneapi::tbb::global_control> threads;
-    if (request.threads > 0)
-        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
-
-    const Stopwatch scene_watch;
-    const Scene scene = read_scene(request.scene, request.definitions);
-    const double scene_seconds = scene_watch.seconds();
     OutputFolder folder(request.output);
     StudyJournal journal(folder.path(), request.resume);
     const Json study = identity(request, scene);
@@ -110,7 +115,7 @@ int study_command(const StudyRequest& given) {
 
     const auto nothing_done = [&] {
         throw RunError("interrupted before the first run: nothing was written");
-        return 1;
+        return StudyEnd{};
     };
     if (request.resume) {
         data.plan = study_plan(journal.plan, !request.samples.empty());
@@ -146,7 +151,7 @@ int study_command(const StudyRequest& given) {
         journal.begin(study, plan);
     }
 
-    run_all(data, journal);
+    run_all(data, journal, status);
     data.points = judge(data, journal);
     const auto pictures = summarise(data);
     if (!pictures.empty()) {
@@ -155,16 +160,40 @@ int study_command(const StudyRequest& given) {
         folder.write("study.json", json.dump(2) + "\n");
         folder.write("index.html", study_page(json));
         folder.commit();
+        found(data, pictures, json);
+    }
+    if (data.complete) journal.remove();
+    return {data.complete, journal.runs.size(), data.runs()};
+}
+
+int study_command(const StudyRequest& given) {
+    StudyRequest request = given;
+    request.definitions = parse_definitions(request.definition_texts);
+    if (request.output.empty())
+        request.output =
+            (std::filesystem::path("out") / (std::filesystem::path(request.scene).stem().string() + "-study")).string();
+    expect_sense(request);
+    study_methods(request);  // before the scene is read
+    catch_interrupts();
+    std::optional<oneapi::tbb::global_control> threads;
+    if (request.threads > 0)
+        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
+
+    const Stopwatch scene_watch;
+    const Scene scene = read_scene(request.scene, request.definitions);
+    std::optional<Status> status(std::in_place, request.quiet);
+    const auto show = [&](const std::string& what, double) { status->show(what); };
+    const auto print = [&](const StudyData& data, const std::vector<StudiedPicture>& pictures, const Json& json) {
+        status.reset();
         if (request.json)
             fmt::print("{}\n", json.dump(2));
         else if (!request.quiet)
             print_study(data, pictures);
-    }
-    if (data.complete)
-        journal.remove();
-    else if (!request.quiet)
-        fmt::print(stderr, "Interrupted: {} of {} runs are done; the same command with --resume goes on.\n", journal.runs.size(),
-                   data.runs());
+    };
+    const StudyEnd end = run_study(request, scene, scene_watch.seconds(), show, print);
+    status.reset();
+    if (!end.complete && !request.quiet)
+        fmt::print(stderr, "Interrupted: {} of {} runs are done; the same command with --resume goes on.\n", end.done, end.runs);
     return 0;
 }
 

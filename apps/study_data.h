@@ -4,6 +4,7 @@
 #include "apps/study_reference.h"
 #include "operators/study/method_summary.h"
 
+#include <functional>
 #include <memory>
 
 namespace neumann {
@@ -32,6 +33,9 @@ struct StudyPoint {
     // More than half of the runs that could tell say so; of the sum, of any bounce.
     bool infinite_variance(std::size_t picture) const;
 };
+
+// Told what is being done, and which part of all runs is.
+using StudyStatus = std::function<void(const std::string& what, double fraction)>;
 
 struct StudyData {
     const StudyRequest& request;
@@ -65,6 +69,16 @@ struct StudiedPicture {
     std::vector<StudiedMethod> methods;  // best first
 };
 std::vector<StudiedPicture> summarise(const StudyData& data);
+
+struct StudyEnd {
+    bool complete;
+    std::size_t done, runs;
+};
+// Does what is asked for, in request.output, and shows `found` what there is, where there is anything. Throws InputError and
+// RunError.
+StudyEnd run_study(
+    StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
+    const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const nlohmann::ordered_json&)>& found);
 
 std::string study_csv(const StudyData& data);
 nlohmann::ordered_json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictures);

@@ -5,9 +5,6 @@
 #include "core/base/peak_memory.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 namespace neumann {
 
@@ -34,21 +31,6 @@ StudyRun make_run(const RenderResult& result, const RenderRequest& request) {
     return run;
 }
 
-// On a terminal, what is being done.
-class Status {
-public:
-    explicit Status(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
-    ~Status() { show(""); }
-    void show(const std::string& text) const {
-        if (!active_) return;
-        fmt::print(stderr, "\r\033[K{}", text);
-        std::fflush(stderr);
-    }
-
-private:
-    bool active_;
-};
-
 }  // namespace
 
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder) {
@@ -62,14 +44,14 @@ void expect_disk_space(const StudyData& data, const std::filesystem::path& folde
             folder.string(), data.runs(), bytes / 0x1p30, static_cast<double>(space.available) / 0x1p30));
 }
 
-void run_all(StudyData& data, StudyJournal& journal) {
-    const Status status(data.request.quiet);
+void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) {
     const std::size_t N = data.pictures() - 2, methods = data.methods.size(), budgets = data.plan.budgets.size();
     while (journal.runs.size() < data.runs()) {
         const std::size_t at = journal.runs.size(), method = at % methods, budget = at / methods % budgets,
                           repeat = at / methods / budgets;
-        status.show(fmt::format("run {} of {}   repeat {}   budget {:g}   {}", at + 1, data.runs(), repeat + 1,
-                                data.plan.budgets[budget], data.methods[method].name));
+        status(fmt::format("run {} of {}   repeat {}   budget {:g}   {}", at + 1, data.runs(), repeat + 1,
+                           data.plan.budgets[budget], data.methods[method].name),
+               static_cast<double>(at) / static_cast<double>(data.runs()));
         const Effort& effort = data.plan.efforts[method][budget];
         const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
         data.peak_is_of_run = restart_peak_memory();

@@ -6,6 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace neumann {
 
@@ -13,10 +14,9 @@ namespace {
 
 constexpr std::uint64_t camera_stream = 0x63616d657261ull;
 
-}  // namespace
-
-template <int C>
-ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed) {
+// Calls add(pixel, unknown, weight) for every camera ray in their order; the weights of a pixel are `samples` on average.
+template <class Add>
+void look_through(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed, const Add& add) {
     constexpr std::uint32_t packet = RayCaster::packet_size;
     const Film& film = scene.film;
     const auto width = static_cast<std::uint32_t>(film.crop_width), height = static_cast<std::uint32_t>(film.crop_height),
@@ -47,15 +47,34 @@ ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, 
             seen[begin + i] = meets ? space.unknown(hit[i], -w) : space.nothing();
         }
     };
-    ExitantVector<C> We = ExitantVector<C>::Zero(C, space.size() + 1);
     for (std::uint32_t y = 0; y < height; ++y) {
         oneapi::tbb::parallel_for(std::uint32_t{0}, (rays + packet - 1) / packet, [&](std::uint32_t p) { look(y, p * packet); });
-        for (std::uint32_t i = 0; i < rays; ++i) We.col(seen[i]) += to_channels<C>(Rgb(weights[i]));
+        for (std::uint32_t i = 0; i < rays; ++i) add(y * width + i / samples, seen[i], weights[i]);
     }
+}
+
+}  // namespace
+
+template <int C>
+ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed) {
+    ExitantVector<C> We = ExitantVector<C>::Zero(C, space.size() + 1);
+    look_through(scene, space, samples, seed,
+                 [&](std::uint32_t, std::uint32_t unknown, double weight) { We.col(unknown) += to_channels<C>(Rgb(weight)); });
     We.col(space.nothing()).setZero();
-    const double all = static_cast<double>(rays) * height;
+    const double all = static_cast<double>(scene.film.crop_width) * scene.film.crop_height * samples;
     for (const Facet& facet : space.facets()) We.middleCols(facet.first, facet.cells.size()) /= all * space.measure(facet);
     return We;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> camera_matrix(const Scene& scene, const PatchSpace& space, std::uint32_t samples,
+                                                           std::uint64_t seed) {
+    std::vector<Eigen::Triplet<double, std::uint32_t>> entries;
+    look_through(scene, space, samples, seed, [&](std::uint32_t pixel, std::uint32_t unknown, double weight) {
+        if (unknown != space.nothing()) entries.emplace_back(pixel, unknown, weight / samples);
+    });
+    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(Eigen::Index{scene.film.crop_width} * scene.film.crop_height, space.size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
 }
 
 template ExitantVector<1> camera_importance<1>(const Scene&, const PatchSpace&, std::uint32_t, std::uint64_t);

@@ -1,0 +1,79 @@
+#include "python/job.h"
+
+#include "apps/interrupt.h"
+#include "core/base/error.h"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <chrono>
+
+namespace neumann {
+
+namespace {
+
+std::mutex one_at_a_time;
+
+}  // namespace
+
+Job::Job(int threads, Work work) : thread_([this, threads, work = std::move(work)] { run(threads, work); }) {}
+
+Job::~Job() {
+    stop();
+    thread_.join();
+}
+
+void Job::run(int threads, const Work& work) {
+    Finish finish;
+    std::exception_ptr error;
+    {
+        const std::lock_guard turn(one_at_a_time);
+        try {
+            {
+                const std::lock_guard lock(mutex_);
+                if (stopped_) throw RunError("interrupted before it began");
+                set_interrupted(false);
+                working_ = true;
+            }
+            std::optional<oneapi::tbb::global_control> limit;
+            if (threads > 0) limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+            finish = work(*this);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        const std::lock_guard lock(mutex_);
+        working_ = false;
+    }
+    const std::lock_guard lock(mutex_);
+    finish_ = std::move(finish);
+    error_ = error;
+    done_ = true;
+    ended_.notify_all();
+}
+
+bool Job::wait(double seconds) {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return done_; });
+}
+
+void Job::stop() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    if (working_) set_interrupted(true);
+}
+
+void Job::tell(std::string text, std::optional<double> fraction) {
+    const std::lock_guard lock(mutex_);
+    progress_ = {std::move(text), fraction};
+}
+
+Job::Progress Job::progress() const {
+    const std::lock_guard lock(mutex_);
+    return progress_;
+}
+
+pybind11::object Job::result() const {
+    if (error_) std::rethrow_exception(error_);
+    return finish_();
+}
+
+}  // namespace neumann

@@ -1,0 +1,53 @@
+#include "python/module.h"
+
+#include "apps/patch_options.h"
+
+#include <pybind11/stl.h>
+
+PYBIND11_MODULE(_neumann, m) {
+    using namespace neumann;
+    m.doc() = "The compiled part of neumann; see the package neumann.";
+    m.attr("version") = NEUMANN_VERSION;
+    py::register_exception<InputError>(m, "InputError", PyExc_ValueError).doc() =
+        "The scene, a file or an argument is wrong: 'file:line:column: what is wrong, what was expected'.";
+    py::register_exception<RunError>(m, "RunError", PyExc_RuntimeError).doc() =
+        "Something failed while running, such as a disk that is full.";
+
+    const auto without_lock = py::call_guard<py::gil_scoped_release>();
+    // Its last owner must not keep Python waiting.
+    struct Delete {
+        void operator()(Job* job) const {
+            const py::gil_scoped_release release;
+            delete job;
+        }
+    };
+    py::class_<Job, std::unique_ptr<Job, Delete>>(m, "Job", "Work that goes on in the background.")
+        .def("wait", &Job::wait, py::arg("seconds"), without_lock, "Whether it is done, after so many seconds at most.")
+        .def("stop", &Job::stop, without_lock, "Asks for an orderly end.")
+        .def(
+            "progress",
+            [](const Job& job) {
+                const Job::Progress progress = job.progress();
+                return py::make_tuple(progress.text, progress.fraction);
+            },
+            "What is being done, and which part of it is done, or None.")
+        .def("result", &Job::result, "What came out, once it is done; raises what went wrong.");
+
+    bind_scene(m);
+    bind_render(m);
+    bind_pictures(m);
+    bind_matrices(m);
+    bind_solvers(m);
+    bind_study(m);
+}
+
+namespace neumann {
+
+std::string command_line(const std::string& command, const LoadedScene& scene, const std::vector<std::string>& arguments) {
+    std::string line = "neumann " + command + " " + scene.path;
+    for (const std::string& argument : arguments) line += " " + argument;
+    for (const auto& [name, value] : scene.definitions) line += " -D " + name + "=" + value;
+    return line;
+}
+
+}  // namespace neumann

@@ -1,0 +1,69 @@
+// The parts of the compiled module _neumann, and what they share. The package `neumann` is made of it.
+#pragma once
+
+#include "core/image/image.h"
+#include "core/scene/scene.h"
+#include "python/job.h"
+
+#include <pybind11/numpy.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+namespace py = pybind11;
+
+// A scene as its files were when it was read.
+struct LoadedScene {
+    std::string path;
+    std::map<std::string, std::string> definitions;
+    SceneParts parts;
+    std::shared_ptr<const Scene> scene;
+    double seconds = 0.0;  // that reading it took
+
+    // One for a render, which leaves out of it what it does not need.
+    Scene fresh() const { return make_scene(parts); }
+};
+
+void bind_scene(py::module_& m);
+void bind_render(py::module_& m);
+void bind_pictures(py::module_& m);
+void bind_matrices(py::module_& m);
+void bind_solvers(py::module_& m);
+void bind_study(py::module_& m);
+
+// (height, width, 3), row 0 at the top; float32, as in files.
+py::array_t<float> as_array(const Image& image);
+// The same, or None where it is empty.
+py::object as_array_or_none(const Image& image);
+// Of any numbers of this shape. Throws InputError.
+Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array);
+
+// The command of the same meaning.
+std::string command_line(const std::string& command, const LoadedScene& scene, const std::vector<std::string>& arguments);
+
+// Keywords, given as options of a command, read by the code that reads the command line. Throws InputError with what it says.
+template <class Request>
+Request parse(const std::string& command, CLI::App* (*add)(CLI::App&, Request&), const LoadedScene& scene,
+              const std::vector<std::string>& arguments) {
+    Request request;
+    CLI::App app;
+    add(app, request);
+    std::vector<std::string> line{command};
+    line.insert(line.end(), arguments.begin(), arguments.end());
+    line.insert(line.end(), {"--", scene.path});
+    std::reverse(line.begin(), line.end());  // as CLI11 wants them
+    try {
+        app.parse(line);
+    } catch (const CLI::ParseError& e) {
+        throw InputError(e.what());
+    }
+    return request;
+}
+
+}  // namespace neumann

@@ -1,0 +1,52 @@
+"""neumann makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors.
+
+    import neumann
+    scene = neumann.load("scenes/cornell-box/cornell-box.xml")
+    series = scene.render(bounces=5, spp=64)
+    series.terms[1]                      # direct light: (height, width, 3), row 0 on top, W·m⁻²·sr⁻¹
+    series.sums[5], series.sums_stderr[5]
+    series.save("out/cornell-box")       # what ./run render writes
+
+    T, R, Le = scene.matrices()          # scipy.sparse, scipy.sparse, numpy
+    K = R @ T
+    neumann.series(K, Le).verdict        # "converged"
+    neumann.solve(K, Le, "gmres").applications
+
+Bounce i is the power of K: bounce 0 is emission seen directly, bounce 1 direct light. T carries light along straight lines to the next
+surface, R scatters it there; operators/NOTATION.md is the dictionary.
+"""
+
+from ._bounces import BounceSeries, Way, compare, read
+from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
+from ._neumann import InputError, RunError
+from ._neumann import version as __version__
+from ._report import HealthWarning, NeumannWarning, Report
+from ._scene import Plan, Scene, load
+from ._study import Study
+
+__all__ = [
+    "BounceSeries",
+    "HealthWarning",
+    "InputError",
+    "Matrices",
+    "NeumannWarning",
+    "Plan",
+    "Report",
+    "RunError",
+    "SOLVERS",
+    "Scene",
+    "Solutions",
+    "Study",
+    "Way",
+    "compare",
+    "cube",
+    "load",
+    "read",
+    "series",
+    "solve",
+    "spectrum",
+]
+
+for _error in (InputError, RunError):
+    _error.__module__ = __name__
+del _error

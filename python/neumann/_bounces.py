@@ -1,0 +1,268 @@
+"""A rendered series, from memory or from a folder."""
+
+from functools import cached_property
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, List, NamedTuple, Optional, Protocol, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _neumann, _report
+from ._display import strip
+from ._progress import run as run_job
+from ._report import Report
+
+Picture = NDArray[np.float32]
+_Pictures = Tuple[Picture, Optional[Picture], Optional[Picture]]
+
+
+class _Source(Protocol):
+    bounces: int
+
+    def picture(self, kind: str, bounce: int) -> _Pictures: ...
+    def rest(self) -> Optional[_Pictures]: ...
+    def table(self) -> str: ...
+    def convergence(self) -> str: ...
+    def run(self) -> str: ...
+    def warnings(self) -> List[str]: ...
+    def ways(self) -> Any: ...
+    def save(self, folder: str) -> None: ...
+
+
+class Memory:
+    def __init__(self, rendering: "_neumann.Rendering") -> None:
+        self._rendering = rendering
+        self.bounces = rendering.bounces
+        self.rest, self.table, self.convergence = rendering.rest, rendering.table, rendering.convergence
+
+    def picture(self, kind: str, bounce: int) -> _Pictures:
+        return self._rendering.term(bounce) if kind == "bounce" else self._rendering.sum(bounce)
+
+    def run(self) -> str:
+        return self._rendering.run("DIR")
+
+    def warnings(self) -> List[str]:
+        return self._rendering.warnings
+
+    def ways(self) -> Any:
+        return self._rendering.ways()
+
+    def save(self, folder: str) -> None:
+        run_job(self._rendering.save(folder))
+
+
+class Folder:
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        if not (folder / "run.json").is_file():
+            raise _neumann.InputError(f"{folder}: no run.json; expected the folder of a render that was finished")
+        self.bounces = len(list(folder.glob("bounce_*.exr"))) - 1
+
+    def _text(self, name: str) -> str:
+        return (self._folder / name).read_text(encoding="utf-8")
+
+    def picture(self, kind: str, bounce: int) -> _Pictures:
+        return _neumann.read(str(self._folder / f"{kind}_{bounce:03}.exr"))
+
+    def rest(self) -> Optional[_Pictures]:
+        path = self._folder / "rest.exr"
+        return _neumann.read(str(path)) if path.exists() else None
+
+    def table(self) -> str:
+        return self._text("series.csv")
+
+    def convergence(self) -> str:
+        return self._text("convergence.csv")
+
+    def run(self) -> str:
+        return self._text("run.json")
+
+    def warnings(self) -> List[str]:
+        return [w["text"] for w in _report.from_json(self.run())["warnings"]]
+
+    def ways(self) -> Any:
+        return None
+
+    def save(self, folder: str) -> None:
+        raise _neumann.InputError(f"{self._folder}: was read from there; copy the folder")
+
+
+class Way(NamedTuple):
+    """One way (s, t) to make a bounce: s vertices from the light, t from the camera."""
+
+    s: int
+    t: int
+    weighted: Picture
+    """What it brings to the picture, with its weight; (height, width, 3)."""
+    unweighted: Picture
+    """What it would make by itself; (height, width, 3)."""
+
+
+class BounceSeries:
+    """The terms K^i Le of a scene as its camera sees them, bounces 0 … N, with their sums and what is left out.
+
+    Pictures are float32, scene-linear RGB, as in the files; row 0 is on top. Radiance in W·m⁻²·sr⁻¹, importance in m⁻²·sr⁻¹.
+    A standard error is that of a pixel and channel; mean ± t · stderr is a 95% interval, with Student's t of
+    ``run.samples.degrees_of_freedom``. inf: unknown, after a single replicate.
+
+    In a notebook it shows its bounces and sums in two rows, at one exposure.
+    """
+
+    def __init__(self, source: Any, title: str) -> None:
+        self._source: _Source = source
+        self.title = title
+        """The scene, or the folder."""
+        self.bounces: int = source.bounces
+        """N, the last bounce with a picture of its own."""
+
+    def _all(self, kind: str) -> List[_Pictures]:
+        return [self._source.picture(kind, i) for i in range(self.bounces + 1)]
+
+    @staticmethod
+    def _stack(pictures: List[_Pictures], which: int) -> Optional[Picture]:
+        found = [p[which] for p in pictures]
+        return None if any(f is None for f in found) else np.stack(found)  # type: ignore[arg-type]
+
+    @cached_property
+    def _terms(self) -> Tuple[Any, Any, Any]:
+        pictures = self._all("bounce")
+        return self._stack(pictures, 0), self._stack(pictures, 1), self._stack(pictures, 2)
+
+    @cached_property
+    def _sums(self) -> Tuple[Any, Any, Any]:
+        pictures = self._all("sum")
+        return self._stack(pictures, 0), self._stack(pictures, 1), self._stack(pictures, 2)
+
+    @cached_property
+    def _rest(self) -> _Pictures:
+        return self._source.rest() or (None, None, None)  # type: ignore[return-value]
+
+    @property
+    def terms(self) -> Picture:
+        """K^i Le, (N + 1, height, width, 3)."""
+        return self._terms[0]
+
+    @property
+    def terms_stderr(self) -> Picture:
+        """Their standard errors, (N + 1, height, width, 3)."""
+        return self._terms[1]
+
+    @property
+    def terms_discretisation(self) -> Optional[Picture]:
+        """What patches get wrong, as it is estimated, (N + 1, height, width, 3); None where there are no patches."""
+        return self._terms[2]
+
+    @property
+    def sums(self) -> Picture:
+        """Σ_{k≤i} K^k Le, (N + 1, height, width, 3)."""
+        return self._sums[0]
+
+    @property
+    def sums_stderr(self) -> Picture:
+        """Their standard errors, (N + 1, height, width, 3). Not those of the terms added up: a pixel's bounces share walks."""
+        return self._sums[1]
+
+    @property
+    def sums_discretisation(self) -> Optional[Picture]:
+        """What patches get wrong of the sums, (N + 1, height, width, 3); None where there are no patches."""
+        return self._sums[2]
+
+    @property
+    def rest(self) -> Optional[Picture]:
+        """Σ_{k>N} K^k Le, what the pictures leave out, (height, width, 3); None where it was not measured."""
+        return self._rest[0]
+
+    @property
+    def rest_stderr(self) -> Optional[Picture]:
+        """Its standard error, (height, width, 3)."""
+        return self._rest[1]
+
+    @cached_property
+    def table(self) -> NDArray[Any]:
+        """series.csv as a structured array, a row a bounce: ``table["mean"]``, ``"mean_stderr"``, ``"ratio"``, ``"bound"`` (on what
+        follows, in the maximum norm; inf: there is none), ``"rays"``, ``"seconds"``, ``"interval95"`` (half of it)."""
+        return _report.table(self._source.table())
+
+    @cached_property
+    def convergence(self) -> NDArray[Any]:
+        """convergence.csv as a structured array, a row a doubling of the samples: ``"samples"``, ``"seconds"``, ``"rays"``,
+        ``"relative_stderr_000"`` … and, given a reference, ``"relative_error_000"`` …"""
+        return _report.table(self._source.convergence())
+
+    @cached_property
+    def run(self) -> Report:
+        """run.json: all that is needed to repeat the run and to judge it; ``run.health``, ``run.plan``, ``run.samples`` …"""
+        return _report.from_json(self._source.run())
+
+    @property
+    def warnings(self) -> List[str]:
+        """What render() warned of."""
+        return self._source.warnings()
+
+    @cached_property
+    def ways(self) -> Optional[List[Way]]:
+        """With ``ways=i`` of bidirectional: every way to make bounce i."""
+        found = self._source.ways()
+        return None if found is None else [Way(*way) for way in found]
+
+    def save(self, folder: Union[str, "PathLike[str]"]) -> None:
+        """Writes what ``neumann render -o folder`` writes: EXR files, tables, run.json, contact sheet, and the explorer, index.html.
+
+        Raises InputError where nothing can be written there, and RunError where a disk is full. Whole or not at all.
+        """
+        self._source.save(fspath(folder))
+
+    def __len__(self) -> int:
+        return self.bounces + 1
+
+    def __repr__(self) -> str:
+        samples = self.run.samples
+        return (
+            f"<BounceSeries of {self.title}: bounces 0 to {self.bounces}, {self.run.picture.width} × {self.run.picture.height} pixels, "
+            f"{samples.per_pixel} samples a pixel, {samples.outcome}>"
+        )
+
+    def _repr_html_(self) -> str:
+        return strip(self)
+
+
+def read(folder: Union[str, "PathLike[str]"]) -> BounceSeries:
+    """The series in the folder of a finished render. Raises InputError where there is none."""
+    return BounceSeries(Folder(Path(folder)), fspath(folder))
+
+
+Comparable = Union[BounceSeries, NDArray[Any], str, "PathLike[str]"]
+
+
+def compare(a: Comparable, b: Comparable) -> Any:
+    """How far a is from the reference b, as ``neumann compare``.
+
+    Two pictures (height, width, 3) give a Report: rmse, rel_mse, mape, smape, max_error, mean, reference_mean, mean_difference; means
+    run over pixels and channels, fractions and not percent, with ε = 0.01:
+    RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
+
+    Two series, or folders of renders, give a structured array: a row for each picture that both have ("bounce_000" …, "sum_000" …,
+    "rest"), with a column ``rmse_by_noise``, the RMSE that the standard errors alone explain. Raises InputError where sizes differ.
+    """
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        return Report(_neumann.compare(np.asarray(a), np.asarray(b)))
+    a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
+    both, rows = range(min(len(a), len(b))), []
+
+    def of(series: BounceSeries, kind: str, i: int) -> Any:
+        return tuple(None if pictures is None else pictures[i] for pictures in getattr(series, kind))
+
+    for name, kind in (("bounce", "_terms"), ("sum", "_sums")):
+        for i in both:
+            (x, x_stderr, _), (y, y_stderr, _) = of(a, kind, i), of(b, kind, i)
+            rows.append((f"{name}_{i:03}", _neumann.compare(x, y, x_stderr, y_stderr)))
+    if a.rest is not None and b.rest is not None and len(a) == len(b):
+        rows.append(("rest", _neumann.compare(a.rest, b.rest, a.rest_stderr, b.rest_stderr)))
+    columns = [name for name in rows[0][1] if name not in ("pixels", "not_finite")]
+    result = np.empty(len(rows), dtype=[("picture", "U12")] + [(name, np.float64) for name in columns])
+    for row, (name, figures) in zip(result, rows):
+        row["picture"] = name
+        for column in columns:
+            row[column] = np.nan if figures[column] is None else figures[column]
+    return result

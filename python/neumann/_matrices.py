@@ -1,0 +1,206 @@
+"""K = R T as a matrix: of a scene, or anyone's."""
+
+from typing import Any, Dict, Iterator, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import scipy.sparse
+from numpy.typing import ArrayLike, NDArray
+
+from . import _neumann, _report
+from ._display import as_table
+from ._progress import run
+from ._report import Report
+
+Vector = NDArray[np.float64]
+Matrix = Union[scipy.sparse.spmatrix, ArrayLike]
+
+SOLVERS: Dict[str, str] = dict(_neumann.solvers)
+"""The names that solve() takes, and what they stand for."""
+
+STEPS = ("applications", "estimate", "error", "seconds")
+_bounds = ("bounce", "power", "l2", "sup", "ratio", "a_priori", "a_posteriori", "estimate", "enclosure_width")
+
+
+class Matrices:
+    """T, R and Le of one channel of a scene on patches: ``T, R, Le = scene.matrices()``, and ``K = R @ T``.
+
+    Fields on patches are vectors of one value an unknown, basic radiance in W·m⁻²·sr⁻¹: a diffuse side of a patch is one unknown,
+    others have one for each cell of their directions.
+    """
+
+    T: scipy.sparse.csr_matrix
+    """Transport, (rays, unknowns): a row is 1 where its ray meets an unknown."""
+    R: scipy.sparse.csr_matrix
+    """Reflection, (unknowns, rays): what the rays bring to what the unknowns send."""
+    Le: Vector
+    """Emitted radiance, (unknowns,)."""
+    b: Vector
+    """K Le, (unknowns,); sampled on the lights where the rays hardly meet them."""
+    measure: Vector
+    """n² times area times projected solid angle of an unknown, (unknowns,), m²·sr: ⟨f, g⟩ = Σ measure · f · g."""
+    ray_measure: Vector
+    """The same of a ray, (rays,)."""
+    patches: NDArray[Any]
+    """A row for each side of a patch: its first ``unknown``, how many ``directions``, ``patch``, ``side``, ``shape``, the middle
+    ``x, y, z`` and the normal ``nx, ny, nz`` in scene units, ``area``."""
+    channel: str
+    """"grey", "red", "green" or "blue"."""
+    radius: float
+    """The spectral radius of K."""
+
+    def __init__(self, patched: "_neumann.Patched") -> None:
+        self._patched = patched
+        made = patched.matrices()
+        self.T, self.R, self.Le, self.b = made["T"], made["R"], made["Le"], made["b"]
+        self.measure, self.ray_measure = made["measure"], made["ray_measure"]
+        self.patches = _report.table(made["patches"])
+        self.channel, self.radius, self.title = made["channel"], made["radius"], made["title"]
+        self._cameras: Dict[Tuple[int, int], Any] = {}
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter((self.T, self.R, self.Le))
+
+    @property
+    def K(self) -> scipy.sparse.csr_matrix:
+        """R @ T, (unknowns, unknowns): one bounce."""
+        return (self.R @ self.T).tocsr()
+
+    def camera(self, spp: int = 16, seed: int = 0) -> scipy.sparse.csr_matrix:
+        """The camera as a matrix, (height · width, unknowns): ``(camera @ x).reshape(height, width)`` is the picture of a field x.
+
+        Of spp camera rays a pixel, a power of two; rows sum to the part of them that meets an unknown.
+        """
+        if spp < 1 or spp & (spp - 1):
+            raise _neumann.InputError(f"spp={spp}: expected a power of two, such as 16")
+        if (spp, seed) not in self._cameras:
+            self._cameras[spp, seed] = run(self._patched.camera(spp, seed))
+        return self._cameras[spp, seed]
+
+    def picture(self, x: ArrayLike, spp: int = 16) -> Vector:
+        """What the camera sees of a field x (unknowns,), as it is on the patches: (height, width), row 0 on top."""
+        return (self.camera(spp) @ np.asarray(x)).reshape(self._patched.height, self._patched.width)
+
+    def __repr__(self) -> str:
+        return f"<Matrices of {self.title}, {self.channel}: T {self.T.shape}, R {self.R.shape}, spectral radius {self.radius:.6f}>"
+
+
+def _operator(K: Matrix, measure: Optional[ArrayLike]) -> "_neumann.Operator":
+    sparse = scipy.sparse.issparse(K)
+    K = scipy.sparse.csr_matrix(K, dtype=float) if sparse else np.ascontiguousarray(K, dtype=float)
+    m = np.ones(K.shape[0]) if measure is None else np.asarray(measure, dtype=float)
+    return _neumann.sparse(K, m) if sparse else _neumann.dense(K, m)
+
+
+def series(
+    K: Matrix,
+    Le: ArrayLike,
+    *,
+    error: float = 1e-6,
+    most: int = 10000,
+    norm: Optional[float] = None,
+    measure: Optional[ArrayLike] = None,
+    quiet: bool = False,
+) -> Report:
+    """L = Le + K Le + K² Le + … until it is known to be close enough, or known not to get there.
+
+    K: (n, n), of scipy.sparse or dense. Le: (n,). error: of the sum, relative to its largest value. most: bounces. norm: a ≥ ‖K‖∞, as
+    the largest albedo; it makes the bounds. measure: (n,), of each unknown; 1 without it.
+
+    Returns a Report of
+    sum (n,), which is the middle of the enclosure where that ended it;
+    verdict, "converged", "limit" or "diverging", and why;
+    warnings;
+    rows, a structured array with a row a bounce: bounce, power Σ m|t|, l2, sup of the term t = K^n Le, ratio of powers, and bounds on
+    ‖L − S_n‖∞: a_priori, a_posteriori (inf: there is none), estimate (no bound), enclosure_width, relative;
+    rate, by how much the last terms fall a bounce;
+    enclosure: exists, why not, low and high (n,), between which L lies, width, c1, c2 (Collatz and Wielandt's quotients).
+    """
+    operator = _operator(K, measure)
+    made = run(_neumann.series(operator, np.asarray(Le, dtype=float), error, most, norm), quiet)
+    _report.warn(made["warnings"])
+    made["rows"] = _report.rows(made["rows"], _bounds)
+    made["enclosure"] = Report(made["enclosure"])
+    return Report(made)
+
+
+class Solutions(dict):
+    """What solvers found, by their names; each is a Report of x, verdict, why, applications, setup_applications, seconds, history.
+
+    In a notebook it shows itself as a table.
+    """
+
+    def __init__(self, found: Dict[str, Report], about: Report) -> None:
+        super().__init__(found)
+        self.about = about
+        """What was solved: the scene, the channel, its spectral radius."""
+
+    def _repr_html_(self) -> str:
+        names = ["solver", "applications", "seconds", "estimate", "error", "verdict", "why"]
+        rows = []
+        for r in self.values():
+            last = r.history[-1] if len(r.history) else None
+            of_last = ["" if last is None or np.isnan(last[name]) else float(last[name]) for name in ("estimate", "error")]
+            rows.append([r.title, r.applications, r.seconds, *of_last, r.verdict, r.why if r.verdict != "converged" else ""])
+        return as_table(names, rows)
+
+
+def solve(
+    K: Matrix,
+    Le: ArrayLike,
+    solver: Union[str, Sequence[str]] = "gmres",
+    *,
+    error: float = 1e-6,
+    most: int = 10000,
+    radius: Optional[float] = None,
+    lowest: Optional[float] = None,
+    reflectance: Optional[ArrayLike] = None,
+    exact: Optional[ArrayLike] = None,
+    measure: Optional[ArrayLike] = None,
+    quiet: bool = False,
+) -> Any:
+    """L = Le + K L by one of SOLVERS, or by several of them, or by "all".
+
+    K: (n, n), of scipy.sparse or dense. Le: (n,). error: estimated, relative to ‖L‖∞, that ends a solver. most: applications of K.
+    radius: spectral radius of K or a bound on it, which turns residuals into errors, and which chebyshev needs. lowest: the lowest
+    eigenvalue where all are real; −radius without it. reflectance: (n,), ρ where K = diag(ρ) F with F reciprocal, for cg. exact: (n,), L
+    where it is known, to see true errors. measure: (n,), of each unknown; 1 without it.
+
+    Returns a Report of x (n,), verdict ("converged", "limit", "diverging", "broke down", "refused"), why, applications of K,
+    setup_applications of these, seconds, and history, a structured array: applications, estimate, error (nan where L is not known),
+    seconds. Of several solvers: Solutions, these by name. Raises InputError for an unknown solver.
+    """
+    operator = _operator(K, measure)
+    light = np.asarray(Le, dtype=float)
+    rho, L = (None if x is None else np.asarray(x, dtype=float) for x in (reflectance, exact))
+
+    def one(name: str) -> Report:
+        job = _neumann.solve_one(name, operator, light, error, most, radius, lowest, rho, L)
+        made = run(job, quiet)
+        made["history"] = _report.rows(made["history"], STEPS)
+        return Report(made)
+
+    if isinstance(solver, str) and solver != "all":
+        return one(solver)
+    names = list(SOLVERS) if solver == "all" else list(solver)
+    return Solutions({name: one(name) for name in names}, Report(unknowns=operator.size))
+
+
+def spectrum(K: Matrix, count: int = 4, *, measure: Optional[ArrayLike] = None, adjoint: bool = False, quiet: bool = False) -> Report:
+    """Norms and leading eigenvalues of K (n, n), of K* where adjoint is set.
+
+    Returns a Report of norms ("1", "2", "inf"; they belong to Σ m|f|, (Σ m f²)^½ and max |f|), spectral_radius, series ("converges" …),
+    eigenvalues (count,) by falling modulus, eigenvectors (n, count), residuals, eigenvalues_converged, applications of K.
+    """
+    operator = _operator(K, measure)
+    made = run(_neumann.spectrum_of(operator, count, adjoint), quiet)
+    made["norms"] = Report(made["norms"])
+    return Report(made)
+
+
+def cube(n: int = 16) -> Report:
+    """The inside of the unit cube with n × n patches a face, by exact form factors: ``K = albedo * cube(16).F``.
+
+    Returns a Report of F (6n², 6n²), area (6n²,), face (6n²,): 0 and 1 for x = 0, 1; 2 and 3 for y; 4 the floor and 5 the ceiling.
+    """
+    F, area, face = run(_neumann.cube(n))
+    return Report(F=F, area=area, face=np.array(face))

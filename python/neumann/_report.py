@@ -1,0 +1,66 @@
+"""Figures with names: what the commands print as JSON and CSV."""
+
+import csv
+import io
+import json
+import warnings
+from typing import Any, Iterable, List, Type
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class NeumannWarning(UserWarning):
+    """What the command prints as a warning: accepted, although it is odd."""
+
+
+class HealthWarning(NeumannWarning):
+    """What the command prints as sick: samples that are no numbers, fireflies, energy that is missing."""
+
+
+class Report(dict):
+    """A dict of which what has a name can also be had as an attribute: ``report.norms["inf"]``, ``report.spectral_radius``."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"there is no {name!r} here; there are {', '.join(map(str, self))}") from None
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *(key for key in self if isinstance(key, str) and key.isidentifier())]
+
+
+def from_json(text: str) -> Any:
+    return json.loads(text, object_hook=Report)
+
+
+def _column(texts: List[str]) -> NDArray[Any]:
+    if all(text.isdigit() for text in texts):
+        numbers = [int(text) for text in texts]
+        return np.array(numbers, dtype=np.uint64 if max(numbers, default=0) >= 1 << 63 else np.int64)
+    try:
+        return np.array([float(text) if text else np.nan for text in texts])
+    except ValueError:
+        return np.array(texts)
+
+
+def table(text: str) -> NDArray[Any]:
+    """A structured array of a CSV file: a row a line, a field a column; numbers where all of a column are, nan where there is nothing."""
+    head, *lines = csv.reader(io.StringIO(text))
+    columns = [_column([line[i] for line in lines]) for i in range(len(head))]
+    result = np.empty(len(lines), dtype=[(name, column.dtype) for name, column in zip(head, columns)])
+    for name, column in zip(head, columns):
+        result[name] = column
+    return result
+
+
+def rows(values: NDArray[np.float64], names: Iterable[str]) -> NDArray[Any]:
+    """A structured array of one whose columns have these names."""
+    return np.array([tuple(row) for row in values], dtype=[(name, np.float64) for name in names])
+
+
+def warn(texts: Iterable[str], category: Type[Warning] = NeumannWarning, level: int = 3) -> None:
+    """Warns whoever called the function that calls this."""
+    for text in texts:
+        warnings.warn(text, category, stacklevel=level)

@@ -1,0 +1,239 @@
+"""Scenes, and what can be done with them."""
+
+import tempfile
+from os import PathLike, fspath
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _neumann, _report
+from ._arguments import definitions, options
+from ._bounces import BounceSeries, Memory
+from ._display import as_table
+from ._matrices import STEPS, Matrices, Solutions
+from ._progress import run
+from ._report import HealthWarning, Report, warn
+from ._study import Study
+
+Path = Union[str, "PathLike[str]"]
+
+
+class Plan(List[Report]):
+    """The parts of the machinery, each a Report of part, kept, reason, and saves where it is left out."""
+
+    def _repr_html_(self) -> str:
+        return as_table(
+            ["part", "", "why", "saves"],
+            [[p.part, "kept" if p.kept else "left out", p.reason, p.get("saves", "")] for p in self],
+        )
+
+
+class Scene:
+    """A scene, as its files were when load() read them.
+
+    What its methods do with it they do as the commands of the same names; keywords are the options of the command, and are checked by it.
+    While they work, other threads of Python run, a line tells how far they are, and Ctrl-C ends them early: then KeyboardInterrupt is
+    raised, and its ``result`` is what there was until then, where there was something (in a shell or a notebook: ``sys.last_value.result``).
+    """
+
+    def __init__(self, scene: "_neumann.Scene") -> None:
+        self._scene = scene
+
+    @property
+    def path(self) -> str:
+        """The scene file."""
+        return self._scene.path
+
+    @property
+    def definitions(self) -> Dict[str, str]:
+        """What load() was given beside it."""
+        return self._scene.definitions
+
+    @property
+    def hash(self) -> str:
+        """Of all files that it was read from."""
+        return self._scene.hash
+
+    @property
+    def width(self) -> int:
+        """Of its pictures, pixels."""
+        return self._scene.width
+
+    @property
+    def height(self) -> int:
+        """Of its pictures, pixels."""
+        return self._scene.height
+
+    @property
+    def largest_albedo(self) -> Tuple[float, float, float]:
+        """Of any material, for each channel: a bound on ‖R‖ and so on how slowly the series falls."""
+        return self._scene.largest_albedo
+
+    def render(
+        self,
+        *,
+        bounces: Optional[int] = None,
+        tail: Optional[float] = None,
+        spp: Optional[int] = None,
+        time: Optional[float] = None,
+        error: Optional[float] = None,
+        method: Optional[str] = None,
+        direct: Optional[str] = None,
+        lights: Optional[str] = None,
+        roulette: Union[str, float, None] = None,
+        split: Union[str, Tuple[int, int], None] = None,
+        sampler: Optional[str] = None,
+        ways: Optional[int] = None,
+        plan: Optional[str] = None,
+        importance: bool = False,
+        patches: Optional[int] = None,
+        directions: Optional[int] = None,
+        reference: Optional[Path] = None,
+        seed: Optional[int] = None,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> BounceSeries:
+        """Renders the bounces K^i Le, their sums, and the rest: as ``neumann render``, with the same bits for the same seed.
+
+        bounces: the last bounce with a picture of its own; or tail: as many as it takes until the rest is below this part of the sum.
+        spp: samples a pixel; time: seconds; error: relative standard error of every bounce. Whichever comes first ends it; without
+        any it ends at 2% error or after 20 seconds.
+        method: walk (the default), guided, surface, light, bidirectional, classic, pointwise; or matrix, gather, patches.
+        direct, lights, roulette, split: how a walk finds lights, which of them, how it ends, where it branches: (64, 1).
+        sampler: sobol or independent. ways: of bidirectional, the bounce of which every way is shown. plan: auto or full.
+        importance: of patches, K*^i We in place of K^i Le. patches, directions: of matrix, gather, patches and guided.
+        reference: the folder of an earlier render, for true errors in ``convergence``. seed; threads: all without it.
+        quiet: neither progress nor warnings.
+
+        Raises InputError for a wrong argument, with the command's own words, and RunError. What the command prints as a warning is a
+        NeumannWarning, and what is sick a HealthWarning.
+        """
+        job = _neumann.render(self._scene, options(locals()))
+        series: BounceSeries = run(job, quiet, lambda made: BounceSeries(Memory(made), self.path))
+        if not quiet:
+            warn(series.warnings)
+            warn(series.run.health.complaints, HealthWarning)
+        return series
+
+    def plan(self) -> Plan:
+        """What this scene needs of the machinery, what is left out, and why: as ``neumann plan``."""
+        return Plan(_report.from_json(run(self._scene.plan())))
+
+    def matrices(
+        self,
+        *,
+        patches: Optional[int] = None,
+        directions: Optional[int] = None,
+        seed: Optional[int] = None,
+        channel: Optional[str] = None,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> Matrices:
+        """T, R and Le on patches: ``T, R, Le = scene.matrices()``; then ``K = R @ T``, and ``L = Le + K @ Le + K @ K @ Le + …``.
+
+        patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
+        or b; without it the one with the largest spectral radius. Raises InputError.
+        """
+        return Matrices(run(_neumann.matrices(self._scene, options(locals())), quiet))
+
+    def spectrum(
+        self,
+        *,
+        eigenvalues: Optional[int] = None,
+        patches: Optional[int] = None,
+        directions: Optional[int] = None,
+        seed: Optional[int] = None,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> Report:
+        """Norms and leading eigenvalues of K, whether and how fast the series ends, rounding: what ``neumann spectrum --json`` prints.
+
+        eigenvalues: how many, 4 without it. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
+        ``norms``, ``eigenvalues`` (k,) complex, by falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of
+        ``matrices()`` with the same patches, directions and seed, ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``.
+        """
+        text, vectors = run(_neumann.spectrum(self._scene, options(locals())), quiet)
+        report = _report.from_json(text)
+        for channel, columns in zip(report.channels, vectors):
+            pairs = channel.eigenvalues
+            channel["eigenvalues"] = np.array([complex(p.real, p.imaginary) for p in pairs])
+            channel["residuals"] = np.array([p.residual for p in pairs])
+            channel["eigenvectors"] = columns
+        if not quiet:
+            warn(report.warnings)
+        return report
+
+    def solve(
+        self,
+        *,
+        channel: Optional[str] = None,
+        error: Optional[float] = None,
+        most: Optional[int] = None,
+        patches: Optional[int] = None,
+        directions: Optional[int] = None,
+        seed: Optional[int] = None,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> Solutions:
+        """L = Le + K L by the series and by all other solvers, side by side: as ``neumann solve``.
+
+        channel: r, g or b; without it the one with the largest spectral radius. error: relative, that ends a solver, 1e-6 without it.
+        most: applications of K that a solver may take, 10000 without it. Returns Reports by the solvers' names; each has x
+        (unknowns,), or x = L − Le where ``about.unknown`` says so, verdict, why, applications, error to LU, history.
+        """
+        text, x, warnings = run(_neumann.solve(self._scene, options(locals())), quiet)
+        about = _report.from_json(text)
+        rows = about.pop("solvers")
+        for row, vector in zip(rows, x):
+            row["x"] = vector
+            steps = [[np.nan if step[name] is None else step[name] for name in STEPS] for step in row.history]
+            row["history"] = _report.rows(np.array(steps, dtype=float).reshape(-1, len(STEPS)), STEPS)
+        if not quiet:
+            warn(warnings)
+        return Solutions({row.name: row for row in rows}, about)
+
+    def study(
+        self,
+        methods: Sequence[str],
+        *,
+        budgets: Optional[Sequence[float]] = None,
+        samples: Optional[Sequence[int]] = None,
+        repeats: Optional[int] = None,
+        bounces: Optional[int] = None,
+        error: Optional[float] = None,
+        reference: Optional[Path] = None,
+        reference_spp: Optional[int] = None,
+        seed: Optional[int] = None,
+        threads: Optional[int] = None,
+        output: Optional[Path] = None,
+        quiet: bool = False,
+    ) -> Study:
+        """Methods side by side, error against time, bounce by bounce: as ``neumann study``.
+
+        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"]. budgets: seconds of a run, or samples: samples a pixel of
+        one, growing. repeats: runs of each method at each budget, 16 without it. bounces: the last one that is looked at. error:
+        relative RMSE, for the time to it. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, of
+        reference_spp samples a pixel. output: the folder for tables and page; without it nothing is kept.
+        """
+        arguments = options(locals())
+        with tempfile.TemporaryDirectory() as folder:
+            if output is None:
+                arguments += options({"output": folder})
+            study: Study = run(_neumann.study(self._scene, arguments), quiet, lambda made: Study(*made))
+        if not quiet:
+            warn(study.warnings)
+        return study
+
+    def __repr__(self) -> str:
+        given = "".join(f", {name}={value}" for name, value in self.definitions.items())
+        return f"<Scene {self.path}{given}: {self._scene.shapes} shapes, {self.width} × {self.height} pixels>"
+
+
+def load(path: Path, **overrides: Any) -> Scene:
+    """Reads a Mitsuba 3 scene file; ``overrides`` are values for the names that it defines: ``load("furnace.xml", albedo=0.9)``.
+
+    Raises InputError, 'file:line:column: what is wrong, what was expected', for what is not supported, unknown, misspelt or never read.
+    """
+    scene = _neumann.load(fspath(path), definitions(overrides))
+    warn(scene.warnings)
+    return Scene(scene)

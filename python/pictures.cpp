@@ -1,0 +1,100 @@
+// Pictures as arrays, files, and for the screen; and how far one is from another.
+#include "apps/rendered_picture.h"
+#include "core/image/image_io.h"
+#include "core/image/resize.h"
+#include "operators/statistics/metrics.h"
+#include "python/module.h"
+
+#include <fmt/format.h>
+
+#include <pybind11/stl.h>
+
+namespace neumann {
+
+py::array_t<float> as_array(const Image& image) {
+    py::array_t<float> array({image.height, image.width, 3});
+    float* to = array.mutable_data();
+    for (const Rgb& p : image.pixels)
+        for (int c = 0; c < 3; ++c) *to++ = static_cast<float>(p[c]);
+    return array;
+}
+
+py::object as_array_or_none(const Image& image) {
+    if (image.pixels.empty()) return py::none();
+    return as_array(image);
+}
+
+Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array) {
+    if (array.ndim() != 3 || array.shape(2) != 3 || array.shape(0) < 1 || array.shape(1) < 1) {
+        std::string shape;
+        for (py::ssize_t i = 0; i < array.ndim(); ++i) shape += (i ? ", " : "") + std::to_string(array.shape(i));
+        throw InputError(fmt::format("an array of shape ({}) is no picture, which has (height, width, 3)", shape));
+    }
+    Image image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
+    const double* from = array.data();
+    for (Rgb& p : image.pixels)
+        for (int c = 0; c < 3; ++c) p[c] = *from++;
+    return image;
+}
+
+namespace {
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+py::tuple read(const std::string& path) {
+    RenderedPicture rendered;
+    {
+        const py::gil_scoped_release release;
+        rendered = read_rendered_picture(path);
+    }
+    const Estimate& p = rendered.picture;
+    return py::make_tuple(as_array(p.mean), as_array_or_none(p.standard_error), as_array_or_none(p.discretisation));
+}
+
+Estimate estimate(const Array& mean, const py::object& standard_error) {
+    Estimate picture{as_image(mean), {}};
+    if (!standard_error.is_none()) picture.standard_error = as_image(standard_error.cast<Array>());
+    return picture;
+}
+
+py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stderr, const py::object& b_stderr) {
+    const Estimate test = estimate(a, a_stderr), reference = estimate(b, b_stderr);
+    const Metrics m = compare(test.mean, reference.mean);
+    py::dict d;
+    d["rmse"] = m.rmse;
+    d["rmse_by_noise"] =
+        a_stderr.is_none() && b_stderr.is_none() ? py::object(py::none()) : py::object(py::float_(expected_rmse(test, reference)));
+    d["rel_mse"] = m.rel_mse;
+    d["mape"] = m.mape;
+    d["smape"] = m.smape;
+    d["max_error"] = m.max_error;
+    d["mean"] = m.mean;
+    d["reference_mean"] = m.reference_mean;
+    d["mean_difference"] = m.mean_difference;
+    d["pixels"] = m.pixels;
+    d["not_finite"] = m.not_finite;
+    return d;
+}
+
+// At most so many pixels high; small pictures are enlarged by whole factors, so that pixels stay square and equal.
+py::bytes png(const Array& array, double exposure, int height) {
+    Image image = as_image(array);
+    const double scale = image.height > height ? static_cast<double>(height) / image.height : height / image.height;
+    image = resized(image, std::max(1, static_cast<int>(image.width * scale)), std::max(1, static_cast<int>(image.height * scale)));
+    return encode_png(to_display(image, exposure));
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& m) {
+    m.def("read", &read, py::arg("path"));
+    m.def("compare", &compare_arrays, py::arg("a"), py::arg("b"), py::arg("a_stderr") = py::none(),
+          py::arg("b_stderr") = py::none());
+    m.attr("metrics_epsilon") = metrics_epsilon;
+    m.def("png", &png, py::arg("picture"), py::arg("exposure"), py::arg("height"));
+    m.def(
+        "exposure", [](const Array& sum, const Array& emission) { return exposure_for(as_image(sum), as_image(emission)); },
+        py::arg("sum"), py::arg("emission"));
+}
+
+}  // namespace neumann

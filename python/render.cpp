@@ -1,0 +1,73 @@
+// Renders, as `neumann render` makes and writes them.
+#include "apps/patch_options.h"
+#include "apps/progress_line.h"
+#include "apps/rendering.h"
+#include "apps/run_json.h"
+#include "apps/series_files.h"
+#include "python/module.h"
+
+#include <pybind11/stl.h>
+
+namespace neumann {
+
+namespace {
+
+py::tuple as_tuple(const Estimate& picture) {
+    return py::make_tuple(as_array(picture.mean), as_array_or_none(picture.standard_error),
+                          as_array_or_none(picture.discretisation));
+}
+
+std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
+    RenderRequest request = parse<RenderRequest>("render", add_render, *loaded, arguments);
+    request.definitions = loaded->definitions;
+    request.command_line = command_line("render", *loaded, arguments);
+    request.quiet = true;
+    return std::make_unique<Job>(request.threads, [loaded, request](Job& job) -> Job::Finish {
+        const auto show = [&](int bounces, const RenderProgress& p) {
+            job.tell(progress_text(bounces, p), p.seconds_left ? std::optional(p.fraction) : std::nullopt);
+        };
+        const std::shared_ptr<Rendering> rendering = render(request, loaded->fresh(), show);
+        return [rendering] { return py::cast(rendering); };
+    });
+}
+
+std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std::string& path) {
+    return std::make_unique<Job>(0, [rendering, path](Job& job) -> Job::Finish {
+        job.tell("writing " + path);
+        OutputFolder folder(path);
+        write_rendering(*rendering, folder);
+        return [] { return py::none(); };
+    });
+}
+
+py::object ways(const Rendering& rendering) {
+    if (!rendering.result.ways) return py::none();
+    py::list list;
+    for (const Way& way : rendering.result.ways->ways)
+        list.append(py::make_tuple(way.s, way.t, as_array(way.weighted.picture.mean), as_array(way.unweighted.picture.mean)));
+    return list;
+}
+
+}  // namespace
+
+void bind_render(py::module_& m) {
+    py::class_<Rendering, std::shared_ptr<Rendering>>(m, "Rendering", "A finished render.")
+        .def_property_readonly("bounces", [](const Rendering& r) { return r.result.series.report.bounces.size() - 1; })
+        .def("term", [](const Rendering& r, std::size_t i) { return as_tuple(r.result.series.term(i)); })
+        .def("sum", [](const Rendering& r, std::size_t i) { return as_tuple(r.result.series.sum(i)); })
+        .def("rest",
+             [](const Rendering& r) {
+                 return r.result.series.rest ? py::object(as_tuple(*r.result.series.rest)) : py::object(py::none());
+             })
+        .def("ways", &ways)
+        .def("table", [](const Rendering& r) { return series_table(r.result.series.report); })
+        .def("convergence", [](const Rendering& r) { return convergence_table(r.result.series.convergence); })
+        .def("run", [](const Rendering& r,
+                       const std::string& folder) { return run_json(r.job(), r.result, r.warnings(), folder, r.seconds).dump(); })
+        .def_property_readonly("warnings", [](const Rendering& r) { return texts(r.result.warnings); })
+        .def("complaints", &Rendering::complaints)
+        .def("save", &save);
+    m.def("render", &start, py::arg("scene"), py::arg("arguments"));
+}
+
+}  // namespace neumann

@@ -1,0 +1,221 @@
+// The series and its solvers on any K: matrices of a scene, of a book, or of the unit cube.
+#include "apps/interrupt.h"
+#include "core/base/error.h"
+#include "core/base/stopwatch.h"
+#include "operators/known/cube.h"
+#include "operators/series/series_run.h"
+#include "operators/solvers/matrix_channel.h"
+#include "operators/solvers/side_by_side.h"
+#include "operators/spectrum/convergence.h"
+#include "operators/spectrum/spectrum.h"
+#include "python/module.h"
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+namespace neumann {
+
+namespace {
+
+// Asks before every application whether it is to end.
+class Stoppable : public ChannelOperator {
+public:
+    explicit Stoppable(std::unique_ptr<const ChannelOperator> K) : K_(std::move(K)) {}
+
+    Eigen::Index size() const override { return K_->size(); }
+    void apply(const Vector& x, Vector& y) const override {
+        go_on();
+        K_->apply(x, y);
+    }
+    void apply_adjoint(const Vector& x, Vector& y) const override {
+        go_on();
+        K_->apply_adjoint(x, y);
+    }
+    double row(Eigen::Index u, const Vector& x) const override { return K_->row(u, x); }
+    double diagonal(Eigen::Index u) const override { return K_->diagonal(u); }
+    void add_column(Eigen::Index u, double a, Vector& y) const override { K_->add_column(u, a, y); }
+    const Vector& measure() const override { return K_->measure(); }
+
+private:
+    static void go_on() {
+        if (interrupted()) throw RunError("interrupted");
+    }
+    std::unique_ptr<const ChannelOperator> K_;
+};
+
+using Operator = std::shared_ptr<ChannelOperator>;
+using Dense = DenseChannel::Matrix;
+using Sparse = SparseChannel::Matrix;
+
+Operator dense(const Eigen::Ref<const Dense>& K, const Vector& measure) {
+    return std::make_shared<Stoppable>(std::make_unique<DenseChannel>(K, measure));
+}
+Operator sparse(const Sparse& K, const Vector& measure) {
+    return std::make_shared<Stoppable>(std::make_unique<SparseChannel>(K, measure));
+}
+
+// A row for each bounce: bounce, power, l2, sup, ratio, a_priori, a_posteriori, estimate, enclosure_width.
+py::array_t<double> as_array(const std::vector<SeriesRow>& rows) {
+    py::array_t<double> array({rows.size(), std::size_t{9}});
+    double* to = array.mutable_data();
+    for (const SeriesRow& r : rows)
+        for (const double x : {double(r.bounce), r.term.power, r.term.l2, r.term.sup, r.ratio, r.a_priori, r.a_posteriori,
+                               r.estimate, r.enclosure_width})
+            *to++ = x;
+    return array;
+}
+
+py::object as_dict(const SeriesRun& run) {
+    py::dict d, enclosure;
+    d["sum"] = run.sum;
+    d["verdict"] = name(run.verdict);
+    d["why"] = run.why;
+    d["warnings"] = run.warnings;
+    d["rate"] = run.rate;
+    d["rows"] = as_array(run.rows);
+    enclosure["exists"] = run.enclosure.exists;
+    enclosure["why"] = run.enclosure.why;
+    enclosure["c1"] = run.enclosure.c1;
+    enclosure["c2"] = run.enclosure.c2;
+    enclosure["low"] = run.enclosure.low;
+    enclosure["high"] = run.enclosure.high;
+    enclosure["width"] = run.enclosure.width;
+    d["enclosure"] = enclosure;
+    return d;
+}
+
+void check_size(const char* what, const Vector& x, const Operator& K) {
+    if (x.size() != K->size())
+        throw InputError(fmt::format("{} has {} values, expected {}, one for each unknown of K", what, x.size(), K->size()));
+}
+
+std::unique_ptr<Job> start_series(const Operator& K, const Vector& Le, double tolerance, int most, std::optional<double> norm) {
+    check_size("Le", Le, K);
+    return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
+        SeriesOptions options{tolerance, most, norm, {}};
+        options.observer = [&](const SeriesRow& row) {
+            job.tell(fmt::format("bounce {}   ‖K^n Le‖∞ {:.3g}", row.bounce, row.term.sup));
+        };
+        const auto run = std::make_shared<const SeriesRun>(run_series(*K, Le, options));
+        return [run] { return as_dict(*run); };
+    });
+}
+
+// A row for each step: applications, estimate, error, seconds.
+py::array_t<double> as_array(const std::vector<SolverStep>& history) {
+    py::array_t<double> array({history.size(), std::size_t{4}});
+    double* to = array.mutable_data();
+    for (const SolverStep& s : history)
+        for (const double x : {s.applications, s.estimate, s.error, s.seconds}) *to++ = x;
+    return array;
+}
+
+py::object as_dict(const SolverRow& row) {
+    py::dict d;
+    d["name"] = row.solver->name;
+    d["title"] = row.solver->title;
+    d["x"] = row.result.x;
+    d["verdict"] = name(row.result.verdict);
+    d["why"] = row.result.why;
+    d["applications"] = row.result.applications;
+    d["setup_applications"] = row.result.setup;
+    d["seconds"] = row.seconds;
+    d["history"] = as_array(row.result.history);
+    return d;
+}
+
+std::unique_ptr<Job> start_solver(const std::string& name, const Operator& K, const Vector& Le, double tolerance, int most,
+                                  std::optional<double> radius, std::optional<double> lowest, std::optional<Vector> reflectance,
+                                  std::optional<Vector> exact) {
+    const NamedSolver* solver = find_solver(name);
+    if (solver == nullptr) {
+        std::string names;
+        for (const NamedSolver& s : solvers()) names += (names.empty() ? "" : ", ") + std::string(s.name);
+        throw InputError(fmt::format("no solver is called '{}'; there are {}", name, names));
+    }
+    check_size("Le", Le, K);
+    if (reflectance) check_size("reflectance", *reflectance, K);
+    if (exact) check_size("exact", *exact, K);
+    return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
+        Problem problem;
+        problem.K = K.get();
+        problem.Le = Le;
+        problem.tolerance = tolerance;
+        problem.most = most;
+        problem.radius = radius;
+        problem.lowest = lowest;
+        if (reflectance) problem.reflectance = &*reflectance;
+        if (exact) problem.exact = &*exact;
+        problem.observer = [&](const SolverStep& step) {
+            job.tell(
+                fmt::format("{}   {:.0f} applications of K   error about {:.2g}", solver->title, step.applications, step.estimate));
+        };
+        const Stopwatch watch;
+        auto row = std::make_shared<SolverRow>(SolverRow{solver, solver->solve(problem), 0.0, 0.0});
+        row->seconds = watch.seconds();
+        return [row] { return as_dict(*row); };
+    });
+}
+
+std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoint) {
+    return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
+        job.tell("looking for eigenvalues");
+        const auto norms = operator_norms(*K);
+        const auto leading = std::make_shared<const Eigenpairs>(leading_eigenpairs(*K, count, adjoint));
+        return [norms, leading]() -> py::object {
+            const auto n = static_cast<Eigen::Index>(leading->pairs.size());
+            Eigen::VectorXcd values(n);
+            Vector residuals(n);
+            Eigen::MatrixXcd vectors(n > 0 ? leading->pairs[0].vector.size() : 0, n);
+            for (Eigen::Index i = 0; i < n; ++i) {
+                const Eigenpair& pair = leading->pairs[static_cast<std::size_t>(i)];
+                values[i] = pair.value;
+                residuals[i] = pair.residual;
+                vectors.col(i) = pair.vector;
+            }
+            const double radius = n > 0 ? std::abs(values[0]) : std::numeric_limits<double>::quiet_NaN();
+            py::dict d, sizes;
+            sizes["1"] = norms.one;
+            sizes["2"] = norms.two;
+            sizes["inf"] = norms.sup;
+            d["norms"] = sizes;
+            d["spectral_radius"] = radius;
+            d["series"] = name(judge(radius, std::numeric_limits<double>::quiet_NaN()));
+            d["eigenvalues"] = values;
+            d["eigenvectors"] = vectors;
+            d["residuals"] = residuals;
+            d["eigenvalues_converged"] = leading->converged;
+            d["applications"] = leading->applications;
+            return d;
+        };
+    });
+}
+
+std::unique_ptr<Job> start_cube(int n) {
+    if (n < 1 || n > 64) throw InputError(fmt::format("a cube of {} patches an edge: expected 1 to 64", n));
+    return std::make_unique<Job>(0, [n](Job& job) -> Job::Finish {
+        job.tell("integrating form factors");
+        const auto cube = std::make_shared<const known::Cube>(known::patched_cube(n));
+        return [cube]() -> py::object { return py::make_tuple(cube->factors.F, cube->factors.area, cube->face); };
+    });
+}
+
+}  // namespace
+
+void bind_solvers(py::module_& m) {
+    py::class_<ChannelOperator, std::shared_ptr<ChannelOperator>>(m, "Operator", "K on finitely many unknowns.")
+        .def_property_readonly("size", &ChannelOperator::size);
+    m.def("dense", &dense, py::arg("K"), py::arg("measure"));
+    m.def("sparse", &sparse, py::arg("K"), py::arg("measure"));
+    m.def("series", &start_series, py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"), py::arg("norm"));
+    m.def("solve_one", &start_solver, py::arg("name"), py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"),
+          py::arg("radius"), py::arg("lowest"), py::arg("reflectance"), py::arg("exact"));
+    m.def("spectrum_of", &start_spectrum_of, py::arg("K"), py::arg("count"), py::arg("adjoint"));
+    m.def("cube", &start_cube, py::arg("n"));
+    py::list names;
+    for (const NamedSolver& solver : solvers()) names.append(py::make_tuple(solver.name, solver.title));
+    m.attr("solvers") = names;
+}
+
+}  // namespace neumann

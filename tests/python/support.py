@@ -1,0 +1,40 @@
+"""What the tests share: scenes, the command, and an empty folder for each."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+import neumann
+
+SCENES = Path(os.environ["SCENES"])
+
+
+def scene_file(name):
+    return str(SCENES / name / f"{name}.xml")
+
+
+def cornell(res=16):
+    return neumann.load(scene_file("cornell-box"), res=res)
+
+
+def furnace(albedo=0.5, res=8):
+    return neumann.load(scene_file("furnace"), albedo=albedo, res=res)
+
+
+def command(*arguments, folder):
+    return subprocess.run([os.environ["NEUMANN"], *map(str, arguments)], cwd=folder, capture_output=True, text=True)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self.folder = Path(self._folder.name)
+        # In a test, everything is said.
+        context = warnings.catch_warnings(record=True)
+        self.warned = context.__enter__()
+        self.addCleanup(context.__exit__, None, None, None)
+        warnings.simplefilter("always")

@@ -1,0 +1,79 @@
+"""What is wrong is an exception, with the text that the command prints."""
+
+import unittest
+
+import neumann
+from support import Case, command, cornell, furnace, scene_file
+
+
+class Errors(Case):
+    def expect_as_command(self, function, *arguments):
+        done = command(*arguments, folder=self.folder)
+        self.assertEqual(done.returncode, 2)
+        with self.assertRaises(neumann.InputError) as caught:
+            function()
+        # The command adds a hint to what its options say.
+        self.assertEqual(str(caught.exception), done.stderr.replace("Run with --help for more information.\n", "").rstrip("\n"))
+        self.assertEqual(done.stdout, "")
+
+    def test_scenes(self):
+        path = self.folder / "wrong.xml"
+        path.write_text('<scene version="3.0.0">\n  <sensor type="perspective"/>\n  <shape type="sphre"/>\n</scene>\n')
+        self.expect_as_command(lambda: neumann.load(path), "render", path)
+        with self.assertRaisesRegex(neumann.InputError, r"wrong\.xml:3:\d+: "):
+            neumann.load(path)
+        self.expect_as_command(lambda: neumann.load(self.folder / "none.xml"), "render", self.folder / "none.xml")
+        box = scene_file("cornell-box")
+        self.expect_as_command(lambda: neumann.load(box, colour="red"), "render", box, "-D", "colour=red")
+
+    def test_arguments(self):
+        box = scene_file("cornell-box")
+        for keywords, options in (
+            ({"bounces": 1.5}, ["-n", "1.5"]),
+            ({"spp": 0}, ["--spp", "0"]),
+            ({"spp": "many"}, ["--spp", "many"]),
+            ({"method": "photons"}, ["--method", "photons"]),
+            ({"roulette": 2}, ["--roulette", "2"]),
+            ({"bounces": 3, "tail": 0.1}, ["-n", "3", "--tail", "0.1"]),
+            ({"method": "matrix", "time": 1}, ["--method", "matrix", "--time", "1"]),
+            ({"method": "light", "direct": "mis"}, ["--method", "light", "--direct", "mis"]),
+            ({"importance": True}, ["--importance"]),
+            ({"reference": "nowhere", "spp": 1}, ["--reference", "nowhere", "--spp", "1"]),
+        ):
+            with self.subTest(**keywords):
+                self.expect_as_command(lambda: cornell().render(**keywords), "render", box, "-D", "res=16", *options)
+        with self.assertRaisesRegex(neumann.InputError, "^-n: '-1' is not a whole number from 0 to 100000$"):
+            cornell().render(bounces=-1)
+        with self.assertRaises(TypeError):
+            cornell().render(samples=4)
+
+    def test_kinds(self):
+        self.assertTrue(issubclass(neumann.InputError, ValueError))
+        self.assertTrue(issubclass(neumann.RunError, RuntimeError))
+        self.assertEqual(neumann.InputError.__module__, "neumann")
+
+    def test_run_error(self):
+        # Albedo 1 in a closed room: no number of bounces leaves little.
+        with self.assertRaisesRegex(neumann.RunError, "^--tail 0.1: the series does not converge: "):
+            furnace(1).render(tail=0.1)
+
+    def test_saving(self):
+        series = furnace().render(bounces=1, spp=1, quiet=True)
+        (self.folder / "file").write_text("")
+        with self.assertRaisesRegex(neumann.InputError, "file: cannot be written: Not a directory"):
+            series.save(self.folder / "file")
+        with self.assertRaisesRegex(neumann.InputError, "no run.json; expected the folder of a render that was finished"):
+            neumann.read(self.folder)
+
+    def test_warnings(self):
+        furnace().render(bounces=1, spp=1)
+        texts = [str(w.message) for w in self.warned if issubclass(w.category, neumann.NeumannWarning)]
+        self.assertEqual(texts, ["a single replicate was sampled: the standard errors are unknown"])
+        self.assertEqual(self.warned[0].filename, __file__)
+        self.warned.clear()
+        furnace().render(bounces=1, spp=1, quiet=True)
+        self.assertEqual(self.warned, [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,130 @@
+"""scene.render() has the same bits as the files of `neumann render`, and read() and save() agree with both."""
+
+import filecmp
+import unittest
+
+import neumann
+import numpy as np
+from support import Case, command, cornell, furnace, scene_file
+
+OPTIONS = ["-n", "3", "--spp", "8", "--seed", "7"]
+
+
+class Render(Case):
+    def by_command(self, *more):
+        done = command("render", scene_file("cornell-box"), "-D", "res=16", *OPTIONS, "-o", "out", *more, folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return neumann.read(self.folder / "out")
+
+    def expect_same(self, a, b):
+        self.assertEqual(a.bounces, b.bounces)
+        for name in ("terms", "terms_stderr", "sums", "sums_stderr", "rest", "rest_stderr", "terms_discretisation"):
+            first, second = getattr(a, name), getattr(b, name)
+            if first is None or second is None:
+                self.assertIs(first, second, name)
+            else:
+                self.assertEqual(first.dtype, np.float32)
+                np.testing.assert_array_equal(first, second, name)
+
+    def test_shapes(self):
+        series = cornell().render(bounces=3, spp=8)
+        self.assertEqual(series.terms.shape, (4, 16, 16, 3))
+        self.assertEqual(series.terms_stderr.shape, (4, 16, 16, 3))
+        self.assertEqual(series.sums.shape, (4, 16, 16, 3))
+        self.assertEqual(series.rest.shape, (16, 16, 3))
+        self.assertEqual(series.rest_stderr.shape, (16, 16, 3))
+        self.assertIsNone(series.terms_discretisation)
+        self.assertEqual(len(series), 4)
+        self.assertEqual(len(series.table), 4)
+
+    def test_same_bits_as_the_command(self):
+        self.expect_same(cornell().render(bounces=3, spp=8, seed=7), self.by_command())
+        # Deterministic on any number of threads.
+        self.expect_same(cornell().render(bounces=3, spp=8, seed=7, threads=1), neumann.read(self.folder / "out"))
+        # One scene renders as often as it is asked to.
+        scene = cornell()
+        scene.render(bounces=1, spp=2, method="light")
+        self.expect_same(scene.render(bounces=3, spp=8, seed=7), neumann.read(self.folder / "out"))
+
+    def test_other_methods(self):
+        for method, more in (("bidirectional", {}), ("matrix", {"patches": 200, "directions": 32}), ("guided", {"patches": 200})):
+            options = [f"--{name}={value}" for name, value in more.items()]
+            self.expect_same(
+                cornell().render(bounces=3, spp=8, seed=7, method=method, **more), self.by_command("--method", method, *options)
+            )
+
+    def test_row_0_is_on_top(self):
+        # The lamp hangs from the ceiling.
+        emission = cornell().render(bounces=0, spp=16).terms[0].sum(axis=(1, 2))
+        self.assertGreater(emission[:8].sum(), 0.0)
+        self.assertEqual(emission[8:].sum(), 0.0)
+
+    def test_table_and_run(self):
+        here, there = cornell().render(bounces=3, spp=8, seed=7), self.by_command()
+        for name in ("bounce", "mean", "mean_stderr", "ratio", "bound", "rays", "interval95"):
+            np.testing.assert_array_equal(here.table[name], there.table[name], name)
+        for name in ("samples", "rays", "relative_stderr_002", "relative_stderr_sum"):
+            np.testing.assert_array_equal(here.convergence[name], there.convergence[name], name)
+        for name in ("scene", "options", "plan", "samples", "bounces", "sum", "rest", "picture"):
+            self.assertEqual(here.run[name], there.run[name], name)
+        self.assertEqual({**here.run.health, "complaints": []}, {**there.run.health, "complaints": []})
+
+    def test_command_repeats_it(self):
+        series = cornell().render(bounces=2, spp=4, direct="light", split=(2, 1), roulette=0.9)
+        self.assertRegex(series.run.command, r"^neumann render .*cornell-box.xml -n2 --spp=4 --direct=light .*--split=2,1 -D res=16$")
+        done = command(*series.run.command.split()[1:], "-o", "again", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.expect_same(series, neumann.read(self.folder / "again"))
+
+    def test_save_writes_what_the_command_writes(self):
+        self.by_command()
+        series = cornell().render(bounces=3, spp=8, seed=7)
+        series.save(self.folder / "saved")
+        names = sorted(p.name for p in (self.folder / "out").iterdir())
+        self.assertEqual(sorted(p.name for p in (self.folder / "saved").iterdir()), names)
+        self.assertIn("index.html", names)
+        for name in names:
+            if name.endswith((".exr", ".png", ".gif")):
+                self.assertTrue(filecmp.cmp(self.folder / "out" / name, self.folder / "saved" / name, shallow=False), name)
+        self.expect_same(series, neumann.read(self.folder / "saved"))
+
+    def test_furnace_is_exact(self):
+        # K^i Le = albedo^i in every pixel: Le = 1 everywhere in a closed room of one albedo.
+        series = furnace(0.5).render(bounces=4, spp=4)
+        for i, term in enumerate(series.terms):
+            np.testing.assert_allclose(term, 0.5**i, rtol=1e-6)
+        self.assertTrue((series.terms_stderr <= 1e-6).all())
+
+    def test_importance(self):
+        series = furnace(0.5).render(bounces=2, spp=16, method="patches", importance=True, patches=100, directions=32)
+        self.assertTrue(series.run.quantity.name.startswith("importance"))
+        self.assertGreater(series.terms[1].mean(), 0.0)
+
+    def test_ways(self):
+        series = cornell().render(bounces=2, spp=4, method="bidirectional", ways=2)
+        self.assertEqual([(way.s, way.t) for way in series.ways], [(0, 4), (1, 3), (2, 2), (3, 1)])
+        self.assertEqual(series.ways[0].weighted.shape, (16, 16, 3))
+
+    def test_true_errors_against_a_reference(self):
+        self.by_command()
+        series = cornell().render(bounces=3, spp=4, seed=1, reference=self.folder / "out")
+        self.assertGreater(series.convergence["relative_error_001"][-1], 0.0)
+
+    def test_compare(self):
+        # Of a known difference: 1 against 2 everywhere.
+        one, two = np.ones((4, 5, 3)), np.full((4, 5, 3), 2.0)
+        found = neumann.compare(one, two)
+        self.assertEqual(found.rmse, 1.0)
+        self.assertAlmostEqual(found.rel_mse, 1.0 / (4.0 + 0.01 * 4.0), 14)
+        self.assertAlmostEqual(found.mape, 1.0 / (2.0 + 0.01 * 2.0), 14)
+        self.assertEqual(found.mean_difference, -1.0)
+        series = self.by_command()
+        table = neumann.compare(series, self.folder / "out")
+        self.assertEqual(list(table["picture"][:2]), ["bounce_000", "bounce_001"])
+        self.assertEqual(table["picture"][-1], "rest")
+        self.assertTrue((table["rmse"] == 0.0).all())
+        self.assertGreater(table["rmse_by_noise"][1], 0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
