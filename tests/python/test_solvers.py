@@ -10,10 +10,10 @@ from support import Case
 
 class Series(Case):
     def test_known_limit(self):
-        # L = 1 + 0.9 L.
-        found = neumann.series(np.array([[0.9]]), [1.0], error=1e-9, norm=0.9)
+        # L = 1 + 0.9 L, and L = 1 + 0.5 L.
+        found = neumann.series(np.diag([0.9, 0.5]), [1.0, 1.0], error=1e-9, norm=0.9)
         self.assertEqual(found.verdict, "converged")
-        np.testing.assert_allclose(found.sum, [10.0], rtol=1e-8)
+        np.testing.assert_allclose(found.sum, [10.0, 2.0], rtol=1e-8)
         np.testing.assert_allclose(found.rows["sup"][:4], 0.9 ** np.arange(4), rtol=1e-14)
         # The bound a^{n+1}/(1−a) ‖Le‖∞ is what is left, here.
         np.testing.assert_allclose(found.rows["a_priori"][:4], 0.9 ** np.arange(1, 5) / 0.1, rtol=1e-12)
@@ -31,7 +31,7 @@ class Series(Case):
 
     def test_verdicts(self):
         self.assertEqual(neumann.series([[1.02]], [1.0]).verdict, "diverging")
-        self.assertEqual(neumann.series(np.array([[0.999]]), [1.0], most=10, error=1e-12).verdict, "limit")
+        self.assertEqual(neumann.series(np.diag([0.999, 0.5]), [1.0, 1.0], most=10).verdict, "limit")
         self.assertEqual(neumann.series(scipy.sparse.csr_matrix((3, 3)), np.ones(3)).verdict, "converged")
 
     def test_sparse_and_dense_are_alike(self):

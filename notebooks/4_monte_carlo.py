@@ -1,0 +1,264 @@
+# %% [markdown]
+# # 4. Monte Carlo: the same terms by random walks
+#
+# **What this teaches.** $K^i L_e$ is an integral over all paths with $i$ bounces, and an average over random walks estimates it.
+# You will build such a walk on a matrix, where the truth is known, predict its variance before running it, and then compare the
+# ways in which `neumann` makes paths: where they start, how they look for light, when they stop (russian roulette), and whether
+# they branch (paths or trees).
+
+# %%
+from lesson import limit, pictures, scene, seed
+import warnings
+
+import matplotlib.pyplot as plt
+import numpy as np
+import neumann
+
+rng = np.random.default_rng(seed)
+
+# %% [markdown]
+# ## A walk on a matrix
+# In the cube of lesson 2, $F_{uv}$ is the share of what leaves $u$ that arrives at $v$. It is also a *probability*: the rows sum
+# to 1. Read it backwards in time: to know what leaves patch $u$, choose a patch $v$ with probability $F_{uv}$, and look there.
+# That is one bounce, $K = \rho F$, with a single sample:
+#
+# $$(K f)_u = \rho \sum_v F_{uv} f_v = \rho\, E[f_v],
+# \qquad (K^i L_e)_u = \rho^i\, E[\,L_e(v_i)\,] \text{ for a walk } u \to v_1 \to v_2 \to \dots \to v_i .$$
+#
+# One walk serves all bounces: look at $L_e$ at every stop.
+
+# %%
+cube, rho, bounces, walks = neumann.cube(6), 0.9, 6, 100_000
+n = 6
+start = int(np.flatnonzero(cube.face == 4)[n * (n // 2) + n // 2])  # a patch of the floor beside its middle
+Le = (cube.face == 5).astype(float)
+cumulative = np.cumsum(cube.F, axis=1)
+cumulative /= cumulative[:, -1:]
+
+
+def step(at):
+    """The next stop of each walk: v with probability F_uv. All walks that are at u are sorted in together."""
+    random, following = rng.random(at.size), np.empty_like(at)
+    order = np.argsort(at, kind="stable")
+    for group in np.split(order, np.flatnonzero(np.diff(at[order])) + 1):
+        following[group] = np.searchsorted(cumulative[at[group[0]]], random[group])
+    return following
+
+
+at, scores = np.full(walks, start), []
+for i in range(1, bounces + 1):
+    at = step(at)
+    scores.append(rho**i * Le[at])
+scores = np.array(scores)
+exact, t = [], Le
+for i in range(bounces):
+    t = rho * cube.F @ t
+    exact.append(t[start])
+exact = np.array(exact)
+mean, error = scores.mean(axis=1), scores.std(axis=1, ddof=1) / np.sqrt(walks)
+print("bounce      exact       walks   standard error   off by")
+for i in range(bounces):
+    print(f"{i + 1:6d} {exact[i]:10.6f} {mean[i]:11.6f} {error[i]:14.6f} {(mean[i] - exact[i]) / error[i]:+9.1f}")
+assert (np.abs(mean - exact) <= limit() * error).all()  # six: false alarm in 25 000 seeds
+
+# %% [markdown]
+# **Q1.** The score of bounce $i$ is $\rho^i$ with probability $p_i$ and else 0. So what is its variance? (A1:
+# $\rho^{2i}\, p_i (1 - p_i)$ with $p_i = (K^i L_e)_u / \rho^i$.)
+#
+# A variance that is known in advance is the sharpest test of a random walk, for bugs like to hide in the noise.
+
+# %%
+p = exact / rho ** np.arange(1, bounces + 1)
+predicted, measured = rho ** (2 * np.arange(1, bounces + 1)) * p * (1 - p), scores.var(axis=1, ddof=1)
+# The estimated variance of a coin: its own standard error is |1 − 2p| √(p(1−p)/N) ρ^2i.
+deviation = np.abs(1 - 2 * p) * np.sqrt(p * (1 - p) / walks) * rho ** (2 * np.arange(1, bounces + 1))
+assert (np.abs(measured - predicted) <= limit() * deviation + 2 / walks * predicted).all()  # six: as above
+
+sizes = 2 ** np.arange(4, 13)
+figure, axes = plt.subplots(figsize=(5.6, 3.7))
+for i in (0, 1, 4):
+    spread = [scores[i][: walks // size * size].reshape(-1, size).mean(axis=1) - exact[i] for size in sizes]
+    axes.loglog(sizes, [np.sqrt(np.mean(s**2)) for s in spread], "o", label=f"bounce {i + 1}")
+    axes.loglog(sizes, np.sqrt(predicted[i] / sizes), "-", color="grey", lw=0.8)
+axes.set(xlabel="walks $N$", ylabel="root of the mean squared error", title=r"Error of a mean of $N$ walks; lines: $\sqrt{V/N}$")
+axes.legend()
+plt.show()
+
+# %% [markdown]
+# The figure: errors of means of $N$ walks against what the predicted variance says. Four times the walks, half the error: a slope
+# of $-\frac12$.
+#
+# ## Ways to look for light
+# In a scene, directions of a walk hit the lamp by chance. It is better to *ask* for light at every stop: choose a point on the
+# lamp, see whether it is visible, and weigh it by $1/\mathrm{pdf}$. `direct=` chooses how bounce 1 (and the last step of every
+# other bounce) is found: directions uniform over the hemisphere, by the cosine, or by the material; points on the lamp; or both,
+# by multiple importance sampling (`mis`).
+
+# %%
+room = scene("cornell-box", res=48)
+strategies = ("hemisphere", "cosine", "light", "mis")
+direct = {how: room.render(bounces=3, spp=64, direct=how, sampler="independent", seed=seed, quiet=True) for how in strategies}
+pictures([direct[how].terms[1] for how in strategies], strategies, white=0.7)
+plt.show()
+
+# %%
+print("variance of one sample, mean over pixels and channels, and rays a sample")
+variance = {}
+for how in strategies:
+    variance[how] = [64 * np.mean(np.square(direct[how].terms_stderr[i], dtype=float)) for i in (1, 2, 3)]
+    rays = direct[how].run.timing.rays / (48 * 48 * 64)
+    print(f"{how:12s}" + "".join(f"   bounce {i}: {v:9.2e}" for i, v in zip((1, 2, 3), variance[how])) + f"   {rays:.1f} rays")
+assert variance["mis"][0] < 0.1 * variance["cosine"][0] < variance["hemisphere"][0]
+for i in (1, 2, 3):
+    truth = direct["mis"].run.bounces[i]
+    for how in ("hemisphere", "cosine"):
+        b = direct[how].run.bounces[i]
+        both = np.hypot(b.stderr, truth.stderr)
+        assert abs(b.mean - truth.mean) <= limit(min(b.degrees_of_freedom, truth.degrees_of_freedom)) * both  # six comparisons
+
+# %% [markdown]
+# The figure: bounce 1 by four strategies with 64 samples a pixel, at one exposure. The mean is the same, the noise is not.
+#
+# **Q2.** The lamp covers a small part of what a point of the floor sees, say $p$. By which factor does asking the lamp reduce the
+# variance of bounce 1, roughly? **Q3.** When would directions do better than points on lamps? (A3: a lamp that touches the wall,
+# seen from right beside it, and narrow highlights of large lamps; `scene("glossy-floor")` has both.)
+#
+# ## Path generators
+# Where does a path begin? At the camera (`walk`), at the lamp (`light`, the walk of the adjoint $K^*$), at both
+# (`bidirectional`), or anywhere, by points on surfaces that have to see each other (`surface`). `pointwise` computes each bounce
+# from nested functions $T$ and $R$, exactly as on a lecture's slide. All estimate the same integral.
+
+# %%
+panels = scene("floating-panels", res=32)
+methods = ("walk", "pointwise", "surface", "light", "bidirectional")
+made = {
+    m: panels.render(bounces=3, spp=64, method=m, sampler="independent", seed=seed + 10 * k, quiet=True)
+    for k, m in enumerate(methods)
+}
+pictures([made[m].terms[2] for m in methods], methods, white=np.percentile(made["walk"].terms[2], 99))
+plt.show()
+
+# %%
+# The mean of a picture does not depend on its pixels: few of them, and many samples in each, which are 64 independent groups.
+coarse = scene("floating-panels", res=8)
+means = {
+    m: coarse.render(bounces=3, spp=2048, method=m, sampler="independent", seed=seed + k, quiet=True).run.bounces
+    for k, m in enumerate(methods)
+}
+for i in (1, 2, 3):
+    print(
+        f"bounce {i}: "
+        + "   ".join(
+            f"{m} {means[m][i].mean:.5f}" + (f" ± {means[m][i].stderr:.5f}" if "stderr" in means[m][i] else " (no interval)")
+            for m in methods
+        )
+    )
+    for m in methods[1:]:
+        a, b = means[m][i], means["walk"][i]
+        if "stderr" not in a:
+            continue  # its samples look as if their variance were infinite: see below
+        both = np.hypot(a.stderr, b.stderr)
+        assert (
+            abs(a.mean - b.mean) <= limit(min(a.degrees_of_freedom, b.degrees_of_freedom)) * both
+        ), f"{m}, bounce {i}"  # twelve: 1 in 12 000
+        assert m == "pointwise" or both < 0.05 * b.mean, "an agreement within large errors would say nothing"
+
+print("\n1 / (variance of a pixel × rays), over that of the walk")
+efficiency = {
+    m: [1 / (np.mean(np.square(made[m].terms_stderr[i], dtype=float)) * made[m].run.timing.rays) for i in (1, 2, 3)]
+    for m in methods
+}
+for m in methods:
+    print(f"{m:14s}" + "".join(f"{e / w:8.2f}" for e, w in zip(efficiency[m], efficiency["walk"])))
+
+# %% [markdown]
+# The figure: bounce 2 of the floating panels by five generators, with 64 samples a pixel. The table counts what the noise costs
+# in rays.
+#
+# **Q4.** `light` is best in one bounce and bad in another, although it is the same walk. In what does its noise differ, to the
+# eye?
+#
+# ## Russian roulette
+# A walk in a furnace of albedo $\rho$ that goes on with probability $q$ and is weighted by $1/q$ has the score
+# $X = \sum_{k \le N} (\rho/q)^k$ with $P(N \ge k) = q^k$. Its mean is $1/(1-\rho)$ for any $q$. Its second moment is, with
+# $w = \rho/q$,
+#
+# $$E[X^2] = \frac{1 + w q}{(1 - w q)(1 - w^2 q)} \text{ where } w^2 q = \rho^2/q < 1, \text{ and } \infty \text{ otherwise.}$$
+#
+# **Q5.** So $q$ may be smaller than $\rho$, but not than $\rho^2$. What is the variance at $q = \rho$? (A5: every score is
+# $N + 1$: $q/(1-q)^2$.)
+
+# %%
+rho, count = 0.9, 200_000
+figure, axes = plt.subplots(figsize=(6.2, 3.8))
+for q in (0.95, 0.9, 0.85, 0.7):
+    weight = rho / q
+    length = rng.geometric(1 - q, size=count) - 1  # P(N ≥ k) = q^k
+    score = (1 - weight ** (length + 1)) / (1 - weight) if weight != 1 else length + 1.0
+    second = (1 + rho) / (1 - rho) / (1 - weight**2 * q) if weight ** 2 * q < 1 else np.inf
+    V = second - 1 / (1 - rho) ** 2
+    running = np.cumsum(score) / np.arange(1, count + 1)
+    axes.semilogx(np.arange(1, count + 1)[99:], running[99:], label=f"q = {q}: {length.mean() + 1:.1f} stops, variance {V:.1f}")
+    assert abs(length.mean() + 1 - 1 / (1 - q)) <= limit() * np.sqrt(q / count) / (1 - q)
+    if np.isfinite(V):
+        assert abs(score.mean() - 10) <= limit() * np.sqrt(V / count), q  # seven comparisons with the lengths: 1 in 20 000 seeds
+    else:
+        print(
+            f"q = {q}: variance infinite; the sample shows {score.var():.0f}, "
+            f"its largest score {score.max():.3g}, the mean is off by {score.mean() - 10:+.2f}"
+        )
+axes.axhline(10, color="black", lw=0.8)
+axes.set(xlabel="walks", ylabel="mean so far", ylim=(8, 12), title=r"Roulette in a furnace of albedo 0.9; truth $1/(1-\rho) = 10$")
+axes.legend(fontsize=8)
+plt.show()
+
+# %% [markdown]
+# The figure: running means. Three of them settle at 10; the one with $q = 0.7 < \rho^2$ does not: it drifts below the truth,
+# until a rare long walk brings a huge weight and it jumps. It is unbiased all the same. *No* error bar holds for it: the scatter
+# that it shows is smaller than the scatter that it has.
+#
+# `neumann` says what `roulette=` does to walks, for the scene's largest albedo, and warns where the variance is infinite:
+
+# %%
+for q in ("albedo", 0.7):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        white = scene("furnace", albedo=rho, res=8).render(bounces=2, spp=16, roulette=q, sampler="independent", seed=seed)
+    known = white.run.samples.walks_in_a_furnace[0]
+    print(f"roulette {q}: {known.expected_vertices:.1f} stops, second moment {known.second_moment_of_sum}")
+    infinite = [w.message for w in caught if "infinite" in str(w.message)]
+    print(*("   warns: " + str(message) for message in infinite), sep="\n")
+    assert bool(infinite) == (q == 0.7)
+
+# %% [markdown]
+# ## Paths or trees
+# Should a walk branch? After a camera ray has hit the first surface, `split=(4, 4)` asks for light four times there, and lets
+# four walks go on. A sample costs more rays and has less noise; what counts is noise at equal *rays*.
+
+# %%
+splits = {(1, 1): 64, (4, 1): 32, (1, 4): 20, (4, 4): 16, (16, 16): 4}
+trees = {s: room.render(bounces=3, spp=n, split=s, sampler="independent", seed=seed, quiet=True) for s, n in splits.items()}
+figure, axes = plt.subplots(figsize=(6.2, 3.6))
+for s, tree in trees.items():
+    rays = tree.run.timing.rays / (48 * 48)
+    noise = [np.mean(np.square(tree.terms_stderr[i], dtype=float)) * rays for i in (1, 2, 3)]
+    axes.semilogy((1, 2, 3), noise, "o-", label=f"{s[0]} light samples, {s[1]} walks: {rays / splits[s]:.0f} rays a sample")
+axes.set(xlabel="bounce", ylabel="variance of a pixel × rays", xticks=(1, 2, 3), title="Cornell box: less is better")
+axes.legend(fontsize=8)
+plt.show()
+
+# %% [markdown]
+# The figure: cost of each bounce's noise for a path and for four trees. In this scene one pixel sees one point, more or less, so
+# that asking the lamp more often there pays for bounce 1 and walks pay for the others, a little; the expensive tree wins little,
+# for its sixteen walks start at the same point. Would you have guessed?
+#
+# **Q6.** A tree that branches at *every* stop has $C^i$ walks in bounce $i$. Where does its effort go, and where is the light?
+#
+# ## Exercises
+# 1. Start the walk on the matrix in the middle of the ceiling. Predict its variances first.
+# 2. Give the walk on the matrix next-event estimation: at every stop add $\rho^{i+1} F_{u,\text{lamp}}$ (all of it, it is known)
+#    in place of looking whether the walk hits the lamp. What is the variance of bounce 1 now?
+# 3. Which of the five generators can make what `scene("facing-mirrors")` shows in bounce 1? Try, and read `series.run.paths`.
+# 4. For $\rho = 0.99$: which $q$ makes variance × stops smallest? Plot the formula.
+# 5. Compare `method="guided"` with `walk` in `scene("door-ajar", res=48)`: from which bounce on does it gain, per ray and per
+#    second?
