@@ -184,9 +184,9 @@ def solve(
     names = list(SOLVERS) if solver == "all" else list(solver)
     found = {name: one(name) for name in names}
     if "lu" in found and found["lu"].verdict == "converged":
-        L = found["lu"].x
+        answer = found["lu"].x
         for report in found.values():
-            report["error"] = float(np.abs(report.x - L).max() / np.abs(L).max()) if np.any(L) else 0.0
+            report["error"] = float(np.abs(report.x - answer).max() / np.abs(answer).max()) if np.any(answer) else 0.0
     return Solutions(found, Report(unknowns=operator.size))
 
 
