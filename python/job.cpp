@@ -19,6 +19,7 @@ Job::Job(int threads, Work work) : thread_([this, threads, work = std::move(work
 
 Job::~Job() {
     stop();
+    const pybind11::gil_scoped_release release;
     thread_.join();
 }
 
