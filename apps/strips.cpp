@@ -16,7 +16,8 @@ constexpr double gif_seconds = 0.6;
 
 // By which power of two a term is too dark.
 double brightening(const Image& term, const Image& emission, double exposure) {
-    const double factor = std::exp2(std::round(std::log2(exposure_for(term, emission) / exposure)));
+    // Down to a power of two, so that it is no brighter than that; 1e-3 for the rounding of a pixel's value.
+    const double factor = std::exp2(std::floor(std::log2(exposure_for(term, emission) / exposure) + 1e-3));
     const bool black = std::all_of(term.pixels.begin(), term.pixels.end(), [](const Rgb& p) { return is_black(p); });
     return black ? 1.0 : std::max(1.0, factor);
 }

@@ -27,8 +27,9 @@ struct SeriesPictures {
 // Rows of as many pictures, below one another.
 using Strip = std::vector<Pictures>;
 
-// Bounces 0 to 6, as far as there are any; below each times the power of two, at least 1, that brings the 99th percentile of its
-// luminance near to white at this exposure: "16 K^3 Le". Pixels where `emission` is not black do not vote (exposure_for).
+// Bounces 0 to 6, as far as there are any; below each times the largest power of two, at least 1, at which the 99th percentile
+// of its luminance is no brighter than white at this exposure: "16 K^3 Le". Pixels where `emission` is not black do not vote
+// (exposure_for).
 Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double exposure);
 // The sums up to bounce 0 to 6, likewise.
 Strip strip_of_sums(const SeriesPictures& series);

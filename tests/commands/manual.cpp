@@ -12,10 +12,15 @@ protected:
     static inline const std::filesystem::path repository = std::filesystem::path(SCENES).parent_path();
 
     std::string page(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), "help");
-        const Finished done = run(arguments);
-        EXPECT_EQ(done.exit_code, 0) << done.err;
-        return done.out;
+        static std::map<std::vector<std::string>, std::string> known;
+        const auto [place, is_new] = known.try_emplace(arguments);
+        if (is_new) {
+            arguments.insert(arguments.begin(), "help");
+            const Finished done = run(arguments);
+            EXPECT_EQ(done.exit_code, 0) << done.err;
+            place->second = done.out;
+        }
+        return place->second;
     }
     // The lines of a section, without their indentation of two.
     static std::vector<std::string> section(const std::string& page, const std::string& heading) {
@@ -108,8 +113,7 @@ TEST_F(Manual, ExamplesAreCommandsThatAreUnderstood) {
             EXPECT_EQ(program, "neumann");
             ASSERT_TRUE(commands().contains(command)) << example;
             const Options known = options(command);
-            for (std::string word; words >> word;)
-                EXPECT_TRUE(word[0] != '-' || known.contains(word)) << example;
+            for (std::string word; words >> word;) EXPECT_TRUE(word[0] != '-' || known.contains(word)) << example;
         }
     }
 }
@@ -124,7 +128,8 @@ TEST_F(Manual, FilesOfRender) {
 TEST_F(Manual, DefaultsAndWhatExcludesWhat) {
     const std::string text = page({"render"});
     EXPECT_NE(text.find("\n  --seed N\n      Seed of the random numbers; 0 without it.\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("\n  -n BOUNCES\n      The last bounce with a picture of its own. Not together with --tail.\n"), std::string::npos);
+    EXPECT_NE(text.find("\n  -n BOUNCES\n      The last bounce with a picture of its own. Not together with --tail.\n"),
+              std::string::npos);
     EXPECT_NE(page({"replay"}).find("Only together with --pixel."), std::string::npos);
 }
 

@@ -28,4 +28,4 @@ with tempfile.TemporaryDirectory() as folder:
     expected = lesson.read_text(encoding="utf-8").count("plt.show()")
     assert 0 < expected == len(list(figures.glob("*.png"))), f"expected {expected} figures in {sorted(figures.iterdir())}"
     assert [p.name for p in elsewhere.rglob("*")] == ["home"], f"wrote {list(elsewhere.rglob('*'))}"
-    assert seconds <= 20
+    assert seconds <= 40  # 20 seconds on two processors; others may be at work

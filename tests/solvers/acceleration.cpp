@@ -3,6 +3,7 @@
 #include "operators/known/cube.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"
+#include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
 
