@@ -63,7 +63,7 @@ axes.legend()
 plt.show()
 
 # %% [markdown]
-# The figure: the largest value of each term. After two or three bounces the lines are straight: light has forgotten where it came
+# The figure: the largest value of each term. After a handful of bounces the lines are straight: light has forgotten where it came
 # from, and each bounce is $\rho$ times the one before. What the `assert` says is stronger: in a closed room of one reflectance
 # the *power* $\sum_u A_u t_u$ of bounce $n$ is exactly $\rho^n$ times the lamp's, whatever the shape.
 #
@@ -126,7 +126,8 @@ print(
 # terms themselves: it does not wait for the rest to vanish, it *knows* the rest, because the terms have become proportional to
 # each other.
 #
-# **Q2.** Why is there no bound of the first kind for a room with one wall of albedo 1? Is there an enclosure?
+# **Q2.** Why is there no bound of the first kind for a room with one wall of albedo 1? Is there an enclosure? (A2: $1/(1-a)$ is
+# infinite, although the other walls absorb. The enclosure looks at the terms themselves, which shrink, and it exists.)
 #
 # ## Traps
 # "Stop when a bounce is small." "Stop when the ratio of two bounces has settled." Both are what many renderers do. Four small
@@ -173,7 +174,7 @@ plt.show()
 #
 # - *Behind eleven doors* it is dark for eleven bounces, and then every bounce is brighter than the one before, for a long time.
 #   Whoever stops at the first small bounce stops at 0.
-# - *Near-parallel plates*: light goes to and fro, and the ratio of neighbours jumps between 0.02 and 40.
+# - *Near-parallel plates*: light goes to and fro, and the ratio of neighbours jumps between 0.018 and 44.
 # - *A bright room and a slow one*: for 15 bounces the ratio is 0.50, as settled as can be. It predicts a rest that is far too
 #   small.
 # - *Three mirrors*: two of three terms are zero, and the third is not.
@@ -213,7 +214,7 @@ for K_, Le_, a in ((chain, last, 0.99), (plates, inner, 0.9), (apart, both, 0.99
 # %%
 for upper in (1.6, 2.0):
     halves = np.array([[upper, upper], [0.2, 0.2]]) / 2
-    norms, found = neumann.spectrum(halves, 1).norms, neumann.series(halves, [1, 1], norm=upper, quiet=True)
+    norms, found = neumann.spectrum(halves, 1).norms, neumann.series(halves, [1, 1], quiet=True)
     radius = np.abs(np.linalg.eigvals(halves)).max()
     print(f"upper half {upper}: largest row sum of K {norms['inf']:.2f}, spectral radius {radius:.2f}: {found.verdict}")
     assert found.verdict == ("converged" if radius < 1 else "diverging")
@@ -251,7 +252,7 @@ plt.show()
 assert needed == [19, 131, 1374, 13808]  # ceil(ln ε / ln ρ − 1)
 for rho in (1.0, 1.05):
     K = rho / 3 * np.ones((3, 3))
-    found = neumann.series(K, [1, 2, 3], norm=rho, most=500, quiet=True)
+    found = neumann.series(K, [1, 2, 3], most=500, quiet=True)
     print(f"albedo {rho}: the series is {found.verdict}, {found.why}")
     assert found.verdict != "converged"
 K = 1.05 / 3 * np.ones((3, 3))
