@@ -36,6 +36,8 @@ python3-scipy       | SciPy: T, R and K are its matrices      |
 packages_to_test='
 libgtest-dev        | GoogleTest                              | gtest/gtest.h
 libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h
+dpkg-dev            | what cpack finds dependencies with      | dpkg-shlibdeps
+file                | file, which cpack asks of each file     | file
 python3-openimageio | the Python module of OpenImageIO        |
 python3-matplotlib  | matplotlib, with which the lessons draw |
 python3-nbclient    | nbclient, which runs notebooks          |

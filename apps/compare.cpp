@@ -194,6 +194,17 @@ nlohmann::ordered_json json_of(const std::string& a, const std::string& b, const
 
 }  // namespace
 
+CLI::App* add_compare(CLI::App& app, CompareRequest& request) {
+    auto* compare = app.add_subcommand(
+        "compare", "Print error metrics between two pictures or two output folders; the second is the reference");
+    compare->add_option("A", request.a, "Picture or folder")->required();
+    compare->add_option("B", request.b, "Reference picture or folder")->required();
+    compare->add_option("-o", request.output, "Of two folders: write a page there that shows both, bounce by bounce")
+        ->type_name("DIR");
+    compare->add_flag("--json", request.json, "Print JSON");
+    return compare;
+}
+
 int compare_command(const CompareRequest& request) {
     const auto& [a, b, output, json] = request;
     const bool a_is_folder = is_folder(a), b_is_folder = is_folder(b);

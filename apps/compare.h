@@ -1,6 +1,8 @@
 // `neumann compare A B`: error metrics between two pictures or two output folders.
 #pragma once
 
+#include <CLI/CLI.hpp>
+
 #include <string>
 
 namespace neumann {
@@ -10,6 +12,8 @@ struct CompareRequest {
     std::string output;  // the folder of a page of both folders, or empty
     bool json = false;
 };
+
+CLI::App* add_compare(CLI::App& app, CompareRequest& request);
 
 // Prints how far A is from B: two pictures, or two folders, of which the bounces, sums and rest that both have are compared and the
 // others named. Returns the exit code, 0. Throws InputError for what cannot be read or compared.

@@ -12,7 +12,6 @@
 #include "operators/statistics/conformity.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -122,7 +121,8 @@ std::optional<ConformResult> judge(const ConformScene& scene, const ConformReque
         const SampledReference reference{in_colors(to_xyz, read_exr(scene.reference.string()).mean),
                                          in_colors(to_xyz, read_exr(scene.variance.string()).mean), reference_samples};
         const Scene loaded = read_scene(scene.file.string(), {{"integrator", scene.integrator}}, true);
-        const auto pixels = static_cast<std::uint64_t>(loaded.film.crop_width) * static_cast<std::uint64_t>(loaded.film.crop_height);
+        const auto pixels =
+            static_cast<std::uint64_t>(loaded.film.crop_width) * static_cast<std::uint64_t>(loaded.film.crop_height);
         result.samples = std::max<std::uint64_t>(2, request.budget / pixels);
         const Stopwatch watch;
         const std::optional<Estimate> picture = render(loaded, result.samples, request.seed, to_xyz);
@@ -142,8 +142,8 @@ std::optional<ConformResult> judge(const ConformScene& scene, const ConformReque
 const char* verdict(const Conformity& c) { return c.conforms() ? "accepted" : "REJECTED"; }
 
 void print_header() {
-    fmt::print("{:<43}{:>6}{:>8}  {:>9} {:<9} {:>9} {:<9} {:>10}\n", "scene", "spp", "seconds", "Mitsuba's", "test", "our own", "test",
-               "Y of ref.");
+    fmt::print("{:<43}{:>6}{:>8}  {:>9} {:<9} {:>9} {:<9} {:>10}\n", "scene", "spp", "seconds", "Mitsuba's", "test", "our own",
+               "test", "Y of ref.");
 }
 
 void print_row(const ConformResult& r) {
@@ -159,11 +159,13 @@ void print_row(const ConformResult& r) {
 void print_summary(const std::vector<ConformResult>& results, std::size_t scenes, const ConformRequest& request) {
     const auto count = [&](const auto& holds) { return std::count_if(results.begin(), results.end(), holds); };
     const auto rejected = count([](const ConformResult& r) { return r.rejected(); });
-    fmt::print("\n{} accepted, {} rejected, {} not rendered", count([](const ConformResult& r) { return r.judged() && !r.rejected(); }),
-               rejected, count([](const ConformResult& r) { return !r.judged(); }));
+    fmt::print("\n{} accepted, {} rejected, {} not rendered",
+               count([](const ConformResult& r) { return r.judged() && !r.rejected(); }), rejected,
+               count([](const ConformResult& r) { return !r.judged(); }));
     if (results.size() < scenes) fmt::print(", {} not reached", scenes - results.size());
     fmt::print(
-        "\nThe parts of the pixels' channels (XYZ) that pass; 99.75% have to. Mitsuba's test: against the reference's variance over our "
+        "\nThe parts of the pixels' channels (XYZ) that pass; 99.75% have to. Mitsuba's test: against the reference's variance "
+        "over our "
         "samples;\nour own: against our standard error and that of {} samples of the reference.\n",
         reference_samples);
     if (rejected > 0) fmt::print("Pictures of the rejected: {}\n", request.output);
@@ -186,27 +188,25 @@ nlohmann::ordered_json json_of(const ConformResult& r) {
 }  // namespace
 
 CLI::App* add_conform(CLI::App& app, ConformRequest& request) {
-    auto* conform = app.add_subcommand("conform", "Render a folder of Mitsuba's regression scenes and test it against their references");
+    auto* conform =
+        app.add_subcommand("conform", "Render a folder of Mitsuba's regression scenes and test it against their references");
     conform->add_option("DIR", request.folder, "Folder with tests/scenes in it, as Mitsuba's data are laid out")->required();
     conform->add_option("--only", request.only, "Scenes whose folder/name holds this")->type_name("TEXT");
-    conform->add_option("-o", request.output, "Folder for the pictures of what is rejected")->type_name("DIR")->capture_default_str();
+    conform->add_option("-o", request.output, "Folder for the pictures of what is rejected")
+        ->type_name("DIR")
+        ->capture_default_str();
     conform->add_option("--samples", request.budget, "Of a scene, over all its pixels")
         ->type_name("N")
         ->check(whole_from(1, std::uint64_t{1} << 40))
         ->capture_default_str();
-    conform->add_option("--seed", request.seed, "Seed of the random numbers")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    conform->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_seed(*conform, request.seed);
+    add_threads(*conform, request.threads);
     conform->add_flag("--json", request.json, "Print JSON");
     return conform;
 }
 
 int conform_command(const ConformRequest& request) {
-    std::optional<oneapi::tbb::global_control> threads;
-    if (request.threads > 0)
-        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
+    const ThreadLimit threads(request.threads);
     catch_interrupts();
     const std::vector<ConformScene> scenes = find_scenes(request);
     std::vector<ConformResult> results;

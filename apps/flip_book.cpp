@@ -1,43 +1,59 @@
 #include "apps/flip_book.h"
 
+#include "core/image/gif_frames.h"
 #include "core/image/image_io.h"
-#include "core/image/resize.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 namespace neumann {
 namespace {
 
-constexpr int longest_side = 512, longest_enlarged = 320, label_height = 30, label_size = 18;
-constexpr double pixel_budget = 6e6;  // GIFs compress at about 1e6 pixels a second and core
-constexpr double frames_per_second = 1.5;
-constexpr std::uint8_t background = 34;
+constexpr int longest_side = 512, longest_enlarged = 320, label_size = 18;
+constexpr double seconds_to_spare = 6.0;
+constexpr int hundredths_a_page = 67;
+
+std::vector<std::string> compressed(std::span<const DisplayImage> frames) {
+    std::vector<std::string> pages(frames.size());
+    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) { pages[i] = encode_gif(frames[i]); });
+    return pages;
+}
 
 }  // namespace
 
-std::string flip_book(std::span<const LabelledPicture> terms, std::span<const LabelledPicture> sums, double exposure,
-                      const std::optional<std::string>& font) {
-    if (terms.empty()) throw std::invalid_argument("flip_book: no pictures");
-    std::vector<LabelledPicture> pages(terms.begin(), terms.end());
-    pages.insert(pages.end(), sums.begin(), sums.end());
-
-    const double width = pages.front().picture->width, height = pages.front().picture->height, longer = std::max(width, height);
-    const double affordable = std::sqrt(pixel_budget / (width * height * static_cast<double>(pages.size())));
-    double scale = std::min({longest_side / longer, affordable, std::max(1.0, std::floor(longest_enlarged / longer))});
-    if (scale > 1.0) scale = std::floor(scale);
-    const int frame_width = std::max(1, static_cast<int>(width * scale)),
-              frame_height = std::max(1, static_cast<int>(height * scale));
-
-    std::vector<DisplayImage> frames;
-    for (const LabelledPicture& page : pages) {
-        DisplayImage& frame = frames.emplace_back(frame_width, frame_height + label_height, background);
-        frame.paste(to_display(resized(*page.picture, frame_width, frame_height), exposure), 0, 0);
-        frame.paste(caption(page.label, frame_width, label_height, label_size, font, true, background), 0, frame_height);
-    }
-    return encode_gif(frames, frames_per_second);
+double affordable_scale(int width, int height, std::size_t pictures, double seconds) {
+    constexpr double pixels_a_second = 1e6;  // of a core
+    return std::sqrt(seconds * pixels_a_second / (static_cast<double>(width) * height * static_cast<double>(pictures)));
 }
+
+FlipBook::FlipBook(std::vector<LabelledPicture> pictures, double exposure, const std::optional<std::string>& font)
+    : pictures_(std::move(pictures)) {
+    if (pictures_.empty()) throw std::invalid_argument("FlipBook: no pictures");
+    const Image& first = *pictures_.front().picture;
+    const double longer = std::max(first.width, first.height);
+    const double scale = whole_where_enlarged(
+        std::min({longest_side / longer, affordable_scale(first.width, first.height, pictures_.size(), seconds_to_spare),
+                  std::max(1.0, std::floor(longest_enlarged / longer))}));
+    const int width = std::max(1, static_cast<int>(first.width * scale)),
+              height = std::max(1, static_cast<int>(first.height * scale));
+    std::vector<DisplayImage> frames;
+    for (const LabelledPicture& picture : pictures_)
+        frames.push_back(with_label(picture, width, height, exposure, label_size, font));
+    pages_ = compressed(frames);
+}
+
+std::string FlipBook::gif(std::span<const LabelledPicture> chosen) const {
+    std::vector<std::string> pages;
+    for (const LabelledPicture& wanted : chosen) {
+        const auto found = std::ranges::find(pictures_, wanted.picture, &LabelledPicture::picture);
+        if (found == pictures_.end()) throw std::invalid_argument("FlipBook: not one of its pictures");
+        pages.push_back(pages_[static_cast<std::size_t>(found - pictures_.begin())]);
+    }
+    return join_gif_frames(pages, hundredths_a_page);
+}
+
+std::string flip_book(std::span<const DisplayImage> frames) { return join_gif_frames(compressed(frames), hundredths_a_page); }
 
 }  // namespace neumann

@@ -1,8 +1,10 @@
 #include "apps/labelled_picture.h"
 
 #include "core/image/image_io.h"
+#include "core/image/resize.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neumann {
 
@@ -19,5 +21,15 @@ DisplayImage caption(const std::string& text, int width, int height, int font_si
     draw_text(strip, centred ? std::max(0, (width - taken) / 2) : 0, baseline, text, font_size, *font, 230);
     return strip;
 }
+
+DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
+                        const std::optional<std::string>& font) {
+    DisplayImage out(width, height + label_height(label_size), sheet_background);
+    out.paste(to_display(resized(*picture.picture, width, height), exposure * picture.factor), 0, 0);
+    out.paste(caption(picture.label, width, label_height(label_size), label_size, font, true), 0, height);
+    return out;
+}
+
+double whole_where_enlarged(double scale) { return scale > 1.0 ? std::floor(scale) : scale; }
 
 }  // namespace neumann

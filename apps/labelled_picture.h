@@ -1,4 +1,4 @@
-// A picture with its name, as the contact sheet and the flip-book show it.
+// A picture with its name, as the contact sheet, the strips and the flip-book show it.
 #pragma once
 
 #include "core/image/display.h"
@@ -8,15 +8,26 @@
 
 namespace neumann {
 
+constexpr std::uint8_t sheet_background = 34;
+
 // `picture` is in scene-linear radiance and outlives this.
 struct LabelledPicture {
     std::string label;
     const Image* picture = nullptr;
+    double factor = 1.0;  // by which it is brighter than those beside it
 };
 
 // A strip of `width` × `height` pixels with a text on it, centred or at the left; empty without a font. A text that is too wide is
 // set smaller.
 DisplayImage caption(const std::string& text, int width, int height, int font_size, const std::optional<std::string>& font,
-                     bool centred, std::uint8_t background);
+                     bool centred, std::uint8_t background = sheet_background);
+
+// The picture, times `exposure` and its factor, at `width` × `height` pixels, and its label below, label_height(label_size) high.
+DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
+                        const std::optional<std::string>& font);
+constexpr int label_height(int label_size) { return 5 * label_size / 3; }
+
+// Pictures grow by whole factors only, so that pixels stay square and equal.
+double whole_where_enlarged(double scale);
 
 }  // namespace neumann

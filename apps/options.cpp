@@ -28,6 +28,20 @@ CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
         "", "whole");
 }
 
+void add_scene(CLI::App& command, std::string& scene) { command.add_option("SCENE", scene, "Mitsuba 3 scene file")->required(); }
+
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning) {
+    command.add_option("--seed", seed, meaning)->type_name("N")->check(whole_from(0, ~std::uint64_t{0}))->capture_default_str();
+}
+
+void add_threads(CLI::App& command, int& threads) {
+    command.add_option("-t", threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+}
+
+ThreadLimit::ThreadLimit(int threads) {
+    if (threads > 0) limit_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+}
+
 void add_definitions(CLI::App& command, std::vector<std::string>& texts) {
     command.add_option("-D", texts, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
 }

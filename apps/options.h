@@ -1,10 +1,12 @@
 // What the options of several commands share. Validators have no description of their own, which CLI11 would put into the help.
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,20 @@ namespace neumann {
 
 CLI::Validator above_zero();
 CLI::Validator whole_from(std::uint64_t low, std::uint64_t high);
+
+// SCENE, --seed N and -t THREADS.
+void add_scene(CLI::App& command, std::string& scene);
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning = "Seed of the random numbers");
+void add_threads(CLI::App& command, int& threads);
+
+// While it lives there are at most so many threads; all with 0.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(int threads);
+
+private:
+    std::optional<oneapi::tbb::global_control> limit_;
+};
 
 // -D name=value, repeatable; parse_definitions throws InputError for what is not of this form.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);

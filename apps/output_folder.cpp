@@ -70,22 +70,41 @@ std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
 }  // namespace
 
 bool is_output_name(std::string_view name) {
-    constexpr std::string_view names[] = {"rest.exr",        "contact-sheet.png",
-                                          "bounces.gif",     "series.csv",
-                                          "convergence.csv", "run.json",
-                                          "ways.png",        "index.html",  // render
-                                          "study.csv",       "study.json",  // study
-                                          "compare.json",                   // compare
-                                          "T.mtx",           "R.mtx",
-                                          "R_r.mtx",         "R_g.mtx",
-                                          "R_b.mtx",         "K.mtx",
-                                          "K_r.mtx",         "K_g.mtx",
-                                          "K_b.mtx",         "Le.mtx",
-                                          "b.mtx",           "measure.mtx",
+    constexpr std::string_view names[] = {"rest.exr",
+                                          "contact-sheet.png",
+                                          "bounces.gif",
+                                          "series.csv",
+                                          "convergence.csv",
+                                          "run.json",
+                                          "ways.png",
+                                          "index.html",
+                                          "strip-terms.png",
+                                          "strip-terms.gif",
+                                          "strip-sums.png",
+                                          "strip-sums.gif",
+                                          "strip-doubling.png",
+                                          "strip-doubling.gif",  // render
+                                          "study.csv",
+                                          "study.json",    // study
+                                          "compare.json",  // compare
+                                          "T.mtx",
+                                          "R.mtx",
+                                          "R_r.mtx",
+                                          "R_g.mtx",
+                                          "R_b.mtx",
+                                          "K.mtx",
+                                          "K_r.mtx",
+                                          "K_g.mtx",
+                                          "K_b.mtx",
+                                          "Le.mtx",
+                                          "b.mtx",
+                                          "measure.mtx",
                                           "ray_measure.mtx",
                                           "patches.csv",  // export
-                                          "picture.exr",     "reference.exr",
-                                          "p-reference.exr", "p-error.exr",
+                                          "picture.exr",
+                                          "reference.exr",
+                                          "p-reference.exr",
+                                          "p-error.exr",
                                           "difference.exr"};  // conform
     return is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name) ||
            std::find(std::begin(names), std::end(names), name) != std::end(names);

@@ -36,7 +36,7 @@ std::shared_ptr<const Scene> read(const PatchOptions& options) {
 }  // namespace
 
 void add_patch_options(CLI::App& command, PatchOptions& options) {
-    command.add_option("SCENE", options.scene, "Mitsuba 3 scene file")->required();
+    add_scene(command, options.scene);
     command.add_option("--patches", options.patches, "Patches that the surfaces are cut into, about")
         ->type_name("N")
         ->check(whole_from(0, largest_number))
@@ -45,11 +45,8 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
         ->type_name("M")
         ->check(whole_from(0, largest_number))
         ->capture_default_str();
-    command.add_option("--seed", options.seed, "Seed of the random numbers")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    command.add_option("-t", options.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_seed(command, options.seed);
+    add_threads(command, options.threads);
     add_definitions(command, options.definitions);
     command.add_flag("--quiet", options.quiet, "Print no warnings");
     command.add_flag("--json", options.json, "Print JSON");
@@ -59,9 +56,7 @@ PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(o
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
                        std::map<std::string, std::string> definitions)
-    : options_(options), definitions_(std::move(definitions)), scene_(std::move(scene)) {
-    if (options.threads > 0)
-        threads_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     const TracedSettings traced = settings(options);
     try {
         system_ = std::make_unique<TracedSystem>(*scene_, traced);

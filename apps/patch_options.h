@@ -1,20 +1,15 @@
 // What the commands that take a scene as matrices share: their options, and how a scene becomes space, table, R and channels.
 #pragma once
 
+#include "apps/options.h"
 #include "operators/matrix/traced_system.h"
 
-#include <oneapi/tbb/global_control.h>
 #include <nlohmann/json.hpp>
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace neumann {
 
@@ -56,7 +51,7 @@ public:
 
 private:
     PatchOptions options_;
-    std::optional<oneapi::tbb::global_control> threads_;
+    ThreadLimit threads_;
     std::map<std::string, std::string> definitions_;
     std::shared_ptr<const Scene> scene_;
     std::unique_ptr<TracedSystem> system_;

@@ -45,7 +45,7 @@ nlohmann::ordered_json plan_json(const Plan& plan) {
 
 CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
     auto* command = app.add_subcommand("plan", "Print what a scene needs of the machinery, what is left out, and why");
-    command->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
+    add_scene(*command, request.scene);
     add_definitions(*command, request.definitions);
     command->add_flag("--json", request.json, "Print JSON");
     return command;

@@ -1,15 +1,16 @@
 #include "apps/render.h"
 
 #include "apps/interrupt.h"
+#include "apps/options.h"
 #include "apps/progress_line.h"
 #include "apps/rendering.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace neumann {
 
@@ -61,12 +62,14 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
 
 }  // namespace
 
-int render_command(const RenderRequest& request) {
+int render_command(const RenderRequest& given) {
+    RenderRequest request = given;
+    request.definitions = parse_definitions(request.definition_texts);
+    if (request.output.empty())
+        request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
     const Stopwatch watch;
     catch_interrupts();
-    std::optional<oneapi::tbb::global_control> threads;
-    if (request.threads > 0)
-        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
+    const ThreadLimit threads(request.threads);
 
     Scene scene = read_scene(request.scene, request.definitions);
     OutputFolder folder(request.output);

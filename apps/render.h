@@ -14,9 +14,9 @@ namespace neumann {
 
 struct RenderRequest {
     std::string scene;
-    std::vector<std::string> definition_texts;  // -D name=value
-    std::map<std::string, std::string> definitions;
-    std::string output;
+    std::vector<std::string> definition_texts;       // -D name=value, as typed
+    std::map<std::string, std::string> definitions;  // likewise, read
+    std::string output;                              // a folder; empty: out/NAME
     std::optional<int> bounces;
     std::optional<double> tail;
     std::optional<std::uint64_t> samples;

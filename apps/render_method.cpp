@@ -42,6 +42,9 @@ Plan plan_of(const RenderRequest& request, const Scene& scene) {
         plan.walk.*p.decision = false;
         return true;
     });
+    if (!request.light.roulette.empty() && request.light.roulette != "none")
+        for (PlanPart& p : plan.parts)
+            if (p.part == roulette_part) p = {roulette_part, true, "--roulette asks for it", ""};
     return plan;
 }
 

@@ -7,7 +7,7 @@ namespace neumann {
 
 CLI::App* add_render(CLI::App& app, RenderRequest& request) {
     auto* render = app.add_subcommand("render", "Render the bounces K^i Le of a scene, their sums, and what is left out");
-    render->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
+    add_scene(*render, request.scene);
     render->add_option("-o", request.output, "Folder for the pictures and tables; out/NAME without it")->type_name("DIR");
     auto* bounces = render->add_option("-n", request.bounces, "The last bounce with a picture of its own")
                         ->type_name("BOUNCES")
@@ -38,11 +38,8 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
     render
         ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
         ->type_name("DIR");
-    render->add_option("--seed", request.seed, "Seed of the random numbers")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    render->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_seed(*render, request.seed);
+    add_threads(*render, request.threads);
     add_definitions(*render, request.definition_texts);
     render->add_flag("--quiet", request.quiet, "Print nothing but errors");
     render->add_flag("--json", request.json, "Print run.json");

@@ -2,6 +2,7 @@
 
 #include "apps/contact_sheet.h"
 #include "apps/flip_book.h"
+#include "apps/strips.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
@@ -52,13 +53,35 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
     for (std::size_t i = 0; i < sums.size(); ++i)
         sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
     // All that is seen has importance at once.
-    const double exposure = exposure_for(sums.back(), report.importance ? sums.back() : terms.front());
+    const Image& emission = report.importance ? sums.back() : terms.front();
+    const double exposure = exposure_for(sums.back(), emission);
     const auto font = find_label_font();
     folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
-    folder.write("bounces.gif", flip_book(term_pictures, sum_pictures, exposure, font));
+
+    Image limit = sums.back();
+    for (std::size_t p = 0; series.rest && p < limit.pixels.size(); ++p) limit.pixels[p] += series.rest->mean.pixels[p];
+    const SeriesPictures pictures{std::span(terms).first(N + 1),
+                                  sums,
+                                  series.rest ? &terms.back() : nullptr,
+                                  series.rest ? &limit : nullptr,
+                                  report.importance ? "K*" : "K",
+                                  report.importance ? "We" : "Le",
+                                  series.paths == Paths::all ? "" : ", some paths"};
+    const FlipBook book(pictures.all(), exposure, font);
+    const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
+                doubling = strip_of_doubling(pictures);
+    folder.write("bounces.gif", book.gif());
+    folder.write("strip-terms.png", strip_png(of_terms, exposure, font));
+    folder.write("strip-terms.gif", strip_gif(of_terms, exposure, font));
+    folder.write("strip-sums.png", strip_png(of_sums, exposure, font));
+    folder.write("strip-sums.gif", book.gif(of_sums.front()));
+    if (!doubling.empty()) {
+        folder.write("strip-doubling.png", strip_png(doubling, exposure, font));
+        folder.write("strip-doubling.gif", book.gif(doubling.front()));
+    }
     return {font ? ""
-                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png and bounces.gif are "
-                   "unlabelled",
+                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
+                   "bounces.gif are unlabelled",
             exposure};
 }
 

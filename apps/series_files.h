@@ -12,10 +12,11 @@ namespace neumann {
 
 struct WrittenPictures {
     std::string warning;    // where labels were left out, or nothing
-    double exposure = 1.0;  // of the sheet and the flip-book
+    double exposure = 1.0;  // of the sheet, the strips and the flip-book
 };
 
-// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif; and the pictures for the page, packed.
+// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png …; and the pictures for the page,
+// packed.
 WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed);
 
 // series.csv, and convergence.csv.

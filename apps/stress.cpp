@@ -7,13 +7,11 @@
 #include "core/base/stopwatch.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace neumann {
 
@@ -149,11 +147,8 @@ CLI::App* add_stress(CLI::App& app, StressRequest& request) {
     stress->add_option("--only", request.only, "Cases whose name holds this; with * and ? in it, those that it fits")
         ->type_name("PATTERN");
     stress->add_flag("--list", request.list, "Print the cases' names and where their answers are from, and run none");
-    stress->add_option("--seed", request.seed, "Seed of the random numbers")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    stress->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_seed(*stress, request.seed);
+    add_threads(*stress, request.threads);
     stress->add_flag("--json", request.json, "Print JSON");
     return stress;
 }
@@ -165,9 +160,7 @@ known::Cases stress_cases() {
 }
 
 int stress_command(const StressRequest& request) {
-    std::optional<oneapi::tbb::global_control> threads;
-    if (request.threads > 0)
-        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
+    const ThreadLimit threads(request.threads);
     const known::Cases all = stress_cases();
     const std::vector<const Case*> cases = chosen(all, request.only);
     if (request.list) {

@@ -9,7 +9,6 @@
 #include "core/reader/read_scene.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -175,9 +174,7 @@ int study_command(const StudyRequest& given) {
     expect_sense(request);
     study_methods(request);  // before the scene is read
     catch_interrupts();
-    std::optional<oneapi::tbb::global_control> threads;
-    if (request.threads > 0)
-        threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(request.threads));
+    const ThreadLimit threads(request.threads);
 
     const Stopwatch scene_watch;
     const Scene scene = read_scene(request.scene, request.definitions);

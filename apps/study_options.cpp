@@ -6,7 +6,7 @@ namespace neumann {
 
 CLI::App* add_study(CLI::App& app, StudyRequest& request) {
     auto* study = app.add_subcommand("study", "Compare methods: error against time, bounce by bounce");
-    study->add_option("SCENE", request.scene, "Mitsuba 3 scene file")->required();
+    add_scene(*study, request.scene);
     study
         ->add_option("--methods", request.methods,
                      "Methods with options of render after colons: walk,walk:direct=light:sampler=independent,matrix")
@@ -46,11 +46,8 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
         ->type_name("REL")
         ->check(above_zero());
     study->add_flag("--resume", request.resume, "Go on with a study that was cut off");
-    study->add_option("--seed", request.seed, "Seed that the seeds of all runs come from")
-        ->type_name("N")
-        ->check(whole_from(0, ~std::uint64_t{0}))
-        ->capture_default_str();
-    study->add_option("-t", request.threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    add_seed(*study, request.seed, "Seed that the seeds of all runs come from");
+    add_threads(*study, request.threads);
     add_definitions(*study, request.definition_texts);
     study->add_flag("--quiet", request.quiet, "Print nothing but errors");
     study->add_flag("--json", request.json, "Print study.json");

@@ -231,9 +231,14 @@ for upper in (1.6, 2.0):
 albedos = np.array([0.5, 0.9, 0.99, 0.999])
 needed = []
 for rho in albedos:
-    run = neumann.series(rho / 3 * np.ones((3, 3)), np.ones(3), error=0, most=20000, norm=rho, quiet=True)
-    sums = np.cumsum(run.rows["sup"])  # of a furnace: all unknowns are alike
-    needed.append(int(np.argmax(1 - sums * (1 - rho) <= 1e-6)))
+    K = rho / 3 * np.ones((3, 3))
+    t = total = np.ones(3)
+    n = 0
+    while 1 - total[0] * (1 - rho) > 1e-6:  # all unknowns are alike, and L = 1 / (1 - ρ)
+        t = K @ t
+        total = total + t
+        n += 1
+    needed.append(n)
 figure, axes = plt.subplots(figsize=(5.2, 3.6))
 axes.loglog(1 - albedos, needed, "o", label="counted")
 x = np.geomspace(1e-4, 0.6, 100)

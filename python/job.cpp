@@ -3,7 +3,7 @@
 #include "apps/interrupt.h"
 #include "core/base/error.h"
 
-#include <oneapi/tbb/global_control.h>
+#include "apps/options.h"
 
 #include <chrono>
 
@@ -19,6 +19,7 @@ Job::Job(int threads, Work work) : thread_([this, threads, work = std::move(work
 
 Job::~Job() {
     stop();
+    const pybind11::gil_scoped_release release;
     thread_.join();
 }
 
@@ -34,8 +35,7 @@ void Job::run(int threads, const Work& work) {
                 set_interrupted(false);
                 working_ = true;
             }
-            std::optional<oneapi::tbb::global_control> limit;
-            if (threads > 0) limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+            const ThreadLimit limit(threads);
             finish = work(*this);
         } catch (...) {
             error = std::current_exception();

@@ -23,7 +23,7 @@ public:
 
     // Begins at once, on so many threads; 0: all.
     Job(int threads, Work work);
-    // Stops it and waits. Without the interpreter's lock.
+    // Stops it and waits, and lets go of the interpreter's lock meanwhile.
     ~Job();
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;

@@ -1,7 +1,5 @@
 #include "python/module.h"
 
-#include "apps/patch_options.h"
-
 #include <pybind11/stl.h>
 
 PYBIND11_MODULE(_neumann, m) {
@@ -14,14 +12,7 @@ PYBIND11_MODULE(_neumann, m) {
         "Something failed while running, such as a disk that is full.";
 
     const auto without_lock = py::call_guard<py::gil_scoped_release>();
-    // Its last owner must not keep Python waiting.
-    struct Delete {
-        void operator()(Job* job) const {
-            const py::gil_scoped_release release;
-            delete job;
-        }
-    };
-    py::class_<Job, std::unique_ptr<Job, Delete>>(m, "Job", "Work that goes on in the background.")
+    py::class_<Job>(m, "Job", "Work that goes on in the background.")
         .def("wait", &Job::wait, py::arg("seconds"), without_lock, "Whether it is done, after so many seconds at most.")
         .def("stop", &Job::stop, without_lock, "Asks for an orderly end.")
         .def(

@@ -31,6 +31,13 @@ const generic = value => {
   return t;
 };
 const section = (title, ...parts) => $("tables").append(element("h2", title), ...parts);
+// What is long, and not what most readers came for.
+const folded = (title, isOpen, ...parts) => {
+  const fold = element("details");
+  fold.open = isOpen;
+  fold.append(element("summary", title), ...parts);
+  return fold;
+};
 const wide = t => { const w = element("div", undefined, "wide"); w.append(t); return w; };
 const bouncesTable = s => {
   const b = s.run.bounces, rest = s.run.rest, row = (name, x) => [name, number(x.mean), typeof x.interval95 === "string" ? "none: infinite variance" : number(x.interval95, 2),
@@ -50,11 +57,18 @@ if (data.comparison) {
 all.forEach(s => {
   const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;
   section(`The bounces${tag}`, bouncesTable(s));
-  if (run.plan) section(`The plan${tag}: what was left out, and why`, generic(run.plan));
-  if (run.health) section(`Health${tag}`, generic(run.health));
+  if (Array.isArray(run.plan)) {
+    const leftOut = run.plan.filter(p => !p.kept).map(p => ({ part: p.part, reason: p.reason, saves: p.saves }));
+    section(`The plan${tag}: what was left out, and why`, generic(leftOut),
+      folded("What is kept", false, generic(run.plan.filter(p => p.kept).map(p => ({ part: p.part, reason: p.reason })))));
+  } else if (run.plan) section(`The plan${tag}`, element("p", "Nothing was left out."));
+  const complaints = run.health?.complaints ?? [];
+  if (run.health)
+    section(`Health${tag}`, element("p", complaints.length ? complaints.join("; ") : "Nothing to complain of.", complaints.length ? "warning" : undefined),
+      folded("What was looked at", complaints.length > 0, generic(run.health)));
   const what = { command: run.command, ...run };
   for (const part of ["plan", "health", "bounces", "warnings", "ways"]) delete what[part];
-  section(`The run${tag}`, generic(what));
+  section(`The run${tag}`, folded("All facts of run.json", false, generic(what)));
 });
 section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits), standard errors to 3%. " +
   (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));

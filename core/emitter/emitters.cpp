@@ -108,9 +108,14 @@ double Emitters::distant_irradiance(std::size_t index, const Vec3& x) const {
     return mean_component(beam(delta_light(index), x, surroundings_).irradiance);
 }
 
+bool Emitters::shapes_shine_evenly() const {
+    return std::none_of(lights_.area.begin(), lights_.area.end(), [](const AreaLight& light) { return bool(light.function); });
+}
+
 bool Emitters::is_grey() const {
-    return std::all_of(lights_.area.begin(), lights_.area.end(),
-                       [](const AreaLight& light) { return !light.function && neumann::is_grey(light.largest); }) &&
+    return shapes_shine_evenly() &&
+           std::all_of(lights_.area.begin(), lights_.area.end(),
+                       [](const AreaLight& light) { return neumann::is_grey(light.largest); }) &&
            (!lights_.environment || neumann::is_grey(*lights_.environment)) &&
            std::all_of(lights_.delta.begin(), lights_.delta.end(), [](const DeltaLight& light) { return neumann::is_grey(light); });
 }

@@ -79,6 +79,8 @@ public:
     const Rgb& largest_radiance() const { return largest_radiance_; }
     // All channels of all lights are known to be alike.
     bool is_grey() const;
+    // Each shape that shines is known to give off the same radiance everywhere and in all directions.
+    bool shapes_shine_evenly() const;
     // Shapes that are meant to emit and have no area.
     std::size_t without_area() const { return without_area_; }
 

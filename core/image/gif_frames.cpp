@@ -8,7 +8,7 @@ namespace {
 
 // GIF89a specification: https://www.w3.org/Graphics/GIF/spec-gif89a.txt
 constexpr unsigned char extension = 0x21, graphic_control = 0xF9, image_descriptor = 0x2C, trailer = 0x3B;
-constexpr std::size_t header_size = 13, descriptor_size = 10;
+constexpr std::size_t header_size = 13, size_at = 6, size_bytes = 4, descriptor_size = 10;
 
 class Reader {
 public:
@@ -71,7 +71,11 @@ std::string join_gif_frames(std::span<const std::string> gifs, int delay) {
     if (gifs.empty()) throw std::invalid_argument("join_gif_frames: no frames");
     std::string joined = header(gifs.front());
     joined += std::string("\x21\xFF\x0BNETSCAPE2.0\x03\x01\0\0\0", 19);  // loops forever
-    for (const std::string& gif : gifs) joined += first_frame(gif, delay);
+    for (const std::string& gif : gifs) {
+        if (header(gif).substr(size_at, size_bytes) != joined.substr(size_at, size_bytes))
+            throw std::invalid_argument("join_gif_frames: frames of several sizes");
+        joined += first_frame(gif, delay);
+    }
     joined += static_cast<char>(trailer);
     return joined;
 }

@@ -1,5 +1,5 @@
 // Animated GIFs put together from single ones. OpenImageIO compresses frames one after another, and some of its versions ignore the
-// frame rate asked for; so each frame is compressed as a GIF of its own, in parallel, and the frames are joined here.
+// frame rate asked for; so each frame is compressed as a GIF of its own (encode_gif), and the frames are joined here.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 namespace neumann {
 
 // An endless GIF of the first frame of each of `gifs` (at least one; all of one size), each shown for `delay` hundredths of a
-// second. Throws std::invalid_argument for bytes that are not a GIF.
+// second. Throws std::invalid_argument for several sizes, and for bytes that are not a GIF.
 std::string join_gif_frames(std::span<const std::string> gifs, int delay);
 
 }  // namespace neumann

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/image/gif_frames.h"
 #include "core/image/picture_format.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -226,17 +225,8 @@ std::string encode_png(const DisplayImage& picture) {
     return encode("png", spec, OIIO::TypeDesc::UINT8, picture.bytes.data());
 }
 
-std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_second) {
-    for (const DisplayImage& frame : frames) {
-        if (frame.width != frames[0].width || frame.height != frames[0].height) {
-            throw std::invalid_argument("encode_gif: frames of several sizes");
-        }
-    }
-    std::vector<std::string> gifs(frames.size());
-    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-        gifs[i] = encode("gif", display_spec(frames[i]), OIIO::TypeDesc::UINT8, frames[i].bytes.data());
-    });
-    return join_gif_frames(gifs, static_cast<int>(std::lround(100.0 / frames_per_second)));
+std::string encode_gif(const DisplayImage& picture) {
+    return encode("gif", display_spec(picture), OIIO::TypeDesc::UINT8, picture.bytes.data());
 }
 
 Estimate read_exr(const std::string& path, Attributes* attributes) {

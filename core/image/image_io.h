@@ -27,8 +27,8 @@ std::string encode_exr(const Estimate& picture, const Attributes& attributes = {
 // A PNG file with 8 bits a channel.
 std::string encode_png(const DisplayImage& picture);
 
-// An endless animated GIF of frames of one size (at least one frame), each of 256 colours of its own, dithered.
-std::string encode_gif(std::span<const DisplayImage> frames, double frames_per_second);
+// A GIF file of 256 colours of its own, dithered: a frame for join_gif_frames().
+std::string encode_gif(const DisplayImage& picture);
 
 // A picture (OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP, TGA), values as they are in the file (8-bit ones scaled to
 // 0..1, not linearised; NaN and infinity kept), and `attributes`, if asked for, with the numbers and texts of its header. Without

@@ -1,5 +1,6 @@
 #include "core/scene/scene.h"
 
+#include "core/scene/coincident_surfaces.h"
 #include "core/scene/measured_laws.h"
 
 #include <fmt/format.h>
@@ -7,23 +8,6 @@
 namespace neumann {
 
 namespace {
-
-// Parts of lights that are not seen from right in front of them, because another shape lies in the same place: whether such a light
-// is hit or what covers it is chance, and light sampling counts both.
-std::size_t covered_lights(const Geometry& geometry, const std::vector<int>& light_of_shape) {
-    std::size_t count = 0;
-    for (std::uint32_t shape = 0; shape < light_of_shape.size(); ++shape) {
-        if (light_of_shape[shape] == Emitters::none || geometry.area(shape) == 0.0) continue;
-        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive) {
-            const SurfacePoint point = geometry.point(shape, primitive, Vec2(0.5));
-            SurfacePoint seen;
-            const double near = 4.0 * point.error;
-            if (geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen))
-                count += seen.shape != shape;
-        }
-    }
-    return count;
-}
 
 // " (bsdf 'principled' of shape 'obj', room.xml:7:5)".
 std::string where(const std::vector<Origin>& origins, std::uint32_t shape) {
@@ -42,15 +26,28 @@ void warn_of_laws(const MeasuredLaws& laws, const std::vector<Origin>& origins, 
                     where(origins, laws.brightest), laws.reciprocity_defect, where(origins, laws.least_reciprocal)));
 }
 
+void warn_of_coincidence(const CoincidentSurfaces& found, const std::vector<Origin>& origins, Warnings& warnings) {
+    warnings.add(
+        "part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
+        found.lights);
+    if (!found.first_unlike) return;
+    const auto name = [&](std::uint32_t shape) {
+        return shape < origins.size() ? fmt::format("{} ({})", origins[shape].shape, to_string(origins[shape].place))
+                                      : fmt::format("shape {}", shape);
+    };
+    warnings.add(fmt::format(
+        "{} and {} face the same way in the same place and are made of different materials: which one is seen "
+        "is chance{}",
+        name(found.first_unlike->first), name(found.first_unlike->second), found.unlike > 2 ? "; others do as well" : ""));
+}
+
 }  // namespace
 
 Scene make_scene(SceneParts parts) {
     Geometry geometry(std::move(parts.shapes));
     Materials materials(std::move(parts.bsdfs), std::move(parts.sides_of_shape), geometry.shared_shapes());
     Warnings warnings = std::move(parts.warnings);
-    warnings.add(
-        "part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
-        covered_lights(geometry, parts.lights.of_shape));
+    warn_of_coincidence(coincident_surfaces(geometry, materials, parts.lights.of_shape), parts.origins, warnings);
     Emitters emitters(geometry, std::move(parts.lights));
     warnings.add("degenerate triangle or shape without extent left out", geometry.degenerate_count());
     warnings.add("light without area gives off nothing", emitters.without_area());

@@ -53,6 +53,11 @@ StartPicker place(const Scene& scene, std::size_t column) {
 }
 
 void add_walks(Cases& cases) {
+    cases.push_back({"cube/figures", "4 walls + floor + ceiling = 1: exact", [](Figures& figures, std::uint64_t) {
+                         for (std::size_t i = 0; i < 10; ++i)
+                             figures.near(fmt::format("of g_{}", i + 1),
+                                          4.0 * g[i][wall_mean] + g[i][floor_mean] + g[i][ceiling_mean], 1.0, 1e-8);
+                     }});
     for (std::size_t column = 0; column < 6; ++column)
         for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
             const std::size_t bounces = way == Way::pointwise ? 2 : way == Way::bsdf ? 4 : 10;

@@ -65,7 +65,7 @@ void slab(Figures& figures, std::uint64_t seed, Way way, double degrees, double 
     const StartPicker start = seen(scene, {0.01, 0.02, 3}, {std::sin(theta), 0, -std::cos(theta)});
     // The third term is rare at 60 degrees.
     const std::vector<double> exact = from_outside(R, R > 0.1 ? 4 : 2);
-    figures.terms(probe(scene, start, way, effort(std::min(R, exact.back()), static_cast<int>(exact.size()), seed)), exact);
+    figures.terms(sharp_probe(scene, start, way, effort(std::min(R, exact.back()), static_cast<int>(exact.size()), seed)), exact);
     if (way == Way::pointwise) return;
     const Estimates all = probe(scene, start, way, {.samples = 64, .bounces = 60, .seed = seed});
     figures.near("sum of K^i Le, i <= 60", all.reflected.mean.r, 1.0, 1e-12);
@@ -79,12 +79,13 @@ void sphere(Figures& figures, std::uint64_t seed, Way way) {
     const Scene scene = maker.make();
     const double sine = std::sin(80.0 * pi / 180.0), R = 0.387704354691;
     const std::vector<double> exact = from_outside(R, 4);
-    const Estimates outside = probe(scene, seen(scene, center + Vec3(-3.0, sine, 0), {1, 0, 0}), way, effort(exact[3], 4, seed));
+    const Estimates outside =
+        sharp_probe(scene, seen(scene, center + Vec3(-3.0, sine, 0), {1, 0, 0}), way, effort(exact[3], 4, seed));
     for (std::size_t i = 1; i <= 4; ++i) figures.sampled(fmt::format("K^{} Le, from outside", i), outside.terms[i], exact[i - 1]);
     // A ray inside at the distance b from the centre meets the surface at the angle of sine b.
     const auto from_inside = [&](double b) { return seen(scene, center + Vec3(0, b, 0), {1, 0, 0}); };
     const double last = (1.0 - R) * R * R;
-    const Estimates inside = probe(scene, from_inside(sine / n), way, effort(last, 3, seed));
+    const Estimates inside = sharp_probe(scene, from_inside(sine / n), way, effort(last, 3, seed));
     for (std::size_t i = 1; i <= 3; ++i)
         figures.sampled(fmt::format("K^{} Le, from inside", i), inside.terms[i],
                         n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)));
@@ -106,11 +107,12 @@ void pane(Figures& figures, std::uint64_t seed, Way way) {
         maker.add(patch(2.0 * towards, -towards, 0.1), lamp(2.0));
         const Scene scene = maker.make();
         const double exact = behind ? 1.0 - share : share;
-        figures.sampled(behind ? "K Le, lamp behind" : "K Le, lamp before",
-                        probe(scene, seen(scene, {-std::sin(theta), 0, std::cos(theta)}, {std::sin(theta), 0, -std::cos(theta)}),
-                              way, effort(exact, 2, seed))
-                            .terms[1],
-                        2.0 * exact);
+        figures.sampled(
+            behind ? "K Le, lamp behind" : "K Le, lamp before",
+            sharp_probe(scene, seen(scene, {-std::sin(theta), 0, std::cos(theta)}, {std::sin(theta), 0, -std::cos(theta)}), way,
+                        effort(exact, 2, seed))
+                .terms[1],
+            2.0 * exact);
     }
 }
 
@@ -122,7 +124,7 @@ void furnace(Figures& figures, std::uint64_t seed, Way way) {
     maker.add(make_cube(glm::dmat4(0.3, 0, 0, 0, 0, 0.3, 0, 0, 0, 0, 0.3, 0, -0.9, 0.1, 0.2, 1)), glass(1.33));
     const Scene scene = maker.make();
     const Estimates found =
-        probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), way, {.samples = 4096, .bounces = 80, .seed = seed});
+        probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), way, {.samples = 1024, .bounces = 80, .seed = seed});
     // 0.5 a reflection on the wall, and at least every third bounce is one but for trapped light that the camera does not see.
     figures.sampled("sum of K^i Le, i <= 80", found.reflected, 1.0, std::pow(0.5, 26));
 }

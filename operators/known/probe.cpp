@@ -89,15 +89,18 @@ struct Series {
 };
 
 struct Batch {
+    explicit Batch(std::size_t n) : quantities(n + 1), rays(n), largest(n) {}
+
     std::vector<Welford> quantities;  // 0 … N, the rest, Σ_{i≥1}
     std::vector<std::uint64_t> rays;
     std::vector<LargestSamples> largest;
     std::uint64_t given_up = 0;
 };
 
+// Adds the samples from `begin` to before `end`, as many as a power of two.
 template <class Sampler>
-Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
-                const Sampler& sampler) {
+void run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
+               const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
     const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
     const WalkSettings settings{.bounces = effort.bounces,
                                 .direct = effort.direct.value_or(DirectLightSettings{direct_light(way)}),
@@ -106,9 +109,7 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
                                 .rest_probability = effort.rest_probability,
                                 .give_up = effort.give_up};
     const DirectLightSampler direct(scene, settings.direct);
-    Batch batch{std::vector<Welford>(quantities + 1), std::vector<std::uint64_t>(quantities),
-                std::vector<LargestSamples>(quantities), 0};
-    const std::uint32_t together = std::min(effort.samples, 64u);
+    const std::uint32_t together = std::min(end - begin, 64u);
     std::vector<Sampler> samplers(together, sampler);
     std::vector<Start> starts(together);
     std::vector<CameraRay> rays(together);
@@ -119,7 +120,7 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
         walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
              std::span<Sampler>(samplers), walkers, result, continuation);
     };
-    for (std::uint32_t first = 0; first < effort.samples; first += together) {
+    for (std::uint32_t first = begin; first < end; first += together) {
         std::fill(samples.begin(), samples.end(), Rgb(0.0));
         for (std::uint32_t i = 0; i < together; ++i) {
             samplers[i].start(first + i);
@@ -146,9 +147,8 @@ Batch run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effo
             batch.quantities[quantities].add(reflected);
         }
     }
-    for (LargestSamples& largest : batch.largest) largest.add_count(effort.samples);
-    batch.given_up = result.given_up;
-    return batch;
+    for (LargestSamples& largest : batch.largest) largest.add_count(end - begin);
+    batch.given_up += result.given_up;
 }
 
 const SobolPoints& sobol_points(std::uint32_t size) {
@@ -156,6 +156,78 @@ const SobolPoints& sobol_points(std::uint32_t size) {
     static std::map<std::uint32_t, SobolPoints> known;
     const std::lock_guard lock(mutex);
     return known.try_emplace(size, size).first->second;
+}
+
+// Samples of one place, batch by batch.
+class Probe {
+public:
+    // `most`: samples that a batch will ever have.
+    Probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most)
+        : scene_(scene),
+          start_(start),
+          way_(way),
+          effort_(effort),
+          points_(effort.sampler == SamplerKind::sobol ? &sobol_points(most) : nullptr),
+          series_(scene, way, effort.bounces),
+          batches_(batch_count, Batch(static_cast<std::size_t>(effort.bounces) + 2)) {}
+
+    // Twice as many as before, or the first ones.
+    void sample_to(std::uint32_t samples) {
+        oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
+            const auto run = [&](const auto& sampler) {
+                run_batch(scene_, start_, way_, effort_, series_, sampler, samples_, samples, batches_[b]);
+            };
+            if (points_)
+                run(SobolSampler(*points_, effort_.seed, b));
+            else
+                run(IndependentSampler(effort_.seed, b));
+        });
+        samples_ = samples;
+    }
+
+    Estimates estimates() const;
+
+private:
+    const Scene& scene_;
+    const StartPicker& start_;
+    Way way_;
+    const Effort& effort_;
+    const SobolPoints* points_;
+    Series series_;
+    std::vector<Batch> batches_;
+    std::uint32_t samples_ = 0;  // of each batch
+};
+
+Estimates Probe::estimates() const {
+    const auto quantities = static_cast<std::size_t>(effort_.bounces) + 2;
+    std::vector<Welford> means(quantities + 1), variances(quantities);
+    Welford rays;
+    Estimates result;
+    result.rays.resize(quantities);
+    result.largest.resize(quantities);
+    for (const Batch& batch : batches_) {
+        double batch_rays = 0.0;
+        for (std::size_t q = 0; q < quantities; ++q) {
+            variances[q].add(batch.quantities[q].variance());
+            result.rays[q] += static_cast<double>(batch.rays[q]) / samples_ / batch_count;
+            batch_rays += static_cast<double>(batch.rays[q]) / samples_;
+            result.largest[q].merge(batch.largest[q]);
+        }
+        for (std::size_t q = 0; q <= quantities; ++q) means[q].add(batch.quantities[q].mean);
+        rays.add(Rgb(batch_rays));
+        result.given_up += batch.given_up;
+    }
+    for (std::size_t q = 0; q + 1 < quantities; ++q) {
+        result.terms.push_back(means[q].statistic());
+        result.variance.push_back(variances[q].statistic());
+    }
+    result.rest_variance = variances[quantities - 1].statistic();
+    result.rest = means[quantities - 1].statistic();
+    result.reflected = means[quantities].statistic();
+    result.rays_mean = rays.statistic().mean.r;
+    result.rays_error = rays.statistic().standard_error.r;
+    result.samples = std::uint64_t{batch_count} * samples_;
+    return result;
 }
 
 }  // namespace
@@ -223,52 +295,20 @@ std::string short_name(Way way) {
 }
 
 Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort) {
-    const Series series(scene, way, effort.bounces);
-    std::vector<Batch> batches(batch_count);
-    const SobolPoints* points = effort.sampler == SamplerKind::sobol ? &sobol_points(effort.samples) : nullptr;
-    oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
-        batches[b] = points ? run_batch(scene, start, way, effort, series, SobolSampler(*points, effort.seed, b))
-                            : run_batch(scene, start, way, effort, series, IndependentSampler(effort.seed, b));
-    });
-
-    const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
-    std::vector<Welford> means(quantities + 1), variances(quantities);
-    Welford rays;
-    Estimates result;
-    result.rays.resize(quantities);
-    result.largest.resize(quantities);
-    for (const Batch& batch : batches) {
-        double batch_rays = 0.0;
-        for (std::size_t q = 0; q < quantities; ++q) {
-            variances[q].add(batch.quantities[q].variance());
-            result.rays[q] += static_cast<double>(batch.rays[q]) / effort.samples / batch_count;
-            batch_rays += static_cast<double>(batch.rays[q]) / effort.samples;
-            result.largest[q].merge(batch.largest[q]);
-        }
-        for (std::size_t q = 0; q <= quantities; ++q) means[q].add(batch.quantities[q].mean);
-        rays.add(Rgb(batch_rays));
-        result.given_up += batch.given_up;
-    }
-    for (std::size_t q = 0; q + 1 < quantities; ++q) {
-        result.terms.push_back(means[q].statistic());
-        result.variance.push_back(variances[q].statistic());
-    }
-    result.rest_variance = variances[quantities - 1].statistic();
-    result.rest = means[quantities - 1].statistic();
-    result.reflected = means[quantities].statistic();
-    result.rays_mean = rays.statistic().mean.r;
-    result.rays_error = rays.statistic().standard_error.r;
-    result.samples = std::uint64_t{batch_count} * effort.samples;
-    return result;
+    Probe probe(scene, start, way, effort, effort.samples);
+    probe.sample_to(effort.samples);
+    return probe.estimates();
 }
 
-Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, Effort effort, std::uint32_t most) {
-    const auto is_sharp = [](const Statistic& s) { return s.standard_error.r <= 0.0017 * std::abs(s.mean.r); };
-    for (;; effort.samples *= 2) {
-        Estimates found = probe(scene, start, way, effort);
+Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most) {
+    const auto is_sharp = [](const Statistic& s) { return s.standard_error.r <= 0.0019 * std::abs(s.mean.r); };
+    Probe probe(scene, start, way, effort, most);
+    for (std::uint32_t samples = effort.samples;; samples *= 2) {
+        probe.sample_to(samples);
+        Estimates found = probe.estimates();
         const bool sharp = std::all_of(found.terms.begin() + 1, found.terms.end(), is_sharp) &&
                            (effort.rest_probability == 0.0 || is_sharp(found.rest));
-        if (sharp || effort.samples >= most) return found;
+        if (sharp || samples >= most) return found;
     }
 }
 

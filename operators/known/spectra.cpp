@@ -2,11 +2,13 @@
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/small_problems.h"
+#include "operators/series/term_series.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 
 namespace neumann::known {
 
@@ -83,6 +85,32 @@ void centre_to_centre(Figures& figures, std::uint64_t) {
     }
 }
 
+// A reflection c (μi μo)^a in a sphere, where T is the identity on functions of the angle: K f (μ) = 2π c μ^a ∫ μ'^(a+1) f(μ') dμ',
+// here with Gauss's points for μ', which are exact for polynomials. K^i 1 = 2π c μ^a/(a + 2) (2π c/(2a + 2))^(i−1); the largest
+// row sum, of the albedo, is not the spectral radius.
+void power_of_cosines(Figures& figures, std::uint64_t) {
+    using Gauss = boost::math::quadrature::gauss<double, 10>;
+    constexpr double c = 0.25, a = 2.0;
+    constexpr Eigen::Index half = 5, size = 2 * half;
+    Vector mu(size), weight(size);
+    for (Eigen::Index k = 0; k < half; ++k) {
+        const double x = 0.5 * Gauss::abscissa()[static_cast<std::size_t>(k)];
+        mu[k] = 0.5 - x;
+        mu[half + k] = 0.5 + x;
+        weight[k] = weight[half + k] = 0.5 * Gauss::weights()[static_cast<std::size_t>(k)];
+    }
+    const Vector measure = mu.cwiseProduct(weight), power = mu.array().pow(a);
+    const DenseChannel K(2.0 * pi * c * power * measure.cwiseProduct(power).transpose(), measure);
+    TermSeries series(K, Vector::Ones(size));
+    int i = 0;
+    for (const double value : {0.3926990817, 0.1028083792, 0.0269151707, 0.0070463752}) {
+        series.advance();
+        figures.near(fmt::format("K^{} Le, cosine 1", ++i), series.term()[size - 1] / power[size - 1], value, 1e-10);
+    }
+    figures.near("spectral radius", spectral_radius(K), pi / 12.0, 1e-14);
+    figures.near("maximum norm", operator_norms(K).sup, pi / 8.0 * power[size - 1], 1e-14);
+}
+
 }  // namespace
 
 Cases spectrum_cases() {
@@ -90,6 +118,7 @@ Cases spectrum_cases() {
     add_cubes(cases);
     cases.push_back({"spectrum/norms", "algebra: exact", norms_of_sphere});
     cases.push_back({"spectrum/ring-of-mirrors", "rho e^(2 pi i k/3): exact", ring});
+    cases.push_back({"spectrum/power-of-cosines", "2 pi c mu^a/(a + 2) (2 pi c/(2a + 2))^(i-1): exact", power_of_cosines});
     cases.push_back({"spectrum/centre-to-centre", "a known mistake: its size, 1e-9", centre_to_centre});
     return cases;
 }

@@ -115,7 +115,7 @@ Cases two_patch_cases() {
     for (const double f : {0.5, 0.75, 0.25})
         for (const bool disc_glows : {true, false}) add_dome(cases, f, disc_glows);
     add_concentric(cases, 0.99, 8);
-    add_concentric(cases, 1.0 / 3.0, 6);
+    add_concentric(cases, 1.0 / 3.0, 4);
     return cases;
 }
 

@@ -125,8 +125,8 @@ PlanPart rays_for_light(const Look& at) {
                     &LeftOut::rays_for_light);
 }
 PlanPart roulette(const Look&) {
-    return left_out("roulette before the last picture",
-                    "all bounces with pictures are wanted of every walk; --roulette asks for it", "one random number a bounce");
+    return left_out(roulette_part, "all bounces with pictures are wanted of every walk; --roulette asks for it",
+                    "one random number a bounce");
 }
 PlanPart angular_unknowns(const Look& at) {
     const std::size_t angular = at.has.specular + at.has.rough, diffuse = at.has.sides - std::min(at.has.sides, angular);

@@ -29,6 +29,8 @@ struct Plan {
 };
 
 Plan make_plan(const Scene& scene);
+// The part that is no property of the scene: who asks for it keeps it.
+inline constexpr const char* roulette_part = "roulette before the last picture";
 
 // Leaves out of the scene itself what the plan says so of: materials where no light arrives.
 void leave_out(const Plan& plan, Scene& scene);

@@ -45,8 +45,7 @@ SceneCensus::SceneCensus(const Scene& scene)
     // A picture's density is this one nowhere but by chance.
     has_constant_environment = has_environment && emitters.environment_pdf({0.0, 0.0, 1.0}) == 0.25 * inv_pi &&
                                emitters.environment_pdf({1.0, 0.0, 0.0}) == 0.25 * inv_pi;
-    // Lights that are known to be grey are constant on their shape.
-    shines_alike = shapes > 0 && light_shapes == shapes && emitters.is_grey() && !has_delta_lights &&
+    shines_alike = shapes > 0 && light_shapes == shapes && emitters.shapes_shine_evenly() && !has_delta_lights &&
                    (!has_environment || has_constant_environment);
     for (std::uint32_t shape = 0; shines_alike && shape < shapes; ++shape) {
         const SurfacePoint p = scene.geometry.point(shape, 0, Vec2(0.5));

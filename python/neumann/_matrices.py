@@ -124,7 +124,7 @@ def series(
 
 
 class Solutions(dict):
-    """What solvers found, by their names; each is a Report of x, verdict, why, applications, setup_applications, seconds, history.
+    """What solvers found, by their names; each is a Report as of solve().
 
     In a notebook it shows itself as a table.
     """
@@ -138,9 +138,9 @@ class Solutions(dict):
         names = ["solver", "applications", "seconds", "estimate", "error", "verdict", "why"]
         rows = []
         for r in self.values():
-            last = r.history[-1] if len(r.history) else None
-            of_last = ["" if last is None or np.isnan(last[name]) else float(last[name]) for name in ("estimate", "error")]
-            rows.append([r.title, r.applications, r.seconds, *of_last, r.verdict, r.why if r.verdict != "converged" else ""])
+            estimate = float(r.history["estimate"][-1]) if len(r.history) else None
+            cells = ["" if x is None or np.isnan(x) else x for x in (estimate, r.get("error"))]
+            rows.append([r.title, r.applications, r.seconds, *cells, r.verdict, r.why if r.verdict != "converged" else ""])
         return as_table(names, rows)
 
 
@@ -167,7 +167,7 @@ def solve(
 
     Returns a Report of x (n,), verdict ("converged", "limit", "diverging", "broke down", "refused"), why, applications of K,
     setup_applications of these, seconds, and history, a structured array: applications, estimate, error (nan where L is not known),
-    seconds. Of several solvers: Solutions, these by name. Raises InputError for an unknown solver.
+    seconds. Of several solvers: Solutions, these by name, and with "lu" among them the error of each to it. Raises InputError for an unknown solver.
     """
     operator = _operator(K, measure)
     light = np.asarray(Le, dtype=float)
@@ -182,7 +182,12 @@ def solve(
     if isinstance(solver, str) and solver != "all":
         return one(solver)
     names = list(SOLVERS) if solver == "all" else list(solver)
-    return Solutions({name: one(name) for name in names}, Report(unknowns=operator.size))
+    found = {name: one(name) for name in names}
+    if "lu" in found and found["lu"].verdict == "converged":
+        answer = found["lu"].x
+        for report in found.values():
+            report["error"] = float(np.abs(report.x - answer).max() / np.abs(answer).max()) if np.any(answer) else 0.0
+    return Solutions(found, Report(unknowns=operator.size))
 
 
 def spectrum(K: Matrix, count: int = 4, *, measure: Optional[ArrayLike] = None, adjoint: bool = False, quiet: bool = False) -> Report:

@@ -110,6 +110,14 @@ Scene room_lit_by_a_point() {
     parts.lights.delta = {PointLight({0.2, 0.0, 0.8}, Rgb(1.0))};
     return make_scene(std::move(parts));
 }
+// Two-sided walls and a lamp, seen from outside: the camera sees backs, where no light comes.
+Scene room_seen_from_outside() {
+    SceneParts parts = parts_seen_from({0.0, -6.0, 0.0});
+    add(parts, box(Vec3(0.0), Vec3(1.0)), true, 0.7, std::nullopt);
+    parts.sides_of_shape.back().back = 0;
+    add(parts, box({0.0, 0.2, 0.9}, {0.3, 0.3, 0.05}), false, 0.7, 5.0);
+    return make_scene(std::move(parts));
+}
 Scene box_under_a_sky() {
     SceneParts parts = parts_seen_from({0.0, -3.0, 0.0});
     add(parts, box(Vec3(0.0), Vec3(1.0)), false, 0.7, std::nullopt);
@@ -129,23 +137,32 @@ int main(int argc, char** argv) {
     const std::pair<const char*, Scene (*)()> scenes[] = {
         {"cornell-box", [] { return stock("cornell-box"); }}, {"furnace", [] { return stock("furnace"); }},
         {"grey room with boxes", grey_room_with_boxes},       {"convex room", convex_room},
-        {"room lit by a point", room_lit_by_a_point},         {"box under a sky", box_under_a_sky}};
+        {"room lit by a point", room_lit_by_a_point},         {"box under a sky", box_under_a_sky},
+        {"room from outside", room_seen_from_outside}};
     for (const auto& [name, make] : scenes) {
-        const Scene scene = make();
-        const Plan plan = make_plan(scene);
-        std::vector<std::pair<std::string, LeftOut>> cases{{"nothing: the plan", plan.walk}};
+        const Scene whole = make();
+        const Plan plan = make_plan(whole);
+        Scene scene = make();
+        leave_out(plan, scene);
+        struct Kept {
+            std::string part;
+            const Scene* scene;
+            LeftOut left_out;
+        };
+        std::vector<Kept> cases{{"nothing: the plan", &scene, plan.walk}};
         for (const PlanPart& part : plan.parts) {
             if (!part.decision) continue;
-            cases.emplace_back(part.part, plan.walk);
-            cases.back().second.*part.decision = false;
+            cases.push_back({part.part, &scene, plan.walk});
+            cases.back().left_out.*part.decision = false;
         }
-        cases.emplace_back("all of it: --plan full", LeftOut{});
+        if (!plan.sides.empty()) cases.push_back({"materials where no light arrives", &whole, plan.walk});
+        cases.push_back({"all of it: --plan full", &whole, LeftOut{}});
         std::vector<std::unique_ptr<Run>> runs;
-        for (const auto& c : cases) runs.push_back(std::make_unique<Run>(scene, c.second));
+        for (const Kept& c : cases) runs.push_back(std::make_unique<Run>(*c.scene, c.left_out));
         for (int r = 0; r < repetitions; ++r)
             for (const auto& run : runs) run->once();
         for (std::size_t i = 0; i < runs.size(); ++i)
-            fmt::print("{:<24} {:<66} {:>9.4f} {:>7.3f} {:>7.3f}\n", i == 0 ? name : "", cases[i].first,
+            fmt::print("{:<24} {:<66} {:>9.4f} {:>7.3f} {:>7.3f}\n", i == 0 ? name : "", cases[i].part,
                        *std::min_element(runs[i]->seconds.begin(), runs[i]->seconds.end()), median_ratio(*runs[i], *runs[0]),
                        static_cast<double>(runs[i]->rays) / static_cast<double>(runs[0]->rays));
         std::fflush(stdout);

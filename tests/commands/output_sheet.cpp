@@ -1,12 +1,12 @@
-// The contact sheet and the flip-book: what fits where.
+// The contact sheet, the flip-book and the strips: what is on them, and what fits where.
 #include "apps/contact_sheet.h"
 #include "apps/flip_book.h"
+#include "apps/strips.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 
 namespace neumann {
 namespace {
@@ -85,10 +85,103 @@ TEST(FlipBook, FramesHaveTheSizeOfThePicturesAtMost512) {
     };
     for (const Case& c : {Case{64, 64, 320, 320}, Case{256, 256, 256, 256}, Case{1024, 512, 512, 256}}) {
         const Image picture(c.width, c.height);
-        const std::string gif = flip_book(pages(2, "bounce", picture), pages(1, "sum", picture), 1.0, std::nullopt);
+        const std::string gif = FlipBook(pages(3, "bounce", picture), 1.0, std::nullopt).gif();
         EXPECT_EQ(little_endian(gif, 6), c.expected_width);
         EXPECT_EQ(little_endian(gif, 8), c.expected_height + 30);
     }
+}
+
+int frames_of(const std::string& gif) {
+    int found = 0;
+    for (std::size_t at = 0; (at = gif.find("\x21\xF9\x04", at)) != std::string::npos; ++at) ++found;
+    return found;
+}
+
+TEST(FlipBook, ABookOfSomeOfItsPictures) {
+    const Image a(64, 64), b(64, 64), elsewhere(64, 64);
+    const std::vector<LabelledPicture> both{{"a", &a}, {"b", &b}}, second{{"another name", &b}}, none{{"c", &elsewhere}};
+    const FlipBook book(both, 1.0, std::nullopt);
+    EXPECT_EQ(frames_of(book.gif()), 2);
+    EXPECT_EQ(book.gif(second), FlipBook({{"b", &b}}, 1.0, std::nullopt).gif());
+    EXPECT_THROW(book.gif(none), std::invalid_argument);
+}
+
+// A series of grey pictures, K^i Le = 2^-i.
+class Strips : public testing::Test {
+protected:
+    Strips() {
+        for (int i = 0; i <= 20; ++i) terms.push_back(grey(std::ldexp(1.0, -i)));
+        for (int i = 0; i <= 20; ++i) sums.push_back(grey(2.0 - std::ldexp(1.0, -i)));
+    }
+    static Image grey(double value) {
+        Image image(256, 256);
+        std::fill(image.pixels.begin(), image.pixels.end(), Rgb(value));
+        return image;
+    }
+    SeriesPictures up_to(std::size_t n) const {
+        return {std::span(terms).first(n + 1), std::span(sums).first(n + 1), &rest, &limit};
+    }
+    static std::vector<std::string> labels(const Pictures& pictures) {
+        std::vector<std::string> found;
+        for (const LabelledPicture& p : pictures) found.push_back(p.label);
+        return found;
+    }
+    std::vector<Image> terms, sums;
+    const Image dark = Image(256, 256), rest = grey(0.1), limit = grey(2.0);
+    using Labels = std::vector<std::string>;
+};
+
+TEST_F(Strips, TermsAtOneExposureAndBelowAsBrightAsTheyCanBe) {
+    const Strip strip = strip_of_terms(up_to(9), dark, 1.0);
+    ASSERT_EQ(strip.size(), 2u);
+    EXPECT_EQ(labels(strip[0]), (Labels{"Le", "K Le", "K^2 Le", "K^3 Le", "K^4 Le", "K^5 Le", "K^6 Le"}));
+    EXPECT_EQ(labels(strip[1]), (Labels{"Le", "2 K Le", "4 K^2 Le", "8 K^3 Le", "16 K^4 Le", "32 K^5 Le", "64 K^6 Le"}));
+    for (std::size_t i = 0; i <= 6; ++i) {
+        EXPECT_EQ(strip[0][i].factor, 1.0);
+        EXPECT_EQ(strip[1][i].factor, std::ldexp(1.0, static_cast<int>(i)));
+        EXPECT_EQ(strip[1][i].picture, &terms[i]);
+    }
+    // What is too bright is not darkened, and nothing is made of nothing.
+    EXPECT_EQ(labels(strip_of_terms(up_to(0), dark, 8.0)[1]), Labels{"Le"});
+    SeriesPictures black{std::span(&dark, 1), std::span(&dark, 1)};
+    EXPECT_EQ(strip_of_terms(black, dark, 0.25)[1][0].label, "Le");
+}
+
+TEST_F(Strips, NamesOfImportanceAndOfSomePaths) {
+    SeriesPictures series = up_to(2);
+    series.K = "K*";
+    series.Le = "We";
+    EXPECT_EQ(labels(strip_of_terms(series, dark, 1.0)[0]), (Labels{"We", "K* We", "K*^2 We"}));
+    series = up_to(1);
+    series.kind = ", some paths";
+    EXPECT_EQ(labels(series.all()), (Labels{"Le, some paths", "K Le, some paths", "rest, beyond 1, some paths", "bounce 0, some paths",
+                                            "bounces 0 to 1, some paths", "all bounces, some paths"}));
+}
+
+TEST_F(Strips, SumsAndDoublingHaveWhatThereIs) {
+    EXPECT_EQ(labels(strip_of_sums(up_to(1))[0]), (Labels{"bounce 0", "bounces 0 to 1"}));
+    EXPECT_EQ(labels(strip_of_sums(up_to(20))[0]).back(), "bounces 0 to 6");
+    const Labels all{"bounces 0 to 1", "bounces 0 to 2", "bounces 0 to 4", "bounces 0 to 8", "bounces 0 to 16"};
+    EXPECT_EQ(labels(strip_of_doubling(up_to(16))[0]), all);
+    EXPECT_EQ(labels(strip_of_doubling(up_to(20))[0]), all);
+    EXPECT_EQ(labels(strip_of_doubling(up_to(5))[0]), (Labels{"bounces 0 to 1", "bounces 0 to 2", "bounces 0 to 4", "all bounces"}));
+    EXPECT_EQ(strip_of_doubling(up_to(5))[0][2].picture, &sums[4]);
+    EXPECT_EQ(labels(strip_of_doubling(up_to(0))[0]), Labels{"all bounces"});
+    SeriesPictures unfinished{std::span(terms).first(1), std::span(sums).first(1)};
+    EXPECT_TRUE(strip_of_doubling(unfinished).empty());
+}
+
+TEST_F(Strips, SevenPicturesFillAWideSlide) {
+    const Strip strip = strip_of_terms(up_to(6), dark, 1.0);
+    const std::string png = strip_png(strip, 1.0, std::nullopt);
+    EXPECT_EQ(png_width(png), 2 * 24 + 7 * (256 + 12) - 12);
+    EXPECT_EQ(png_height(png), 2 * 24 + 2 * (256 + 33));
+    EXPECT_NE(strip_png(strip, 1.0, find_label_font()), png);
+    const std::string gif = strip_gif(strip, 1.0, std::nullopt);
+    EXPECT_EQ(frames_of(gif), 7);
+    EXPECT_EQ(little_endian(gif, 6), 2 * (little_endian(gif, 8) - 33) + 12);
+    const Image large(4000, 1000);
+    EXPECT_LE(png_width(strip_png({{{"a", &large}, {"b", &large}, {"c", &large}}}, 1.0, std::nullopt)), 1920);
 }
 
 }  // namespace

@@ -78,6 +78,9 @@ TEST_F(PlanCommand, OfMethods) {
     EXPECT_TRUE(has_questions({}, "walk"));
     EXPECT_TRUE(has_questions({"--direct", "mis-balance"}, "balance"));
     EXPECT_FALSE(has_questions({"--direct", "light"}, "light"));
+    EXPECT_FALSE(part(json("walk").at("plan"), "roulette").at("kept").get<bool>());
+    rendered(furnace_, {"--roulette", "albedo"}, "roulette");
+    EXPECT_TRUE(part(json("roulette").at("plan"), "roulette").at("kept").get<bool>());
     rendered(furnace_, {"--method", "bidirectional"}, "both");
     EXPECT_EQ(json("both").at("plan"), "full");
     EXPECT_NE(refused({"render", furnace_, "--method", "matrix", "--plan", "full"}).find("--plan full"), std::string::npos);

@@ -67,8 +67,10 @@ TEST_F(RenderFiles, FourBounces) {
             for (int k = 0; k <= i; ++k) sum += bounces[k].mean.pixels[p];
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[i].mean.pixels[p][c], sum[c], 0x1.1p-24 * 2.0 * sum[c]) << i << ' ' << p;
         }
-    EXPECT_EQ(text_of(path("a/b/contact-sheet.png")).substr(0, 8), "\x89PNG\r\n\x1a\n");
-    EXPECT_EQ(text_of(path("a/b/bounces.gif")).substr(0, 6), "GIF89a");
+    for (const char* name : {"contact-sheet", "strip-terms", "strip-sums", "strip-doubling"})
+        EXPECT_EQ(text_of(path("a/b") / (name + std::string(".png"))).substr(0, 8), "\x89PNG\r\n\x1a\n") << name;
+    for (const char* name : {"bounces", "strip-terms", "strip-sums", "strip-doubling"})
+        EXPECT_EQ(text_of(path("a/b") / (name + std::string(".gif"))).substr(0, 6), "GIF89a") << name;
 
     // The tables, of the same numbers.
     const nlohmann::json run = run_json("a/b");

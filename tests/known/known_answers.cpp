@@ -39,12 +39,9 @@ void expect_as_known(const std::string& group) {
 }
 
 std::vector<std::string> groups(bool slow) {
-    // Without long walks; with; and not here, for all of them together take more time than the other tests: `neumann stress` runs
-    // them, and tests/physics and tests/solvers have laws of the same kinds.
-    const std::set<std::string> quick = {"series", "spectrum", "rounding", "mirrors"},
-                                elsewhere = {"cube", "glass", "open", "acceleration", "monte-carlo", "stiff", "extreme"};
+    const std::set<std::string> quick = {"series", "spectrum", "rounding", "mirrors", "acceleration"};  // without long walks
     std::vector<std::string> chosen = known::all_groups();
-    std::erase_if(chosen, [&](const std::string& group) { return quick.contains(group) == slow || elsewhere.contains(group); });
+    std::erase_if(chosen, [&](const std::string& group) { return quick.contains(group) == slow; });
     return chosen;
 }
 

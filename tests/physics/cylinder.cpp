@@ -128,28 +128,6 @@ Scene tube(double rho, const Vec3& to = Vec3(0.0), double scale = 1.0) {
     return maker.make();
 }
 
-// K^i = ρ^i g_i; g_i by collocation, refined until it stands still (1e-16). 2 places × 3 ways × 6 bounces, to 0.8%: 36 comparisons.
-TEST(CylinderSlow, ATubeUnderTheSkyHasItsTerms) {
-    const double rho = 0.9;
-    struct {
-        double z, g[6];
-    } const places[] = {{0.5,
-                         {0.34164078649987384, 0.26138288101519924, 0.16068296822112518, 0.0958882078112156, 0.05699551747547392,
-                          0.033860427252534256}},
-                        {0.1,
-                         {0.4811842985908824, 0.21671812111920113, 0.12309763723083642, 0.07270094505990275, 0.04315536643105434,
-                          0.025633736238182745}}};
-    const Scene scene = tube(rho);
-    for (const auto& [z, g] : places)
-        for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
-            SCOPED_TRACE(name(way) + ", z = " + std::to_string(z));
-            std::vector<double> exact{0.0};
-            for (int i = 1; i <= 6; ++i) exact.push_back(std::pow(rho, i) * g[i - 1]);
-            expect_matches(probe(scene, at(scene, {0.5, 0, z}, {-1, 0, 0}), way, {.samples = 16384, .bounces = 6}), exact, 0,
-                           0.008);
-        }
-}
-
 // The same random numbers make the same walks: with lengths times a power of two the same bits, elsewhere up to rounding.
 TEST(Cylinder, ScaleAndPlaceDoNotMatter) {
     const auto terms = [](const Vec3& to, double scale) {

@@ -162,5 +162,21 @@ TEST(InvarianceSlow, OtherUnitsAndAnotherOriginChangeNothingButRounding) {
     }
 }
 
+// Channels do not know of each other: in a cube whose ceiling emits, the same walks, ρ_c^i for each.
+TEST(Invariance, EveryChannelHasItsOwnPowers) {
+    const Rgb rho(0.9, 0.5, 0.25);
+    SceneMaker maker;
+    const auto faces = room({0, 0, 0}, {1, 1, 1});
+    for (std::size_t i = 0; i < 6; ++i)
+        maker.add(faces[i], {rho, i == ceiling ? std::optional<AreaLight>(grey(1.0)) : std::nullopt});
+    const Scene scene = maker.make();
+    const Estimates found = probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Way::mis, {.samples = 64, .bounces = 10});
+    for (int i = 1; i <= 10; ++i) {
+        const Rgb& mean = found.terms[static_cast<std::size_t>(i)].mean;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean[c] / power_of(rho, i)[c], mean.r / power_of(rho, i).r, 1e-14 * i) << "K^" << i << " Le";
+    }
+}
+
 }  // namespace
 }  // namespace neumann::physics

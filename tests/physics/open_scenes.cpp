@@ -1,4 +1,5 @@
-// Scenes that light leaves. The environment is a far sphere seen from inside that emits and is black, so what reaches it is gone.
+// Scenes that light leaves; their terms are in operators/known/open_scenes.cpp. The environment is a far sphere seen from inside
+// that emits and is black, so what reaches it is gone.
 #include "core/geometry/area_sampler.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
@@ -87,23 +88,6 @@ TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
         }
 }
 
-// Direct light by points on the sky: half of them are behind the surface, none may be hidden by it. 14 bodies × 2 ways: 28
-// comparisons, light sampling to 0.8%.
-TEST(OpenSceneSlow, AConvexBodyDoesNotHideTheSky) {
-    const double rho = 0.5;
-    for (const Body& body : convex_bodies()) {
-        SceneMaker maker;
-        const std::uint32_t shape = maker.add(body.shape, matte(rho));
-        maker.add(Sphere{{0, 0, 0}, 10.0, true}, sky(grey(1.0)));
-        const Scene scene = maker.make();
-        for (const Way way : {Way::mis, Way::light}) {
-            SCOPED_TRACE(body.name + ", " + name(way));
-            expect_matches(probe(scene, anywhere_on(scene, shape), way, {.samples = 4096, .bounces = 1}), std::vector{0.0, rho}, 0,
-                           way == Way::mis ? power : 0.008);
-        }
-    }
-}
-
 // Lenv(ω) = 1 + b·ω + (q·ω)²: K^1 Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²]. The sphere that stands for the sky emits by direction
 // alone, so it may be near. 3 normals × 3 ways, and the mean over a cube, where b and the directions of q average out: 12
 // comparisons.
@@ -128,53 +112,6 @@ TEST(OpenScene, ASkyThatVariesLightsByItsMoments) {
         }
         expect_matches(probe(scene, anywhere_on(scene, cube), way, {.samples = 16384, .bounces = 1}),
                        std::vector{0.0, rho * (1.0 + glm::dot(q, q) / 3.0)});
-    }
-}
-
-// A sphere with an opening of the fraction f of its area, a sky of 1 outside: K^i Le = ρ f (ρ (1 − f))^(i−1), everywhere inside.
-// The disc that closes the opening emits 1 and is black. 3 openings × 2 ways × 2 places × 4 bounces, to 0.5%: 48 comparisons.
-TEST(OpenSceneSlow, ASphericalCavityWithAnOpening) {
-    const double rho = 0.8;
-    for (const double f : {0.5, 0.25, 0.1}) {
-        const double height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
-        SceneMaker maker;
-        maker.add(Sphere{{0, 0, 0}, 1.0, true}, matte(rho));
-        maker.add(Disk{{0, 0, height}, {rim, 0, 0}, {0, rim, 0}, {0, 0, -1}}, lamp(1.0));
-        const Scene scene = maker.make();
-        std::vector<double> exact;
-        for (int i = 1; i <= 4; ++i) exact.push_back(rho * f * std::pow(rho * (1.0 - f), i - 1));
-        for (const Way way : {Way::mis, Way::bsdf})
-            for (const double z : {-1.0, height - 0.01}) {
-                SCOPED_TRACE(name(way) + ", f = " + std::to_string(f));
-                const Vec3 n(std::sqrt(1.0 - z * z), 0, z);
-                expect_matches(probe(scene, at(scene, n, -n), way, {.samples = 16384, .bounces = 4}), exact, 1, 0.005);
-            }
-    }
-}
-
-// A groove of 90° with sides of length 1, infinitely long, under a sky of 1; at 0.25, 0.5, 0.75 from the apex. g_1(x) = 1 − ½ [1 +
-// (cos a − x)/√(1 + x² − 2x cos a)], g_2 and g_3 by collocation, refined until they stand still. Here it is 100 long: the ends are
-// seen under (1/50)³ of the cosine-weighted hemisphere, which is below 1e-5. 3 places × 3 ways × 3 bounces, to 0.6%: 27
-// comparisons.
-TEST(OpenSceneSlow, AGrooveUnderTheSky) {
-    const double rho = 0.9, half = 50.0;
-    constexpr double g[3][3] = {{0.6212678125181664, 0.2510345548884595, 0.08430301090477688},
-                                {0.7236067977499789, 0.19621633067369174, 0.0548462711986844},
-                                {0.7999999999999999, 0.14637808534965377, 0.03721891914872671}};
-    SceneMaker maker;
-    maker.add(parallelogram({0, -half, 0}, {1, 0, 0}, {0, 2.0 * half, 0}), matte(rho));
-    maker.add(parallelogram({0, -half, 0}, {0, 2.0 * half, 0}, {0, 0, 1}), matte(rho));
-    maker.add(Sphere{{0, 0, 0}, 60.0, true}, sky(grey(1.0)));
-    const Scene scene = maker.make();
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double x = 0.25 * static_cast<double>(k + 1);
-        EXPECT_NEAR(g[k][0], 1.0 - 0.5 * (1.0 - x / std::sqrt(1.0 + x * x)), 1e-13);
-        std::vector<double> exact;
-        for (const double value : g[k]) exact.push_back(value * std::pow(rho, static_cast<double>(exact.size() + 1)));
-        for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
-            SCOPED_TRACE(name(way) + ", " + std::to_string(x) + " from the apex");
-            expect_matches(probe(scene, at(scene, {x, 0.3, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 3}), exact, 1, 0.006);
-        }
     }
 }
 

@@ -151,22 +151,6 @@ TEST(SmallLightsSlow, ShareTheSamplesOfAllLights) {
     }
 }
 
-// A convex body of albedo ρ under radiance 1 shows exactly ρ at bounce 1 and nothing later.
-TEST(SmallLightsSlow, AConstantEnvironmentIsAFurnaceForAConvexBody) {
-    for (const Shape& body : {Shape(make_cube(Mat4(1.0))), Shape(Sphere{{0.1, 0.2, 0.3}, 1.0, false}), Shape(tetrahedron(1.0))}) {
-        SceneMaker maker;
-        const std::uint32_t shape = maker.add(body, matte(rho));
-        maker.parts.lights.environment = ConstantEnvironment(grey(1.0));
-        const Scene scene = maker.make();
-        for (const Way way : {Way::bsdf, Way::pointwise})
-            expect_exact(probe(scene, anywhere_on(scene, shape), way, {.samples = 1024, .bounces = 3}),
-                         [](int i) { return grey(i == 1 ? rho : 0.0); });
-        for (const Way way : {Way::mis, Way::light})
-            expect_matches(probe(scene, anywhere_on(scene, shape), way, {.samples = 65536, .bounces = 2}),
-                           std::vector{0.0, rho, 0.0});
-    }
-}
-
 // Bounce 0 of a pixel is the environment where the body is not, and 0 where it is.
 TEST(SmallLights, AnEnvironmentIsSeenDirectly) {
     SceneMaker maker;

@@ -54,6 +54,11 @@ TEST(Plan, NoFurnaces) {
     };
     const auto nothing = [](auto&, auto&, auto&) {};
     EXPECT_FALSE(asks(nothing));
+    EXPECT_FALSE(asks([](auto&, auto&, auto& surfaces) { surfaces.fill({Rgb(0.7, 0.5, 0.3), AreaLight(Rgb(1.0, 2.0, 0.5))}); }));
+    EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) { surfaces[2].emission = AreaLight(Rgb(1.0, 1.0, 0.5)); }));
+    EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) {
+        surfaces[2].emission = AreaLight([](const ShadingPoint&, const Vec3& w) { return Rgb(std::abs(w.x)); }, Rgb(1.0));
+    }));
     EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) { surfaces[2] = matte(0.5); }));
     EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) { surfaces[2] = glowing(0.5, 1.5); }));
     EXPECT_TRUE(asks([](auto&, auto& faces, auto&) { faces[4] = flipped(faces[4]); }));

@@ -29,6 +29,13 @@ inline Scene lit_room(const Rgb& reflectance, int size = 12) {
     return looked_at(maker, {0.3, -0.8, 0.1}, {-0.1, 1.0, -0.2}, size);
 }
 
+// A room that shines in one colour and reflects in another.
+inline Scene coloured_furnace(int size = 12) {
+    SceneMaker maker;
+    maker.add(room({-1.0, -1.0, -1.0}, {1.0, 1.5, 1.2}), Surface{Rgb(0.7, 0.5, 0.3), AreaLight(Rgb(1.0, 2.0, 0.5))});
+    return looked_at(maker, {0.3, -0.8, 0.1}, {-0.1, 1.0, -0.2}, size);
+}
+
 // A box under a sky.
 inline Scene box_under(const Environment& sky, int size = 12) {
     SceneMaker maker;

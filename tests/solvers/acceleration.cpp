@@ -1,12 +1,8 @@
 // How many applications of K each method takes on the cube of 16 × 16 patches a face whose ceiling emits, until ‖x − L‖∞ ≤ ε ‖L‖∞
-// for ε = 1e-3, 1e-6, 1e-10, with L by LU. The counts were measured with independent programs of the same methods: ours may differ
-// by 2 or by 10%, for where a method starts and in which order it rounds.
+// for ε = 1e-3, 1e-6, 1e-10, with L by LU. What other programs count is in operators/known/acceleration.cpp.
 #include "operators/known/cube.h"
-#include "operators/solvers/anderson.h"
-#include "operators/solvers/chebyshev.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"
-#include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
 
@@ -47,14 +43,6 @@ public:
         return found;
     }
 
-    void expect(const char* method, const Solver& solve, const Counts& expected, int most) {
-        const Counts found = counts(solve, most);
-        for (int i = 0; i < 3; ++i) {
-            if (expected[i] == 0) continue;  // not compared
-            EXPECT_NEAR(found[i], expected[i], std::max(2.0, 0.1 * expected[i])) << method << ", error " << goals[i];
-        }
-    }
-
     Problem& problem() { return problem_; }
 
 private:
@@ -65,110 +53,12 @@ private:
     Vector exact_;
 };
 
-struct Expected {
-    Counts neumann, ratio, aitken, wynn, vector_epsilon, exact_interval, safe_interval, low_top, gmres, cg;
-    std::array<double, 3> anderson;  // m = 1, 3, 8, to 1e-6
-};
-
-void expect_all(Acceleration& cube, const Expected& expected, double lowest, double highest, double largest_albedo) {
-    cube.expect("Neumann", solve_neumann, expected.neumann, 24000);
-    cube.expect("ratio tail", solve_ratio_tail, expected.ratio, 60);
-    cube.expect("Aitken", solve_aitken, expected.aitken, 60);
-    cube.expect("Wynn", solve_wynn_epsilon, expected.wynn, 60);
-    cube.expect("vector epsilon", solve_vector_epsilon, expected.vector_epsilon, 60);
-    const auto chebyshev = [](double low, double high) {
-        return [low, high](const Problem& problem) { return solve_chebyshev(problem, low, high); };
-    };
-    cube.expect("Chebyshev, exact interval", chebyshev(lowest, highest), expected.exact_interval, 1200);
-    cube.expect("Chebyshev, safe interval", chebyshev(-largest_albedo, largest_albedo), expected.safe_interval, 1200);
-    cube.expect("Chebyshev, top 0.1% low", chebyshev(lowest, 0.999 * highest), expected.low_top, 1200);
-    cube.expect(
-        "GMRES", [](const Problem& problem) { return solve_gmres(problem); }, expected.gmres, 40);
-    cube.expect("CG", solve_conjugate_gradients, expected.cg, 40);
-    const int m[] = {1, 3, 8};
-    for (int i = 0; i < 3; ++i)
-        cube.expect(("Anderson " + std::to_string(m[i])).c_str(),
-                    [&](const Problem& problem) { return solve_anderson(problem, m[i]); }, {0, expected.anderson[i], 0}, 800);
-}
-
 Acceleration uniform(double rho) {
     const Cube cube = symmetric_cube(16);
     return {cube, Vector::Constant(cube.size(), rho)};
 }
 
 }  // namespace
-
-TEST(Acceleration, Albedo090) {
-    Acceleration cube = uniform(0.9);
-    expect_all(cube,
-               {{61, 127, 214},
-                {10, 19, 32},
-                {13, 22, 34},
-                {12, 15, 22},
-                {10, 14, 19},
-                {13, 25, 42},
-                {16, 31, 51},
-                {14, 27, 46},
-                {7, 11, 15},
-                {7, 11, 15},
-                {40, 17, 10}},
-               -0.3481399890, 0.9, 0.9);
-}
-
-TEST(Acceleration, Albedo099) {
-    Acceleration cube = uniform(0.99);
-    expect_all(cube,
-               {{682, 1369, 2286},
-                {12, 23, 37},
-                {19, 30, 44},
-                {14, 18, 0},
-                {12, 17, 22},
-                {44, 85, 139},
-                {53, 102, 166},
-                {57, 114, 191},
-                {8, 11, 16},
-                {8, 11, 16},
-                {123, 26, 11}},
-               -0.3829539879, 0.99, 0.99);
-    // To 1e-10 rounding in the sums decides: 27 in one arithmetic, fewer with compensated sums.
-    EXPECT_LE(cube.counts(solve_wynn_epsilon, 60)[2], 27);
-}
-
-TEST(Acceleration, Albedo0999) {
-    Acceleration cube = uniform(0.999);
-    expect_all(cube,
-               {{6899, 13803, 23015},
-                {12, 23, 38},
-                {23, 34, 48},
-                {15, 19, 0},
-                {14, 18, 25},
-                {141, 270, 441},
-                {169, 324, 530},
-                {322, 645, 1075},
-                {9, 12, 16},
-                {8, 12, 16},
-                {615, 26, 12}},
-               -0.3864353878, 0.999, 0.999);
-    EXPECT_LE(cube.counts(solve_wynn_epsilon, 60)[2], 44);
-}
-
-TEST(Acceleration, MixedAlbedo) {
-    const Cube whole = patched_cube(16);
-    Acceleration cube(whole, whole.on_faces({.2, .5, .8, .9, .95, .7}));
-    expect_all(cube,
-               {{15, 32, 54},
-                {7, 15, 25},
-                {9, 16, 25},
-                {9, 14, 20},
-                {7, 12, 18},
-                {7, 13, 21},
-                {25, 45, 74},
-                {7, 14, 23},
-                {7, 11, 16},
-                {7, 11, 16},
-                {20, 13, 11}},
-               -0.3418005946, 0.6622559027, 0.95);
-}
 
 // The quotient by the symmetries of the square stands for the whole cube: same iterates, same counts, but for rounding at the
 // threshold.

@@ -1,0 +1,75 @@
+# What `cmake --install` puts where, and the Debian packages that cpack makes of it: neumann, the program with its manual and scenes, and
+# libneumann-dev, the libraries with headers and CMake package.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(packaging ${PROJECT_SOURCE_DIR}/apps/packaging)
+set(scenes ${CMAKE_INSTALL_DATADIR}/neumann/scenes)
+
+install(TARGETS neumann RUNTIME COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/ DESTINATION ${scenes} COMPONENT program)
+install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# The manual, which the program prints itself: a page a command, and one of all.
+find_program(GZIP gzip REQUIRED)
+file(GLOB texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/manual/*.txt)
+set(pages "")
+foreach(text ${texts})
+  get_filename_component(command ${text} NAME_WE)
+  if(command STREQUAL neumann)
+    set(page ${PROJECT_BINARY_DIR}/manual/neumann.1)
+    set(topic "")
+  else()
+    set(page ${PROJECT_BINARY_DIR}/manual/neumann-${command}.1)
+    set(topic ${command})
+  endif()
+  add_custom_command(OUTPUT ${page}.gz
+    COMMAND neumann help ${topic} --roff > ${page} COMMAND ${GZIP} -9nf ${page} DEPENDS neumann)
+  list(APPEND pages ${page}.gz)
+endforeach()
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/manual)
+add_custom_target(manual ALL DEPENDS ${pages})
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+
+# The libraries.
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/neumann)
+set_target_properties(neumann_core PROPERTIES EXPORT_NAME core)
+set_target_properties(neumann_operators PROPERTIES EXPORT_NAME operators)
+set_target_properties(neumann_options PROPERTIES EXPORT_NAME options)
+install(TARGETS neumann_core neumann_operators neumann_options EXPORT neumann ARCHIVE COMPONENT development)
+install(EXPORT neumann NAMESPACE neumann:: FILE neumannTargets.cmake DESTINATION ${package} COMPONENT development)
+install(DIRECTORY core operators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/neumann COMPONENT development FILES_MATCHING PATTERN "*.h")
+file(RELATIVE_PATH to_scenes /${package} /${scenes})
+configure_file(${packaging}/neumannConfig.cmake ${PROJECT_BINARY_DIR}/neumannConfig.cmake @ONLY)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/neumannConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/neumannConfig.cmake ${PROJECT_BINARY_DIR}/neumannConfigVersion.cmake ${packaging}/dependencies.cmake
+  DESTINATION ${package} COMPONENT development)
+install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libneumann-dev COMPONENT development)
+
+# One package a component; a component that is not named here, such as that of the Python module, is left out.
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_CONTACT "The neumann authors <neumann@neumann.invalid>")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME neumann)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "renders each bounce of light as a picture of its own
+ The terms of the Neumann series of the rendering equation are sampled all at
+ once, summed, and compared: how large each bounce is, how large the rest is
+ that was left out, how certain every pixel is, and how the error falls with
+ run time. It reads Mitsuba 3 scenes.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libneumann-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libembree-dev, libopenimageio-dev, libglm-dev, libtbb-dev, libpugixml-dev, zlib1g-dev, \
+libfmt-dev, libboost-dev, libeigen3-dev, libspectra-dev, librandom123-dev, libxxhash-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "operators of the rendering equation, development files
+ Static libraries, headers and CMake package of neumann: scenes, T, R,
+ K = R T, the Neumann series, its solvers and its statistics.")
+include(CPack)

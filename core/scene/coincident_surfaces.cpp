@@ -1,0 +1,45 @@
+#include "core/scene/coincident_surfaces.h"
+
+namespace neumann {
+
+namespace {
+
+// Away from edges and diagonals, where neighbours are met.
+constexpr Vec2 places[] = {Vec2(0.5), Vec2(0.21, 0.34), Vec2(0.72, 0.13), Vec2(0.37, 0.81)};
+constexpr std::size_t many = 100'000;  // primitives, from which on one place of each has to do
+
+}  // namespace
+
+CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials& materials,
+                                       const std::vector<int>& light_of_shape) {
+    const auto shapes = static_cast<std::uint32_t>(geometry.shapes().size());
+    std::size_t primitives = 0;
+    for (std::uint32_t shape = 0; shape < shapes; ++shape) primitives += geometry.primitive_count(shape);
+    const std::size_t looks = primitives > many ? 1 : std::size(places);
+    CoincidentSurfaces found;
+    for (std::uint32_t shape = 0; shape < shapes; ++shape) {
+        if (geometry.area(shape) == 0.0) continue;
+        bool is_unlike = false;
+        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive) {
+            bool is_covered = false;
+            for (std::size_t k = 0; k < looks; ++k) {
+                const SurfacePoint point = geometry.point(shape, primitive, places[k]);
+                const double near = 4.0 * point.error;
+                SurfacePoint seen;
+                if (!geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen) ||
+                    seen.shape == shape)
+                    continue;
+                is_covered = true;
+                if (glm::dot(seen.normal, point.normal) < 0.999 || materials.at(shape, true) == materials.at(seen.shape, true))
+                    continue;
+                is_unlike = true;
+                if (!found.first_unlike) found.first_unlike = {shape, seen.shape};
+            }
+            found.lights += is_covered && light_of_shape[shape] != Emitters::none;
+        }
+        found.unlike += is_unlike;
+    }
+    return found;
+}
+
+}  // namespace neumann

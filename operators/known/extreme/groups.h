@@ -1,0 +1,17 @@
+// What is at the edge of what numbers hold, with answers that are as plain as anywhere else; a file each.
+#pragma once
+
+#include "operators/known/cases.h"
+
+namespace neumann::known {
+
+Cases extreme_place_cases();  // size, and distance from the origin
+Cases extreme_brightness_cases();
+Cases extreme_light_cases();
+Cases extreme_shape_cases();
+Cases extreme_material_cases();
+Cases extreme_camera_cases();
+void lecture_circle(Figures& figures, std::uint64_t seed);
+void numbers_that_are_none(Figures& figures, std::uint64_t seed);
+
+}  // namespace neumann::known
