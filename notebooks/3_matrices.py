@@ -81,10 +81,10 @@ sizes, errors = [100, 400, 1600, 6400], []
 for size in sizes:
     m = room.matrices(patches=size, channel="r", seed=seed, quiet=True)
     sees = np.asarray(m.camera(spp=4).mean(axis=0)).ravel()  # the mean of the picture, as a vector
-    t, means = m.Le, []
+    t, means = m.b, []  # K Le, for which points on the lamp were sampled: few of a patch's rays meet so small a lamp
     for i in range(4):
-        t = m.R @ (m.T @ t)
         means.append(sees @ t)
+        t = m.R @ (m.T @ t)
     errors.append(np.array(means) / known - 1)
 errors = np.array(errors)
 figure, axes = plt.subplots(figsize=(5.4, 3.6))
