@@ -24,12 +24,11 @@ T, R, Le = small
 K = R @ T
 figure, axes = plt.subplots(1, 3, figsize=(9, 4.2), gridspec_kw={"width_ratios": [1, 1.6, 1.6]})
 axes[0].spy(T[:400], markersize=1, aspect="auto")
-axes[0].set(title=f"T, the first 400 of {T.shape[0]} rows", xlabel="patch", ylabel="ray")
+axes[0].set(title=f"T, 400 of {T.shape[0]} rows", xlabel="patch", ylabel="ray")
 axes[1].spy(R, markersize=0.5, aspect="auto")
 axes[1].set(title="R", xlabel="ray", ylabel="patch")
-image = axes[2].imshow(np.where(K.toarray() > 0, K.toarray(), np.nan), aspect="equal", cmap="viridis")
+axes[2].spy(K, markersize=1)
 axes[2].set(title="K = R T", xlabel="from patch", ylabel="to patch")
-figure.colorbar(image, ax=axes[2], shrink=0.7)
 for axis in axes:
     axis.grid(False)
 plt.show()
@@ -69,7 +68,8 @@ pictures(shown, [f"$K^{i} L_e$" for i in range(5)])
 plt.show()
 
 # %% [markdown]
-# The figure: bounces 0 to 4 in red light. The patches are smaller where light changes quickly, at edges and in corners.
+# The figure: bounces 0 to 4 in red light. The patches are smaller where light changes quickly, at edges and in corners. Bounce 1 is
+# blotchy, because few of a patch's 64 rays meet so small a lamp; later bounces gather light from the whole room.
 #
 # **How wrong are they?** scenes/cornell-box/README.md has the means of the bounces in red, from a path tracer that knows no
 # patches: 0.053612, 0.0263715, 0.0127978, 0.0058946. Two errors mix: each patch has a single value (*discretisation*), and each
@@ -81,10 +81,10 @@ sizes, errors = [100, 400, 1600, 6400], []
 for size in sizes:
     m = room.matrices(patches=size, channel="r", seed=seed, quiet=True)
     sees = np.asarray(m.camera(spp=4).mean(axis=0)).ravel()  # the mean of the picture, as a vector
-    t, means = m.Le, []
+    t, means = m.b, []  # K Le, for which points on the lamp were sampled: few of a patch's rays meet so small a lamp
     for i in range(4):
-        t = m.R @ (m.T @ t)
         means.append(sees @ t)
+        t = m.R @ (m.T @ t)
     errors.append(np.array(means) / known - 1)
 errors = np.array(errors)
 figure, axes = plt.subplots(figsize=(5.4, 3.6))
@@ -127,9 +127,9 @@ for axis, mode, value in zip(axes, modes, values):
 plt.show()
 
 # %% [markdown]
-# The figure: the leading eigenvectors as the camera sees them, blue positive and red negative. The first is the light that is
-# left when all others have died: strongest where white surfaces face each other, weak at the open front and on the green wall,
-# which is dark in red light. The others have light going to and fro.
+# The figure: the leading eigenvectors as the camera sees them, blue positive and red negative. The first is the light that is left
+# when all others have died: strongest deep between the tall box and the left wall, where surfaces are close and little escapes, weak
+# at the open front and on the green wall, which is dark in red light. The others have both signs.
 #
 # **Q2.** What does bounce 50 of the Cornell box look like? And with the lamp on the floor?
 
@@ -219,7 +219,7 @@ axes.set(
     xlabel="applications of $K$",
     ylabel=r"$\Vert x - L\Vert _\infty / \Vert L\Vert _\infty$",
     title="Cube, albedo 0.99",
-    ylim=(1e-7, 2),
+    ylim=(1e-10, 2),
 )
 axes.legend(title="applications until $10^{-3}$", fontsize=8)
 plt.show()

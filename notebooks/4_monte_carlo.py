@@ -227,7 +227,8 @@ for q in ("albedo", 0.7):
     known = white.run.samples.walks_in_a_furnace[0]
     print(f"roulette {q}: {known.expected_vertices:.1f} stops, second moment {known.second_moment_of_sum}")
     infinite = [w.message for w in caught if "infinite" in str(w.message)]
-    print(*("   warns: " + str(message) for message in infinite), sep="\n")
+    for message in infinite:
+        print("   warns:", message)
     assert bool(infinite) == (q == 0.7)
 
 # %% [markdown]
