@@ -42,7 +42,7 @@ python3-openimageio | the Python module of OpenImageIO        |
 python3-matplotlib  | matplotlib, with which the lessons draw |
 python3-nbclient    | nbclient, which runs notebooks          |
 python3-nbformat    | nbformat, which reads them              |
-python3-ipykernel   | Jupyter's kernel for Python             |
+python3-ipykernel   | the kernel for Python of Jupyter         |
 chromium            | Chromium, in which pages are tested     | chromium chromium-browser google-chrome
 nodejs              | Node.js 18 or later, which drives it    | node nodejs
 npm                 | npm, which fetches playwright-core      | npm
