@@ -30,10 +30,12 @@ int bounces_of_light_paths(const SamplingSettings& settings) {
 
 // Looks at one group of paths.
 struct GroupCheckup : PathObserver {
-    GroupCheckup(std::uint64_t r, std::uint32_t f, std::uint32_t s) : replicate(r), first(f), size(s) {}
+    GroupCheckup(std::uint64_t r, std::uint32_t f, std::uint32_t s, bool meets)
+        : replicate(r), first(f), size(s), rays_meet_surfaces(meets) {}
 
     std::uint64_t replicate;
     std::uint32_t first, size;
+    bool rays_meet_surfaces;  // or end at points that were chosen, which may be in the plane that they leave
     std::optional<BalanceSheet> camera, light;
     std::uint64_t rays = 0;
     std::vector<SelfHit> self_hits;
@@ -42,7 +44,7 @@ struct GroupCheckup : PathObserver {
         for (auto* sheet : {&camera, &light})
             if (*sheet) (*sheet)->add(path, step);
         const bool leaves_surface = step.kind == PathStep::Kind::goes_on || (step.kind == PathStep::Kind::first && step.from_light);
-        if (!leaves_surface) return;
+        if (!leaves_surface || !rays_meet_surfaces) return;
         ++rays;
         if (step.found && is_self_hit(step.from, step.to))
             self_hits.push_back({step.bounce, name_in_group(replicate, first, path, size), step.to.shape,
@@ -81,7 +83,7 @@ std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sample
     oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t k) {
         const std::uint64_t group = k * all / count;
         const auto first = static_cast<std::uint32_t>(group % groups * paths_at_once);
-        GroupCheckup& look = found[k].emplace(group / groups, first, size);
+        GroupCheckup& look = found[k].emplace(group / groups, first, size, settings.method != Method::surface);
         const auto stream = static_cast<std::uint32_t>(2 * k);
         const std::uint64_t seed = settings.seed ^ checkup_stream;
         if (camera_bounces > 0) look.camera.emplace(scene, false, camera_bounces, settings.walk.split.walks, seed, stream);

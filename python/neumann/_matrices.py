@@ -117,7 +117,8 @@ def series(
     """
     operator = _operator(K, measure)
     made = run(_neumann.series(operator, np.asarray(Le, dtype=float), error, most, norm), quiet)
-    _report.warn(made["warnings"])
+    if not quiet:
+        _report.warn(made["warnings"])
     made["rows"] = _report.rows(made["rows"], _bounds)
     made["enclosure"] = Report(made["enclosure"])
     return Report(made)

@@ -144,5 +144,17 @@ TEST(SelfHits, AGapNarrowerThanRoundingIsOne) {
     }
 }
 
+// Two points of one rectangle, of which `surface` chooses many, do not see each other.
+TEST(SelfHits, PointsThatAreChosenAreNone) {
+    const Scene scene = read_scene(SCENES "/floating-panels/floating-panels.xml", {{"res", "32"}});
+    for (const Method method : {Method::walk, Method::surface}) {
+        const SamplingSettings settings{
+            .method = method, .walk = {.bounces = 3, .rest_probability = 0.0}, .seed = physics::fixed_seed, .replicate_size = 16};
+        const Checkup found = *check_up(scene, PictureSampler(scene, settings), 64);
+        EXPECT_EQ(found.self_hits, 0u);
+        EXPECT_EQ(found.rays > 1000, method == Method::walk);
+    }
+}
+
 }  // namespace
 }  // namespace neumann
