@@ -24,10 +24,14 @@ with tempfile.TemporaryDirectory() as folder:
         assert "**What this teaches.**" in notebook.cells[0].source
         assert kinds[-1] == "markdown" and "## Exercises" in notebook.cells[-1].source, "ends with exercises"
         lines = [line for line in lesson.read_text(encoding="utf-8").splitlines() if not line.startswith("# %%")]
-        text = [line for cell in notebook.cells for line in cell.source.splitlines()]
-        assert [line.removeprefix("#").strip() for line in lines if line.strip(" #")] == [
-            l.removeprefix("#").strip() for l in text if l.strip(" #")
+        # Of a lesson, text and comments begin with "#"; of a notebook, comments alone.
+        text = [
+            (line if cell.cell_type == "markdown" else line.removeprefix("#")).strip()
+            for cell in notebook.cells
+            for line in cell.source.splitlines()
+            if line.strip(" #")
         ]
+        assert [line.removeprefix("#").strip() for line in lines if line.strip(" #")] == text
 
     notebook = notebooks["1_operators"]
     nbclient.NotebookClient(notebook, timeout=100, kernel_name="python3", resources={"metadata": {"path": str(source)}}).execute()

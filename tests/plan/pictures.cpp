@@ -157,8 +157,8 @@ TEST(PlannedPictures, RaysThatAreSpared) {
     EXPECT_EQ(count(lamp, make_plan(lamp).walk, 0.5), count(lamp, {}, 0.5));
 }
 
-// On patches, sides where no light arrives have no unknowns and no rays: other random numbers. The means of 64 repetitions of each
-// bounce at |z| ≤ 4.5, to 0.5%.
+// On patches, sides where no light arrives have no unknowns and no rays, and the others are cut finer for it: other random numbers.
+// The means of 64 repetitions of each bounce at |z| ≤ 4.5, to 2%.
 TEST(PlannedPictures, OfFieldsWithSidesInTheDark) {
     const auto fields = [](const Scene& scene) {
         FieldSettings settings;
@@ -173,14 +173,15 @@ TEST(PlannedPictures, OfFieldsWithSidesInTheDark) {
     // From before, where light is seen.
     scene.camera = looked_at(SceneMaker(), {4.0, 0.5, 0.3}, {0.0, 0.0, 0.0}).camera;
     const FieldPictures all = fields(scene);
-    leave_out(make_plan(scene), scene);
+    const Plan plan = make_plan(scene);
+    ASSERT_FALSE(plan.sides.empty());
+    leave_out(plan, scene);
     const FieldPictures planned = fields(scene);
-    EXPECT_LT(planned.unknowns, all.unknowns);
     for (std::size_t i = 1; i <= bounces; ++i) {
         const MeanWithError x = planned.mean_of_term(i), y = all.mean_of_term(i);
         const double error = std::hypot(x.standard_error, y.standard_error);
         EXPECT_NEAR(x.mean, y.mean, 4.5 * error) << "bounce " << i;
-        EXPECT_LE(error, 0.005 * y.mean) << "bounce " << i;
+        EXPECT_LE(error, 0.02 * y.mean) << "bounce " << i;
     }
 }
 
