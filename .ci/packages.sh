@@ -31,6 +31,7 @@ python3-dev         | its headers                             |
 pybind11-dev        | pybind11 2.10 or later                  |
 python3-numpy       | NumPy                                   |
 python3-scipy       | SciPy: T, R and K are its matrices      |
+python3-matplotlib  | matplotlib, with which the lessons draw |
 '
 
 packages_to_test='
@@ -39,7 +40,6 @@ libbenchmark-dev    | Google Benchmark                        | benchmark/benchm
 dpkg-dev            | what cpack finds dependencies with      | dpkg-shlibdeps
 file                | file, which cpack asks of each file     | file
 python3-openimageio | the Python module of OpenImageIO        |
-python3-matplotlib  | matplotlib, with which the lessons draw |
 python3-nbclient    | nbclient, which runs notebooks          |
 python3-nbformat    | nbformat, which reads them              |
 python3-ipykernel   | the kernel for Python of Jupyter         |

@@ -22,7 +22,7 @@ SheetLayout with_columns(int columns, int terms, int sums, int width, int height
     const double wide = static_cast<double>(sheet_side - 2 * margin - (columns - 1) * gap) / columns;
     const double high = static_cast<double>(sheet_side - 2 * margin - 2 * heading_height) / rows - label_height(label_size) - gap;
     const double longer = std::max(width, height);
-    const double scale = whole_where_enlarged(std::min({wide / width, high / height, largest_thumbnail / longer}));
+    const double scale = scale_shown(width, height, std::min({wide / width, high / height, largest_thumbnail / longer}));
     layout.thumbnail_width = std::max(1, static_cast<int>(width * scale));
     layout.thumbnail_height = std::max(1, static_cast<int>(height * scale));
     return layout;

@@ -33,9 +33,10 @@ FlipBook::FlipBook(std::vector<LabelledPicture> pictures, double exposure, const
     if (pictures_.empty()) throw std::invalid_argument("FlipBook: no pictures");
     const Image& first = *pictures_.front().picture;
     const double longer = std::max(first.width, first.height);
-    const double scale = whole_where_enlarged(
+    const double scale = scale_shown(
+        first.width, first.height,
         std::min({longest_side / longer, affordable_scale(first.width, first.height, pictures_.size(), seconds_to_spare),
-                  std::max(1.0, std::floor(longest_enlarged / longer))}));
+                  std::max(1.0, longest_enlarged / longer)}));
     const int width = std::max(1, static_cast<int>(first.width * scale)),
               height = std::max(1, static_cast<int>(first.height * scale));
     std::vector<DisplayImage> frames;

@@ -25,11 +25,17 @@ DisplayImage caption(const std::string& text, int width, int height, int font_si
 DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
                         const std::optional<std::string>& font) {
     DisplayImage out(width, height + label_height(label_size), sheet_background);
-    out.paste(to_display(resized(*picture.picture, width, height), exposure * picture.factor), 0, 0);
+    const Image& all = *picture.picture;
+    const DisplayImage pixels =
+        to_display(resized(all, std::min(width, all.width), std::min(height, all.height)), exposure * picture.factor);
+    out.paste(enlarged(pixels, width / pixels.width), 0, 0);
     out.paste(caption(picture.label, width, label_height(label_size), label_size, font, true), 0, height);
     return out;
 }
 
-double whole_where_enlarged(double scale) { return scale > 1.0 ? std::floor(scale) : scale; }
+double scale_shown(int width, int height, double fitting) {
+    if (fitting <= 1.0) return fitting;
+    return std::floor(std::min(fitting, std::max(8.0, 128.0 / std::max(width, height))));
+}
 
 }  // namespace neumann

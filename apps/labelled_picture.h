@@ -22,12 +22,14 @@ struct LabelledPicture {
 DisplayImage caption(const std::string& text, int width, int height, int font_size, const std::optional<std::string>& font,
                      bool centred, std::uint8_t background = sheet_background);
 
-// The picture, times `exposure` and its factor, at `width` × `height` pixels, and its label below, label_height(label_size) high.
+// The picture, times `exposure` and its factor, at `width` × `height` pixels, smaller than it is or by a whole factor larger, and
+// its label below, label_height(label_size) high.
 DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
                         const std::optional<std::string>& font);
 constexpr int label_height(int label_size) { return 5 * label_size / 3; }
 
-// Pictures grow by whole factors only, so that pixels stay square and equal.
-double whole_where_enlarged(double scale);
+// At which scale pictures of this size are shown where there is room for `fitting`. Small ones grow until they are easily seen,
+// eight times or to 128 pixels, and by whole factors, so that pixels stay square and equal.
+double scale_shown(int width, int height, double fitting);
 
 }  // namespace neumann

@@ -38,8 +38,9 @@ DisplayImage drawn(const Strip& strip, int border, double largest_scale, double 
     const Image& first = *strip.front().front().picture;
     const auto columns = static_cast<int>(strip.front().size()), rows = static_cast<int>(strip.size());
     const double fitting = (slide_width - 2 * border - (columns - 1) * gap) / (static_cast<double>(columns) * first.width);
-    const double scale = whole_where_enlarged(
-        std::min({fitting, largest_scale, static_cast<double>(largest_picture) / std::max(first.width, first.height)}));
+    const double scale =
+        scale_shown(first.width, first.height,
+                    std::min({fitting, largest_scale, static_cast<double>(largest_picture) / std::max(first.width, first.height)}));
     const int width = std::max(1, static_cast<int>(first.width * scale)),
               height = std::max(1, static_cast<int>(first.height * scale));
     const int row_height = height + label_height(label_size);

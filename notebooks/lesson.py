@@ -27,13 +27,18 @@ seed = int(os.environ.get("NEUMANN_TEST_SEED", 0))
 plt.rcParams.update(
     {"figure.dpi": 100, "axes.grid": True, "grid.alpha": 0.3, "figure.constrained_layout.use": True, "image.cmap": "magma"}
 )
-if folder := os.environ.get("NEUMANN_FIGURES"):
-    # For machines without a screen: figures become files, NAME_1.png and so on.
+folder = os.environ.get("NEUMANN_FIGURES")
+if not folder and plt.get_backend().lower() == "agg":
+    folder = scenes.parent / "out" / "lessons"  # there is no screen
+if folder:
+    # Figures become files, NAME_1.png and so on.
     def save():
         Path(folder).mkdir(parents=True, exist_ok=True)
         for number in plt.get_fignums():
             save.count += 1
-            plt.figure(number).savefig(Path(folder) / f"{Path(sys.argv[0]).stem}_{save.count}.png")
+            file = Path(folder) / f"{Path(sys.argv[0]).stem}_{save.count}.png"
+            plt.figure(number).savefig(file)
+            print("figure:", file)
         plt.close("all")
 
     save.count = 0

@@ -4,13 +4,15 @@
 #include "core/base/memory.h"
 #include "core/image/picture_format.h"
 
+// Before OpenImageIO, which makes {fmt} part of whatever includes it: everybody else's calls of {fmt} would end here then, and
+// bring OpenImageIO into programs that have no use for it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>

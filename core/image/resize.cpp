@@ -52,4 +52,15 @@ Image resized(const Image& picture, int width, int height) {
     return out;
 }
 
+DisplayImage enlarged(const DisplayImage& picture, int factor) {
+    DisplayImage out(picture.width * factor, picture.height * factor, 0);
+    auto to = out.bytes.begin();
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x) {
+            const auto from = 3 * (static_cast<std::ptrdiff_t>(y / factor) * picture.width + x / factor);
+            to = std::copy_n(picture.bytes.begin() + from, 3, to);
+        }
+    return out;
+}
+
 }  // namespace neumann

@@ -1,6 +1,7 @@
 // Pictures at another size.
 #pragma once
 
+#include "core/image/display.h"
 #include "core/image/image.h"
 
 namespace neumann {
@@ -9,5 +10,8 @@ namespace neumann {
 // it grows by a whole factor. Pixels that are not finite make those that they touch so. Throws std::invalid_argument for an empty
 // size.
 Image resized(const Image& picture, int width, int height);
+
+// Each pixel `factor` times as wide and as high, at least once.
+DisplayImage enlarged(const DisplayImage& picture, int factor);
 
 }  // namespace neumann

@@ -49,6 +49,8 @@ TEST(ContactSheet, ThumbnailsStayReadable) {
     EXPECT_GE(layout_sheet(66, 65, 1920, 1080).thumbnail_width, 200);
     EXPECT_EQ(layout_sheet(10, 9, 256, 256).thumbnail_width, 256);
     EXPECT_EQ(layout_sheet(4, 3, 64, 64).thumbnail_width, 448);
+    EXPECT_EQ(layout_sheet(4, 3, 20, 20).thumbnail_width, 160);
+    EXPECT_EQ(layout_sheet(4, 3, 3, 2).thumbnail_width, 126);
 }
 
 TEST(ContactSheet, TheSheetIsAPictureOfTheLayoutsSize) {
@@ -83,7 +85,7 @@ TEST(FlipBook, FramesHaveTheSizeOfThePicturesAtMost512) {
     struct Case {
         int width, height, expected_width, expected_height;
     };
-    for (const Case& c : {Case{64, 64, 320, 320}, Case{256, 256, 256, 256}, Case{1024, 512, 512, 256}}) {
+    for (const Case& c : {Case{16, 8, 128, 64}, Case{64, 64, 320, 320}, Case{256, 256, 256, 256}, Case{1024, 512, 512, 256}}) {
         const Image picture(c.width, c.height);
         const std::string gif = FlipBook(pages(3, "bounce", picture), 1.0, std::nullopt).gif();
         EXPECT_EQ(little_endian(gif, 6), c.expected_width);
@@ -154,8 +156,8 @@ TEST_F(Strips, NamesOfImportanceAndOfSomePaths) {
     EXPECT_EQ(labels(strip_of_terms(series, dark, 1.0)[0]), (Labels{"We", "K* We", "K*^2 We"}));
     series = up_to(1);
     series.kind = ", some paths";
-    EXPECT_EQ(labels(series.all()), (Labels{"Le, some paths", "K Le, some paths", "rest, beyond 1, some paths", "bounce 0, some paths",
-                                            "bounces 0 to 1, some paths", "all bounces, some paths"}));
+    EXPECT_EQ(labels(series.all()), (Labels{"Le, some paths", "K Le, some paths", "rest, beyond 1, some paths",
+                                            "bounce 0, some paths", "bounces 0 to 1, some paths", "all bounces, some paths"}));
 }
 
 TEST_F(Strips, SumsAndDoublingHaveWhatThereIs) {
@@ -164,7 +166,8 @@ TEST_F(Strips, SumsAndDoublingHaveWhatThereIs) {
     const Labels all{"bounces 0 to 1", "bounces 0 to 2", "bounces 0 to 4", "bounces 0 to 8", "bounces 0 to 16"};
     EXPECT_EQ(labels(strip_of_doubling(up_to(16))[0]), all);
     EXPECT_EQ(labels(strip_of_doubling(up_to(20))[0]), all);
-    EXPECT_EQ(labels(strip_of_doubling(up_to(5))[0]), (Labels{"bounces 0 to 1", "bounces 0 to 2", "bounces 0 to 4", "all bounces"}));
+    EXPECT_EQ(labels(strip_of_doubling(up_to(5))[0]),
+              (Labels{"bounces 0 to 1", "bounces 0 to 2", "bounces 0 to 4", "all bounces"}));
     EXPECT_EQ(strip_of_doubling(up_to(5))[0][2].picture, &sums[4]);
     EXPECT_EQ(labels(strip_of_doubling(up_to(0))[0]), Labels{"all bounces"});
     SeriesPictures unfinished{std::span(terms).first(1), std::span(sums).first(1)};

@@ -65,6 +65,7 @@ TEST(ImageResize, ShrinkingAveragesAndGrowingRepeats) {
     EXPECT_EQ(large.at(1, 2), Rgb(1.0));
     EXPECT_EQ(large.at(2, 2), Rgb(2.0));
     EXPECT_EQ(large.at(3, 5), Rgb(6.0));
+    EXPECT_EQ(enlarged(to_display(picture, 0.1), 3).bytes, to_display(resized(picture, 6, 6), 0.1).bytes);
 }
 
 TEST(ImageResize, AreasAreSharedByFractions) {

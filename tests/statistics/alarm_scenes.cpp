@@ -56,7 +56,7 @@ constexpr const char* name_of(SamplerKind kind) { return kind == SamplerKind::so
 // that at least one is found in every picture.
 TEST(AlarmSlow, IsRaisedForALightThatTouchesTheWalls) {
     const Scene scene = cube();
-    constexpr int seeds = 20;
+    constexpr int seeds = 10;
     for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
         double index[bounces + 2] = {};
         int alarms[bounces + 2] = {};
@@ -112,7 +112,7 @@ TEST(AlarmSlow, IsSilentWithBsdfSampling) {
 }
 TEST(AlarmSlow, IsSilentInTheCornellBox) {
     const Scene scene = read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml", {{"res", std::to_string(resolution)}});
-    expect_silent(scene, DirectLight::mis, SamplerKind::sobol, 200, "mitsuba-cornell, MIS");
+    expect_silent(scene, DirectLight::mis, SamplerKind::sobol, 100, "mitsuba-cornell, MIS");
 }
 
 }  // namespace

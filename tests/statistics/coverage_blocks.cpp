@@ -18,7 +18,7 @@
 namespace neumann {
 namespace {
 
-constexpr int resolution = 64, block = 16, bounces = 6;
+constexpr int resolution = 64, block = 16, bounces = 3;
 constexpr std::uint64_t first_seed = 1;
 
 // A scene and the exact means over every pixel of K^0 Le … K^N Le.

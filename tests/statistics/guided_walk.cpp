@@ -4,7 +4,6 @@
 #include "operators/known/pictures.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/material_laws.h"
-#include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
