@@ -49,8 +49,7 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
             for (std::size_t pixel = 0; pixel < exact.mean.pixels.size(); ++pixel)
                 for (int c = 0; c < 3; ++c) {
                     const double difference = std::abs(picture.mean.pixels[pixel][c] - exact.mean.pixels[pixel][c]);
-                    const double noise =
-                        t * picture.standard_error.pixels[pixel][c] + 2.0 * exact.standard_error.pixels[pixel][c];
+                    const double noise = t * picture.standard_error.pixels[pixel][c] + 2.0 * exact.standard_error.pixels[pixel][c];
                     within += difference <= noise + picture.discretisation.pixels[pixel][c] + 1e-15;
                     all += 1.0;
                     reported += picture.discretisation.pixels[pixel][c];
