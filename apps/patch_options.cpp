@@ -1,5 +1,6 @@
 #include "apps/patch_options.h"
 
+#include "apps/interrupt.h"
 #include "apps/options.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
@@ -59,7 +60,9 @@ PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene>
     : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     const TracedSettings traced = settings(options);
     try {
-        system_ = std::make_unique<TracedSystem>(*scene_, traced);
+        system_ = std::make_unique<TracedSystem>(*scene_, traced, [] {
+            if (interrupted()) throw RunError("interrupted");
+        });
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }

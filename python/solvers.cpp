@@ -6,6 +6,7 @@
 #include "operators/series/series_run.h"
 #include "operators/solvers/matrix_channel.h"
 #include "operators/solvers/side_by_side.h"
+#include "operators/solvers/stoppable.h"
 #include "operators/spectrum/convergence.h"
 #include "operators/spectrum/spectrum.h"
 #include "python/module.h"
@@ -18,41 +19,16 @@ namespace neumann {
 
 namespace {
 
-// Asks before every application whether it is to end.
-class Stoppable : public ChannelOperator {
-public:
-    explicit Stoppable(std::unique_ptr<const ChannelOperator> K) : K_(std::move(K)) {}
-
-    Eigen::Index size() const override { return K_->size(); }
-    void apply(const Vector& x, Vector& y) const override {
-        go_on();
-        K_->apply(x, y);
-    }
-    void apply_adjoint(const Vector& x, Vector& y) const override {
-        go_on();
-        K_->apply_adjoint(x, y);
-    }
-    double row(Eigen::Index u, const Vector& x) const override { return K_->row(u, x); }
-    double diagonal(Eigen::Index u) const override { return K_->diagonal(u); }
-    void add_column(Eigen::Index u, double a, Vector& y) const override { K_->add_column(u, a, y); }
-    const Vector& measure() const override { return K_->measure(); }
-
-private:
-    static void go_on() {
-        if (interrupted()) throw RunError("interrupted");
-    }
-    std::unique_ptr<const ChannelOperator> K_;
-};
-
+// Ctrl-C ends whatever uses one of these.
 using Operator = std::shared_ptr<ChannelOperator>;
 using Dense = DenseChannel::Matrix;
 using Sparse = SparseChannel::Matrix;
 
 Operator dense(const Eigen::Ref<const Dense>& K, const Vector& measure) {
-    return std::make_shared<Stoppable>(std::make_unique<DenseChannel>(K, measure));
+    return std::make_shared<StoppableChannel>(std::make_shared<const DenseChannel>(K, measure), interrupted);
 }
 Operator sparse(const Sparse& K, const Vector& measure) {
-    return std::make_shared<Stoppable>(std::make_unique<SparseChannel>(K, measure));
+    return std::make_shared<StoppableChannel>(std::make_shared<const SparseChannel>(K, measure), interrupted);
 }
 
 // A row for each bounce: bounce, power, l2, sup, ratio, a_priori, a_posteriori, estimate, enclosure_width.

@@ -6,6 +6,7 @@
 #include "operators/matrix/traced_channel.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace neumann {
 
@@ -18,8 +19,10 @@ struct TracedSettings {
 class TracedSystem {
 public:
     // The scene is kept by reference. Throws InputError where there is nothing to cut into patches, where no side of any surface
-    // faces another, and where more is asked for than memory holds.
-    TracedSystem(const Scene& scene, const TracedSettings& settings);
+    // faces another, and where more is asked for than memory holds. `checkpoint` is called now and then while T is traced, from any
+    // thread, and may throw to give up.
+    TracedSystem(
+        const Scene& scene, const TracedSettings& settings, const std::function<void()>& checkpoint = [] {});
     TracedSystem(const TracedSystem&) = delete;
     TracedSystem& operator=(const TracedSystem&) = delete;
 

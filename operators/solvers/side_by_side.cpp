@@ -2,6 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "operators/solvers/progress.h"
+#include "operators/solvers/stoppable.h"
 
 #include <string_view>
 
@@ -18,6 +19,27 @@ SolverRow run(const NamedSolver& solver, const Problem& problem) {
     return row;
 }
 
+void run_all(const Problem& problem, bool histories, SideBySide& all) {
+    const SolverRow reference = run(*find_solver("lu"), problem);
+    const bool known = reference.result.verdict == Verdict::converged;
+    if (!known) all.no_reference = reference.result.why;
+    for (const NamedSolver& solver : solvers()) {
+        if (&solver == reference.solver) {
+            all.rows.push_back(reference);
+            continue;
+        }
+        SolverRow row = run(solver, problem);
+        const Vector& L = reference.result.x;
+        if (known && largest(L) > 0.0) row.error = largest(row.result.x - L) / largest(L);
+        if (known && histories) {
+            Problem judged = problem;
+            judged.exact = &L;
+            row.result.history = solver.solve(judged).history;
+        }
+        all.rows.push_back(std::move(row));
+    }
+}
+
 }  // namespace
 
 double SolverRow::estimate() const { return result.history.empty() ? unknown : result.history.back().estimate; }
@@ -26,27 +48,13 @@ SideBySide solve_side_by_side(Problem problem, const SideBySideOptions& options)
     SideBySide all;
     problem.exact = nullptr;
     problem.observer = nullptr;
-    const SolverRow reference = run(*find_solver("lu"), problem);
-    const bool known = reference.result.verdict == Verdict::converged;
-    if (!known) all.no_reference = reference.result.why;
-    for (const NamedSolver& solver : solvers()) {
-        if (options.interrupted && options.interrupted()) {
-            all.interrupted = true;
-            break;
-        }
-        if (&solver == reference.solver) {
-            all.rows.push_back(reference);
-            continue;
-        }
-        SolverRow row = run(solver, problem);
-        const Vector& L = reference.result.x;
-        if (known && largest(L) > 0.0) row.error = largest(row.result.x - L) / largest(L);
-        if (known && options.histories) {
-            Problem judged = problem;
-            judged.exact = &L;
-            row.result.history = solver.solve(judged).history;
-        }
-        all.rows.push_back(std::move(row));
+    const StoppableChannel K(
+        *problem.K, options.interrupted ? options.interrupted : [] { return false; });
+    problem.K = &K;
+    try {
+        run_all(problem, options.histories, all);
+    } catch (const Stopped&) {
+        all.interrupted = true;
     }
     return all;
 }

@@ -23,7 +23,7 @@ struct SideBySide {
 
 struct SideBySideOptions {
     bool histories = false;             // with true errors: each solver runs once more, for some take long over these
-    std::function<bool()> interrupted;  // asked between solvers
+    std::function<bool()> interrupted;  // asked before every use of K; the solver that is at work then has no row
 };
 
 // `exact` and `observer` of the problem are not used.

@@ -50,6 +50,16 @@ class Interrupt(Case):
         stop, seconds = self.interrupted(lambda: neumann.series(K, [1.0, 0.0, 0.0], error=1e-14, most=10**9), 0.5)
         self.assertLess(seconds, 2.0)
 
+    def test_matrices(self):
+        # Minutes of rays.
+        stop, seconds = self.interrupted(lambda: cornell(32).matrices(patches=20000, directions=16384), 2.0)
+        self.assertLess(seconds, 2.0)
+
+    def test_solve(self):
+        # All solvers at an albedo where the series needs a million applications of K.
+        stop, seconds = self.interrupted(lambda: furnace(0.99999).solve(patches=1000, error=1e-9, most=10**9), 6.0)
+        self.assertLess(seconds, 2.0)
+
     def test_study(self):
         journal = self.folder / "s" / "study.journal"
         # A line for what is studied, and one for each run: two repeats of both methods.

@@ -1,10 +1,12 @@
 // Where methods have no answer, or one that must not be believed.
+#include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
 #include "operators/solvers/chebyshev.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/relaxation.h"
 #include "operators/solvers/series_solvers.h"
+#include "operators/solvers/side_by_side.h"
 #include "operators/solvers/solvers.h"
 
 #include <fmt/format.h>
@@ -229,4 +231,26 @@ TEST(Breakdowns, ConjugateGradientsWithBlackPatches) {
     EXPECT_NEAR(result.x[0], 0.7, 1e-15);
     EXPECT_EQ(result.x[1], 1.0);
     EXPECT_EQ(result.setup, 1.0);
+}
+
+// Whoever has had enough waits for no solver's end: nothing is asked of K once it was said, and the rows until then are kept.
+TEST(SideBySide, EndsAtTheNextUseOfK) {
+    const Cube cube = symmetric_cube(4);
+    const DenseChannel K = cube.channel(0.99);
+    const Problem problem = problem_of(K, Vector::Ones(K.size()));
+    int asked = 0;
+    const auto patient_for = [&](int uses) {
+        asked = 0;
+        return solve_side_by_side(problem, {.interrupted = [&asked, uses] { return asked++ >= uses; }});
+    };
+    const SideBySide all = patient_for(std::numeric_limits<int>::max());
+    EXPECT_FALSE(all.interrupted);
+    EXPECT_EQ(all.rows.size(), solvers().size());
+    for (const int uses : {0, 5, asked / 2, asked - 1}) {
+        const SideBySide some = patient_for(uses);
+        EXPECT_EQ(asked, uses + 1);
+        EXPECT_TRUE(some.interrupted);
+        ASSERT_LT(some.rows.size(), all.rows.size());
+        for (std::size_t i = 0; i < some.rows.size(); ++i) EXPECT_EQ(some.rows[i].result.x, all.rows[i].result.x);
+    }
 }
