@@ -34,14 +34,14 @@ TEST_F(RenderLights, AllNamesGiveTheSame) {
         render("floor.xml", "a", all);
         return channel_mean(picture("a", "bounce_001.exr"), 0);
     };
-    const ChannelMean known = mean_of({}, "512");
+    const ChannelMean known = mean_of({}, "1024");
     std::vector<std::vector<std::string>> ways;
     for (const char* how : {"hemisphere", "cosine", "bsdf", "surfaces", "light", "solid-angle", "mis-balance", "mis-solid-angle"})
         ways.push_back({"--direct", how});
     for (const char* which : {"mixed", "uniform", "power", "contribution", "all"})
         ways.push_back({"--lights", which, "--seed", "1"});
     for (const std::vector<std::string>& way : ways) {
-        const ChannelMean found = mean_of(way, "256");
+        const ChannelMean found = mean_of(way, "512");
         EXPECT_NEAR(found.mean, known.mean, 4.5 * std::hypot(found.standard_error, known.standard_error)) << way[1];
         EXPECT_LT(found.standard_error, 0.1 * known.mean) << way[1];
         EXPECT_EQ(run_json("a").at("options").at(way[0].substr(2)), way[1]);

@@ -73,7 +73,7 @@ TEST_F(RenderOldRoomSlow, RendersWithAllItsMaterialsAndLights) {
     std::vector<ChannelMean> means[2];
     const std::vector<std::string> ways[2] = {{"--direct", "mis"}, {"--direct", "light", "--lights", "all", "--seed", "1"}};
     for (int w = 0; w < 2; ++w) {
-        std::vector<std::string> arguments = {"render", "room.xml", "-o", "a", "--spp", "128"};
+        std::vector<std::string> arguments = {"render", "room.xml", "-o", "a", "--spp", "256"};
         arguments.insert(arguments.end(), ways[w].begin(), ways[w].end());
         const Finished done = run(arguments);
         ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -90,7 +90,7 @@ TEST_F(RenderOldRoomSlow, RendersWithAllItsMaterialsAndLights) {
         const ChannelMean &a = means[0][k], &b = means[1][k];
         const double error = std::hypot(a.standard_error, b.standard_error);
         EXPECT_LE(std::abs(a.mean - b.mean), 4.5 * error) << k;
-        EXPECT_LE(error, 0.07 * a.mean) << "what this test can see; " << k;
+        EXPECT_LE(error, 0.05 * a.mean) << "what this test can see; " << k;
     }
 }
 

@@ -22,7 +22,7 @@ TEST(SplittingSlow, VariancesAreDivided) {
         SCOPED_TRACE(describe(split));
         const auto variance = [&](DirectLight direct) {
             return probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Way::mis,
-                         {.samples = 1 << 13,
+                         {.samples = 1 << 14,
                           .bounces = 1,
                           .sampler = SamplerKind::independent,
                           .direct = DirectLightSettings{.direct = direct},
@@ -65,7 +65,7 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
     const Scene scene = maker.make();
     const StartPicker start = anywhere_on(scene, static_cast<std::uint32_t>(floor));
     const Estimates plain =
-        probe(scene, start, Way::mis, {.samples = 4096, .bounces = 3, .rest_probability = 1.0, .seed = fixed_seed + 1});
+        probe(scene, start, Way::mis, {.samples = 8192, .bounces = 3, .rest_probability = 1.0, .seed = fixed_seed + 1});
     for (const DirectLightSettings& direct :
          {DirectLightSettings{}, DirectLightSettings{.heuristic = Heuristic::balance},
           DirectLightSettings{.lights = LightChoice::all}, DirectLightSettings{.direct = DirectLight::cosine}})
@@ -73,7 +73,7 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
             SCOPED_TRACE(describe(split) +
                          fmt::format(", direct {}, lights {}", static_cast<int>(direct.direct), static_cast<int>(direct.lights)));
             const Estimates found = probe(scene, start, Way::mis,
-                                          {.samples = direct.direct == DirectLight::cosine ? 2048u : 512u,
+                                          {.samples = direct.direct == DirectLight::cosine ? 4096u : 1024u,
                                            .bounces = 3,
                                            .rest_probability = 1.0,
                                            .direct = direct,
@@ -83,7 +83,7 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
                 const Statistic &a = i < 4 ? found.terms[i] : found.rest, &b = i < 4 ? plain.terms[i] : plain.rest;
                 const double error = std::hypot(a.standard_error.r, b.standard_error.r);
                 EXPECT_NEAR(a.mean.r, b.mean.r, 4.5 * error) << "bounce " << i;
-                EXPECT_LT(error, 0.045 * b.mean.r) << "no power in bounce " << i;
+                EXPECT_LT(error, 0.03 * b.mean.r) << "no power in bounce " << i;
             }
         }
 }

@@ -18,7 +18,7 @@
 namespace neumann {
 namespace {
 
-constexpr int resolution = 64, block = 16, bounces = 3;
+constexpr int resolution = 64, block = 16, bounces = 6;
 constexpr std::uint64_t first_seed = 1;
 
 // A scene and the exact means over every pixel of K^0 Le … K^N Le.
@@ -198,10 +198,10 @@ void expect_right(const Coverage& coverage, int least, const std::string& what) 
 
 void expect_coverage(SamplerKind kind, const char* name) {
     const Known in_sphere = sphere(), in_dome = dome();
-    // Four replicates, as `render --spp 16` has them (of four samples each, here of two), and two, the fewest, as `--spp 64` has.
-    // In the dome the light itself is not seen; it is enough to see it for bounce 0.
+    // Four replicates, as `render --spp 16` has them, and two, the fewest, as `--spp 64` has. In the dome the light itself is not
+    // seen; it is enough to see it for bounce 0.
     Run runs[] = {
-        {in_sphere, bounces, first_seed, 2, 4}, {in_dome, bounces, first_seed, 4, 2}, {in_sphere, 0, first_seed + 320, 4, 2}};
+        {in_sphere, bounces, first_seed, 4, 4}, {in_dome, bounces, first_seed, 4, 2}, {in_sphere, 0, first_seed + 320, 4, 2}};
     std::vector<Coverage> terms(bounces + 1), sums(bounces + 1);
     for (Run& run : runs) {
         run.count(kind);

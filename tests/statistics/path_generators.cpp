@@ -66,19 +66,19 @@ double excess(const Estimate& a, const Estimate& b) {
     return expected > 0.0 ? found / expected : found == 0.0 ? 1.0 : INFINITY;
 }
 
-// Means of whole pictures of 64 replicates: at most 5 scenes × 2 methods × 5 bounces, 50 comparisons at |z| ≤ 4.5 with 63 degrees
-// of freedom: false alarm below 0.2%. Where the samples show an infinite variance there is no z.
+// Means of whole pictures of 128 replicates: at most 5 scenes × 2 methods × 5 bounces, 50 comparisons at |z| ≤ 4.5 with 127 degrees
+// of freedom: false alarm below 0.08%. Where the samples show an infinite variance there is no z.
 TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
     int compared = 0;
     for (const Case& c : cases) {
         const Scene scene = scene_of(c);
         SamplingSettings settings{.walk = {.bounces = bounces, .rest_probability = 0.0}, .seed = physics::fixed_seed};
-        const Result walk = render(scene, settings, 64);
+        const Result walk = render(scene, settings, 128);
         for (const Method method : {Method::light, Method::bidirectional}) {
             if (method == Method::light && !c.light_makes_all) continue;
             settings.method = method;
             settings.seed = physics::fixed_seed + 1;
-            const Result other = render(scene, settings, 64);
+            const Result other = render(scene, settings, 128);
             for (std::size_t i = 0; i <= bounces; ++i) {
                 const bool misses = std::string(c.light) == "points" && std::string(c.things) != "rough";
                 if (misses || walk.infinite(i) || other.infinite(i)) continue;
@@ -93,7 +93,7 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
 }
 
 // Trees in place of paths: light asked for 3 times and 2 walks from each first vertex.
-// As above, 20 comparisons: false alarm below 0.1%.
+// As above, 20 comparisons: false alarm below 0.04%.
 TEST(PathGeneratorsSlow, BidirectionalTreesAgree) {
     int compared = 0;
     for (const Case& c : cases) {
@@ -101,10 +101,10 @@ TEST(PathGeneratorsSlow, BidirectionalTreesAgree) {
         SamplingSettings settings{.method = Method::bidirectional,
                                   .walk = {.bounces = bounces, .rest_probability = 0.0},
                                   .seed = physics::fixed_seed};
-        const Result paths = render(scene, settings, 64);
+        const Result paths = render(scene, settings, 128);
         settings.walk.split = {3, 2};
         settings.seed = physics::fixed_seed + 1;
-        const Result trees = render(scene, settings, 64);
+        const Result trees = render(scene, settings, 128);
         for (std::size_t i = 1; i <= bounces; ++i) {
             if (paths.infinite(i) || trees.infinite(i)) continue;
             ++compared;
