@@ -69,6 +69,25 @@ void wedge(Figures& figures, std::uint64_t seed, double degrees, Way way) {
                   exact, 1, 4.0 * missing);
 }
 
+// Le = d^(-1/2) on both walls of a right angle, d from their edge, is an eigenfunction: K Le = λ Le, λ = ρ/4 B(3/4, 3/4). Walls
+// that end at L lose L^(-3/2)/(3/4 B) of it, 7e-5. Hits keep clear of edges by some δ = 8e-6 L, where Le is largest: δ^(3/2)/(3 B),
+// 5e-5.
+void power_law(Figures& figures, std::uint64_t seed, Way way) {
+    const double rho = 0.8, eigenvalue = 0.25 * rho * std::beta(0.75, 0.75), brightest = 1e6, L = 500.0, lost = 1.2e-4;
+    const auto radiance = [=](const SurfacePoint& p, const Vec3&) {
+        return grey(std::min(1.0 / std::sqrt(std::hypot(p.position.x, p.position.z)), brightest));
+    };
+    const Surface shining = made_of(Diffuse(grey(rho)), AreaLight(radiance, grey(brightest)));
+    SceneMaker maker;
+    maker.add(parallelogram({0, -L, 0}, {L, 0, 0}, {0, 2.0 * L, 0}), shining);
+    maker.add(parallelogram({0, -L, 0}, {0, 2.0 * L, 0}, {0, 0, L}), shining);
+    const Scene scene = maker.make();
+    std::vector<double> exact;
+    for (int i = 1; i <= 2; ++i) exact.push_back(std::pow(eigenvalue, i));
+    figures.terms(sharp_probe(scene, at(scene, {1, 0.3, 0}, {0, 0, 1}, 0.1), way, {.samples = 1024, .bounces = 2, .seed = seed}),
+                  exact, 1, eigenvalue * lost);
+}
+
 void corner(Figures& figures, std::uint64_t seed, Way way) {
     const double rho = 0.8;
     SceneMaker maker;
@@ -148,6 +167,10 @@ Cases open_cases() {
                 cases.push_back({fmt::format("open/wedge-{:g}/{}", degrees, name),
                                  "rho^i sin^2(a/2) cos^2(i-1)(a/2), walls of 1e4: 2e-4",
                                  [=](Figures& figures, std::uint64_t seed) { wedge(figures, seed, degrees, way); }});
+        // Of points on all of the walls hardly any would be near.
+        if (!looks_for_lights(way))
+            cases.push_back({"open/wedge-power-law/" + name, "eigenvalue rho/4 B(3/4, 3/4), walls of 500: 2.4e-4",
+                             [way](Figures& figures, std::uint64_t seed) { power_law(figures, seed, way); }});
         cases.push_back({"open/corner/" + name, "rho^i 1/4 (3/4)^(i-1), walls of 1e4: 5e-4",
                          [way](Figures& figures, std::uint64_t seed) { corner(figures, seed, way); }});
         cases.push_back({"open/groove/" + name, "collocation, 1e-5",
