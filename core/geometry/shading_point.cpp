@@ -2,83 +2,117 @@
 
 #include "core/sampling/warp.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace neumann {
 
 namespace {
 
-// dp_du and dp_dv as they are, or any two tangents where the coordinates do not tell them.
-void set_tangents(ShadingPoint& p, const Vec3& normal, const Vec3& dp_du, const Vec3& dp_dv) {
-    p.dp_du = dp_du;
-    p.dp_dv = dp_dv;
-    const Vec3 tangent = dp_du - normal * glm::dot(normal, dp_du);
-    const double length = glm::length(tangent);
-    if (length > 0.0 && std::isfinite(length)) {
-        const Vec3 s = tangent / length;
-        p.frame = Frame(s, glm::cross(normal, s), normal);
-    } else {
-        p.frame = Frame(normal);
-        p.dp_du = p.frame.s;
-        p.dp_dv = p.frame.t;
-    }
+bool is_direction(const Vec3& v) {
+    const double length = glm::length(v);
+    return length > 0.0 && std::isfinite(length);
 }
 
-void shade(const TriangleMesh& mesh, ShadingPoint& p) {
-    p.mesh = &mesh;
-    const auto& t = mesh.triangles[p.primitive];
-    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+template <class T>
+T interpolate(const std::vector<T>& values, const TriangleMesh& mesh, const SurfacePoint& p) {
     const Vec3 weights = vertex_weights(mesh, p);
-    const auto interpolate = [&](const auto& values) {
-        return values[t[0]] * weights.x + values[t[1]] * weights.y + values[t[2]] * weights.z;
-    };
-    Vec3 normal = p.normal;
-    if (!mesh.normals.empty()) {
-        const Vec3 n = interpolate(mesh.normals);
-        const double length = glm::length(n);
-        if (length > 0.0 && std::isfinite(length)) normal = n / length;
+    const auto& t = mesh.triangles[p.primitive];
+    return values[t[0]] * weights.x + values[t[1]] * weights.y + values[t[2]] * weights.z;
+}
+
+Vec3 shading_normal(const TriangleMesh& mesh, const SurfacePoint& p) {
+    if (mesh.normals.empty()) return p.normal;
+    const Vec3 n = interpolate(mesh.normals, mesh, p);
+    return is_direction(n) ? n / glm::length(n) : p.normal;
+}
+template <class Round>
+Vec3 shading_normal(const Round&, const SurfacePoint& p) {
+    return p.normal;
+}
+
+// The part of dp_du across the normal; zero or not finite where there is no such direction.
+Vec3 across(const Vec3& normal, const Vec3& dp_du) { return dp_du - normal * glm::dot(normal, dp_du); }
+
+struct OnTriangle {
+    Vec3 e1, e2;                      // edges, from the first vertex
+    Vec2 d1{1.0, 0.0}, d2{0.0, 1.0};  // what u and v change by along them
+
+    OnTriangle(const TriangleMesh& mesh, std::uint32_t triangle) {
+        const auto& t = mesh.triangles[triangle];
+        e1 = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+        e2 = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+        if (mesh.uv.empty()) return;
+        d1 = mesh.uv[t[1]] - mesh.uv[t[0]];
+        d2 = mesh.uv[t[2]] - mesh.uv[t[0]];
     }
-    Vec3 dp_du(0.0), dp_dv(0.0);
-    if (!mesh.uv.empty()) {
-        p.uv = interpolate(mesh.uv);
-        const Vec2 d1 = mesh.uv[t[1]] - mesh.uv[t[0]], d2 = mesh.uv[t[2]] - mesh.uv[t[0]];
-        const double determinant = d1.x * d2.y - d1.y * d2.x;
-        dp_du = ((b - a) * d2.y - (c - a) * d1.y) / determinant;
-        dp_dv = ((c - a) * d1.x - (b - a) * d2.x) / determinant;
-    } else {
-        p.uv = {weights.y, weights.z};
-        dp_du = b - a;
-        dp_dv = c - a;
+    double determinant() const { return d1.x * d2.y - d1.y * d2.x; }
+};
+Vec3 along_u(const TriangleMesh& mesh, const SurfacePoint& p) {
+    const OnTriangle t(mesh, p.primitive);
+    return (t.e1 * t.d2.y - t.e2 * t.d1.y) / t.determinant();
+}
+Vec3 along_v(const TriangleMesh& mesh, const SurfacePoint& p) {
+    const OnTriangle t(mesh, p.primitive);
+    return (t.e2 * t.d1.x - t.e1 * t.d2.x) / t.determinant();
+}
+Vec2 coordinates(const TriangleMesh& mesh, const SurfacePoint& p) {
+    if (!mesh.uv.empty()) return interpolate(mesh.uv, mesh, p);
+    const Vec3 weights = vertex_weights(mesh, p);
+    return {weights.y, weights.z};
+}
+
+Vec3 on_unit_sphere(const Sphere& sphere, const SurfacePoint& p) {
+    return sphere.axes.to_local((p.position - sphere.center) / sphere.radius);
+}
+Vec3 along_u(const Sphere& sphere, const SurfacePoint& p) {
+    const Vec3 n = on_unit_sphere(sphere, p);
+    return sphere.axes.to_world({-n.y, n.x, 0.0}) * (2.0 * pi * sphere.radius);
+}
+Vec3 along_v(const Sphere& sphere, const SurfacePoint& p) {
+    const Vec3 n = on_unit_sphere(sphere, p);
+    const double from_axis = std::hypot(n.x, n.y);
+    return sphere.axes.to_world({n.z * n.x / from_axis, n.z * n.y / from_axis, -from_axis}) * (pi * sphere.radius);
+}
+Vec2 coordinates(const Sphere& sphere, const SurfacePoint& p) {
+    const Vec3 n = on_unit_sphere(sphere, p);
+    return {part_of_circle(n.x, n.y), std::atan2(std::hypot(n.x, n.y), n.z) / pi};
+}
+
+struct OnDisk {
+    Vec2 local;  // in units of its axes
+    double r;
+
+    OnDisk(const Disk& disk, const SurfacePoint& p) {
+        const Vec3 x = p.position - disk.center, n = glm::cross(disk.u, disk.v);
+        const double square = glm::dot(n, n);
+        local = {glm::dot(glm::cross(x, disk.v), n) / square, glm::dot(glm::cross(disk.u, x), n) / square};
+        r = glm::length(local);
     }
-    set_tangents(p, normal, dp_du, dp_dv);
+    Vec2 outwards() const { return r > 0.0 ? local / r : Vec2(1.0, 0.0); }
+};
+Vec3 along_u(const Disk& disk, const SurfacePoint& p) {
+    const Vec2 outwards = OnDisk(disk, p).outwards();
+    return disk.u * outwards.x + disk.v * outwards.y;
+}
+// Mitsuba leaves 2π r out, which makes its bump maps on discs depend on their size.
+Vec3 along_v(const Disk& disk, const SurfacePoint& p) {
+    const OnDisk at(disk, p);
+    const Vec2 outwards = at.outwards();
+    return (disk.v * outwards.x - disk.u * outwards.y) * (2.0 * pi * at.r);
+}
+Vec2 coordinates(const Disk& disk, const SurfacePoint& p) {
+    const OnDisk at(disk, p);
+    return {at.r, part_of_circle(at.local.x, at.local.y)};
 }
 
-void shade(const Sphere& sphere, ShadingPoint& p) {
-    const Vec3 n = sphere.axes.to_local((p.position - sphere.center) / sphere.radius);
-    const double across = std::hypot(n.x, n.y);
-    p.uv = {part_of_circle(n.x, n.y), std::atan2(across, n.z) / pi};
-    const Vec3 dp_du = sphere.axes.to_world({-n.y, n.x, 0.0});
-    const Vec3 dp_dv = sphere.axes.to_world({n.z * n.x / across, n.z * n.y / across, -across});
-    set_tangents(p, p.normal, dp_du * (2.0 * pi * sphere.radius), dp_dv * (pi * sphere.radius));
-}
-
-void shade(const Disk& disk, ShadingPoint& p) {
-    const Vec3 x = p.position - disk.center, n = glm::cross(disk.u, disk.v);
-    const double square = glm::dot(n, n);
-    const Vec2 local(glm::dot(glm::cross(x, disk.v), n) / square, glm::dot(glm::cross(disk.u, x), n) / square);
-    const double r = glm::length(local);
-    p.uv = {r, part_of_circle(local.x, local.y)};
-    const Vec2 outwards = r > 0.0 ? local / r : Vec2(1.0, 0.0);
-    // Mitsuba leaves 2π r out of the second, which makes its bump maps on discs depend on their size.
-    set_tangents(p, p.normal, disk.u * outwards.x + disk.v * outwards.y,
-                 (disk.v * outwards.x - disk.u * outwards.y) * (2.0 * pi * r));
-}
-
-void shade(const Cylinder& cylinder, ShadingPoint& p) {
+Vec3 along_u(const Cylinder& cylinder, const SurfacePoint& p) {
     const Vec3 x = cylinder.axes.to_local(p.position - cylinder.base);
-    p.uv = {part_of_circle(x.x, x.y), x.z / cylinder.length};
-    set_tangents(p, p.normal, cylinder.axes.to_world({-x.y, x.x, 0.0}) * (2.0 * pi), cylinder.axis * cylinder.length);
+    return cylinder.axes.to_world({-x.y, x.x, 0.0}) * (2.0 * pi);
+}
+Vec3 along_v(const Cylinder& cylinder, const SurfacePoint&) { return cylinder.axis * cylinder.length; }
+Vec2 coordinates(const Cylinder& cylinder, const SurfacePoint& p) {
+    const Vec3 x = cylinder.axes.to_local(p.position - cylinder.base);
+    return {part_of_circle(x.x, x.y), x.z / cylinder.length};
 }
 
 }  // namespace
@@ -92,10 +126,34 @@ Vec3 vertex_weights(const TriangleMesh& mesh, const SurfacePoint& p) {
     return {1.0 - v - w, v, w};
 }
 
-ShadingPoint shading_point(const Shape& shape, const SurfacePoint& surface_point) {
-    ShadingPoint p{surface_point};
-    std::visit([&](const auto& s) { shade(s, p); }, shape);
-    return p;
+ShadingPoint shading_point(const Shape& shape, const SurfacePoint& p) {
+    return std::visit(
+        [&](const auto& s) -> ShadingPoint {
+            const Vec3 normal = shading_normal(s, p), tangent = across(normal, along_u(s, p));
+            if (!is_direction(tangent)) return {p, &shape, Frame(normal)};
+            const Vec3 x = tangent / glm::length(tangent);
+            return {p, &shape, Frame(x, glm::cross(normal, x), normal)};
+        },
+        shape);
+}
+
+ShadingPoint point_with_coordinates(const Vec2& uv) {
+    static const Shape triangle = TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    return shading_point(triangle, {{uv, 0.0}, {0.0, 0.0, 1.0}});
+}
+
+Vec2 texture_coordinates(const ShadingPoint& p) {
+    return std::visit([&](const auto& s) { return coordinates(s, p); }, *p.on);
+}
+
+Tangents tangents(const ShadingPoint& p) {
+    return std::visit(
+        [&](const auto& s) -> Tangents {
+            const Vec3 dp_du = along_u(s, p);
+            if (!is_direction(across(shading_normal(s, p), dp_du))) return {p.frame.s, p.frame.t};
+            return {dp_du, along_v(s, p)};
+        },
+        *p.on);
 }
 
 bool has_smooth_normals(const Shape& shape) {

@@ -30,7 +30,7 @@ public:
     SurfaceSide side(const SurfacePoint& p, const Vec3& w) const {
         if (is_flat_[p.shape]) {
             const bool front = glm::dot(p.normal, w) > 0.0;
-            return {at(p.shape, front), {p, {}, {}, {}, Frame(front ? p.normal : -p.normal)}};
+            return {at(p.shape, front), {p, nullptr, Frame(front ? p.normal : -p.normal)}};
         }
         SurfaceSide side{nullptr, shading_point((*shapes_)[p.shape], p)};
         const bool front = glm::dot(side.p.frame.n, w) > 0.0;

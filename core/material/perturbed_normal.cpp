@@ -14,8 +14,9 @@ double tangent_squared(const Vec3& w) { return (w.x * w.x + w.y * w.y) / (w.z * 
 
 Vec3 bump_normal(const ShadingPoint& p, const Vec2& slope) {
     const Vec3 &s = p.frame.s, &t = p.frame.t;
-    const Vec3 n = glm::cross(Vec3(glm::dot(s, p.dp_du), glm::dot(t, p.dp_du), slope.x),
-                              Vec3(glm::dot(s, p.dp_dv), glm::dot(t, p.dp_dv), slope.y));
+    const auto [dp_du, dp_dv] = tangents(p);
+    const Vec3 n =
+        glm::cross(Vec3(glm::dot(s, dp_du), glm::dot(t, dp_du), slope.x), Vec3(glm::dot(s, dp_dv), glm::dot(t, dp_dv), slope.y));
     // Seen from behind, the frame's z points to the back.
     const Vec3 front = glm::cross(s, t);
     return glm::dot(p.normal, s * n.x + t * n.y + front * n.z) < 0.0 ? -n : n;

@@ -37,11 +37,7 @@ std::optional<Slide> read_slide(Properties& p, const std::string& name, const Co
     for (const auto& [attribute, place] : mesh_attributes_of(*e, context.objects))
         throw InputError(place->place, fmt::format("the mesh attribute '{}' is thrown by a light, which has no mesh", attribute));
     const Texture texture = read_not_negative(*e, name, Illuminant::equal_energy, context);
-    const auto at = [f = texture.value](const Vec2& uv) {
-        ShadingPoint p;
-        p.uv = uv;
-        return f(p);
-    };
+    const auto at = [f = texture.value](const Vec2& uv) { return f(point_with_coordinates(uv)); };
     return Slide(at, texture.width, texture.height, texture.value.is_grey());
 }
 

@@ -30,9 +30,10 @@ Texture read_bitmap(Properties& p, const Context& context) {
                                        : wrap == "mirror" ? Wrap::mirror
                                                           : Wrap::clamp,
                                        raw);
-    return {{[bitmap, to_uv](const ShadingPoint& at) { return (*bitmap)(to_uv(at.uv)); }, bitmap->largest(), bitmap->is_grey()},
+    return {{[bitmap, to_uv](const ShadingPoint& at) { return (*bitmap)(to_uv(texture_coordinates(at))); }, bitmap->largest(),
+             bitmap->is_grey()},
             bitmap->smallest(),
-            [bitmap, to_uv](const ShadingPoint& at) { return to_uv.slope(bitmap->slope(to_uv(at.uv))); },
+            [bitmap, to_uv](const ShadingPoint& at) { return to_uv.slope(bitmap->slope(to_uv(texture_coordinates(at)))); },
             bitmap->width(),
             bitmap->height()};
 }
@@ -43,7 +44,7 @@ Texture read_checkerboard(Properties& p, Illuminant illuminant, const Context& c
     const UvTransform to_uv(p.transform("to_uv"));
     p.finish();
     return {{[color0, color1, to_uv](const ShadingPoint& at) {
-                 const Vec2 uv = to_uv(at.uv), part = uv - glm::floor(uv);
+                 const Vec2 uv = to_uv(texture_coordinates(at)), part = uv - glm::floor(uv);
                  return ((part.x > 0.5) == (part.y > 0.5) ? color0 : color1)(at);
              },
              glm::max(color0.upper_bound(), color1.upper_bound()), color0.is_grey() && color1.is_grey()}};
@@ -60,11 +61,12 @@ Texture read_mesh_attribute(Properties& p, const Context& context) {
     p.finish();
     const TextureStore::Range range = context.textures.attributes[name];
     return {{[name, scale](const ShadingPoint& at) {
-                 const MeshAttribute& a = *at.mesh->attribute(name);
+                 const auto& mesh = std::get<TriangleMesh>(*at.on);
+                 const MeshAttribute& a = *mesh.attribute(name);
                  const auto value = [&](std::uint32_t i) { return Rgb(a.values[i][0], a.values[i][1], a.values[i][2]); };
                  if (a.of_triangles) return value(at.primitive) * scale;
-                 const auto& t = at.mesh->triangles[at.primitive];
-                 const Vec3 w = glm::max(vertex_weights(*at.mesh, at), 0.0);
+                 const auto& t = mesh.triangles[at.primitive];
+                 const Vec3 w = glm::max(vertex_weights(mesh, at), 0.0);
                  return (value(t[0]) * w.x + value(t[1]) * w.y + value(t[2]) * w.z) * (scale / (w.x + w.y + w.z));
              },
              range.largest * scale},

@@ -24,15 +24,16 @@ std::string refusal(const Surface& surface, std::vector<Origin> origins = {}) {
     return "none";
 }
 
-const SurfaceFunction varying([](const ShadingPoint& p) { return Rgb(p.uv.x); }, Rgb(1.0));
+const SurfaceFunction varying([](const ShadingPoint& p) { return Rgb(texture_coordinates(p).x); }, Rgb(1.0));
 
 TEST(PatchRefusals, OfMixedGlass) {
     const std::vector<Origin> origins = {{{"room.xml", 3, 1}, "shape 'sphere'", "bsdf 'diffuse'"},
                                          {{"room.xml", 7, 5}, "shape 'sphere'", "bsdf 'mask'"}};
     const auto glass = std::make_shared<const Bsdf>(Dielectric(1.5)), matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.5)));
-    EXPECT_EQ(refusal(made_of(Mask(glass, Rgb(0.5))), origins),
-              "room.xml:7:5: bsdf 'mask' of shape 'sphere' lets light through otherwise than glass does, which patches do not hold; "
-              "'render --method walk' can");
+    EXPECT_EQ(
+        refusal(made_of(Mask(glass, Rgb(0.5))), origins),
+        "room.xml:7:5: bsdf 'mask' of shape 'sphere' lets light through otherwise than glass does, which patches do not hold; "
+        "'render --method walk' can");
     EXPECT_EQ(refusal(made_of(Blend(matt, glass, Rgb(0.5)))),
               "the material of shape 1 lets light through otherwise than glass does, which patches do not hold; "
               "'render --method walk' can");

@@ -100,17 +100,16 @@ TEST(AnisotropicMetal, TurnsWithItsTangents) {
 }
 
 TEST(VaryingRoughness, IsThatOfThePoint) {
-    const SurfaceFunction u([](const ShadingPoint& p) { return Rgb(0.1 + p.uv.x); }, Rgb(1.1));
-    const SurfaceFunction v([](const ShadingPoint& p) { return Rgb(p.uv.y); }, Rgb(1.0));
+    const SurfaceFunction u([](const ShadingPoint& p) { return Rgb(0.1 + texture_coordinates(p).x); }, Rgb(1.1));
+    const SurfaceFunction v([](const ShadingPoint& p) { return Rgb(texture_coordinates(p).y); }, Rgb(1.0));
     const Bsdf bsdf = RoughConductor<Beckmann>(Roughness<Beckmann>(u, v), gold);
-    ShadingPoint p;
-    p.uv = {0.2, 0.5};
+    ShadingPoint p = point_with_coordinates({0.2, 0.5});
     const Bsdf here = RoughConductor(Beckmann(Vec2(0.1 + 0.2, 0.5)), gold);
     const Vec3 wo = views[2], wi = views[3];
     EXPECT_EQ(eval(bsdf, p, wo, wi), eval(here, {}, wo, wi));
     EXPECT_EQ(pdf(bsdf, p, wo, wi), pdf(here, {}, wo, wi));
     EXPECT_EQ(sample(bsdf, p, wo, Vec2(0.3, 0.6)).wi, sample(here, {}, wo, Vec2(0.3, 0.6)).wi);
-    p.uv.y = 0.0;
+    p = point_with_coordinates({0.2, 0.0});
     EXPECT_EQ(eval(bsdf, p, wo, wi), eval(Bsdf(RoughConductor(Beckmann(Vec2(0.1 + 0.2, 1e-4)), gold)), {}, wo, wi));
     EXPECT_TRUE(needs_coordinates(bsdf));
     EXPECT_FALSE(is_constant(bsdf));

@@ -69,7 +69,7 @@ TEST(Mask, ItsBoundsHold) {
     const auto half = shared(Diffuse(Rgb(0.2, 0.4, 0.6)));
     EXPECT_EQ(largest_albedo(Mask(half, Rgb(0.5))), Rgb(0.6, 0.7, 0.8));
     EXPECT_EQ(largest_albedo(Mask(nullptr, Rgb(0.25))), Rgb(0.75));
-    const SurfaceFunction varying([](const ShadingPoint& p) { return Rgb(p.uv.x); }, Rgb(1.0));
+    const SurfaceFunction varying([](const ShadingPoint& p) { return Rgb(texture_coordinates(p).x); }, Rgb(1.0));
     EXPECT_EQ(largest_albedo(Mask(half, varying)), Rgb(1.0));
     EXPECT_TRUE(needs_coordinates(Mask(half, varying)));
     EXPECT_FALSE(is_constant(Mask(half, varying)));
@@ -128,11 +128,10 @@ TEST(Blend, OverlappingLobesHaveOneDensity) {
 
 // Two matt materials are a matt one.
 TEST(Blend, OfMattMaterialsIsMatt) {
-    const SurfaceFunction weight([](const ShadingPoint& p) { return Rgb(p.uv.x); }, Rgb(0.75));
+    const SurfaceFunction weight([](const ShadingPoint& p) { return Rgb(texture_coordinates(p).x); }, Rgb(0.75));
     const auto dark = shared(Diffuse(Rgb(0.2))), light = shared(Diffuse(Rgb(0.6, 0.7, 0.8)));
     const Bsdf bsdf = Blend(dark, light, weight);
-    ShadingPoint p;
-    p.uv = {0.5, 0.0};
+    const ShadingPoint p = point_with_coordinates({0.5, 0.0});
     EXPECT_EQ(lobe(bsdf).kind, Lobe::Kind::diffuse);
     EXPECT_TRUE(factors(bsdf));
     EXPECT_FALSE(transmits(bsdf));

@@ -38,12 +38,9 @@ TEST(PerturbedNormals, BumpsOfAHeightField) {
     for (const auto& [du, dv] : {std::pair(Vec3(2, 0, 0), Vec3(0, 3, 0)), std::pair(Vec3(2, 0, 0), Vec3(1, 3, 0)),
                                  std::pair(Vec3(0, -1, 0), Vec3(0.2, 0.1, 0)), std::pair(Vec3(1, 0, 0), Vec3(0, -1, 0))}) {
         for (const bool front : {true, false}) {
-            ShadingPoint p;
-            p.normal = {0, 0, 1};
-            p.dp_du = du;
-            p.dp_dv = dv;
-            const Vec3 s = glm::normalize(du);
-            p.frame = Frame(s, glm::cross(Vec3(0, 0, 1), s), {0, 0, 1});
+            const Shape triangle = TriangleMesh{{{0, 0, 0}, du, dv}, {{0, 1, 2}}};
+            ShadingPoint p = shading_point(triangle, {{0, 0, 0}, {0, 0, 1}});
+            const Vec3 s = p.frame.s;
             if (!front) p.frame = p.frame.other_side();
             const Vec3 n = bump_normal(p, {gradient.x * du.x + gradient.y * du.y, gradient.x * dv.x + gradient.y * dv.y});
             const Vec3 found = glm::normalize(s * n.x + p.frame.t * n.y + Vec3(0, 0, 1) * n.z);

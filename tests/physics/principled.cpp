@@ -199,12 +199,11 @@ TEST(Principled, ReflectsNoMoreThanWasMeasured) {
 // A texture of weights is bounded as its ends are.
 TEST(Principled, VariesOverTheSurface) {
     auto v = parameters(orange, 0.5);
-    v->metallic = SurfaceFunction([](const ShadingPoint& p) { return Rgb(p.uv.x); }, Rgb(1.0));
+    v->metallic = SurfaceFunction([](const ShadingPoint& p) { return Rgb(texture_coordinates(p).x); }, Rgb(1.0));
     const Bsdf varying = Principled(v, Side::outside);
     EXPECT_FALSE(is_constant(varying));
     EXPECT_TRUE(needs_coordinates(varying));
-    ShadingPoint p;
-    p.uv.x = 0.3;
+    const ShadingPoint p = point_with_coordinates({0.3, 0.0});
     auto here = parameters(orange, 0.5);
     Rgb largest(0.0);
     for (const double metallic : {0.0, 1.0, 0.3}) {

@@ -29,7 +29,8 @@ TEST(TexturedScenes, RectangleUnderAWhiteSky) {
     for (const Bitmap::Filter filter : {Bitmap::Filter::nearest, Bitmap::Filter::bilinear}) {
         const auto picture = bitmap(3, 2, texels, filter, Bitmap::Wrap::repeat);
         SceneMaker maker;
-        const SurfaceFunction reflectance([picture](const ShadingPoint& p) { return (*picture)(p.uv); }, picture->largest());
+        const SurfaceFunction reflectance([picture](const ShadingPoint& p) { return (*picture)(texture_coordinates(p)); },
+                                          picture->largest());
         const std::uint32_t floor = maker.add(make_rectangle(Mat4(1.0)), made_of(Diffuse(reflectance)));
         maker.add(Sphere{{0, 0, 0}, 5.0, true}, lamp(1.0));
         const Scene scene = maker.make();
@@ -46,9 +47,9 @@ TEST(TexturedScenes, LampWithATexture) {
     const auto radiance = [](double x) { return 4.0 * std::min(std::max(x + 0.5, 0.0), 1.0); };
     SceneMaker maker;
     const Mat4 above = {{1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 1, 1}};
-    maker.add(
-        make_rectangle(above),
-        {std::nullopt, AreaLight([picture](const ShadingPoint& p, const Vec3&) { return (*picture)(p.uv); }, picture->largest())});
+    maker.add(make_rectangle(above),
+              {std::nullopt, AreaLight([picture](const ShadingPoint& p, const Vec3&) { return (*picture)(texture_coordinates(p)); },
+                                       picture->largest())});
     maker.add(parallelogram({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}), matte(1.0));
     const Scene scene = maker.make();
     for (const double x : {0.0, 0.8}) {

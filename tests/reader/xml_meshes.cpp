@@ -104,14 +104,16 @@ TEST_F(XmlMeshes, RoundShapesKnowHowTheyAreTurned) {
     const SceneParts parts = read("<shape type='sphere'>" + turned + "</shape><shape type='cylinder'>" + turned +
                                   "</shape><shape type='cylinder'><point name='p0' x='0' y='0' z='0'/>"
                                   "<point name='p1' x='0' y='0' z='-3'/></shape>");
-    const auto u_at = [&](std::size_t shape, const Vec3& p) { return shading_point(parts.shapes[shape], {p, {0, 0, 1}}).uv.x; };
+    const auto u_at = [&](std::size_t shape, const Vec3& p) {
+        return texture_coordinates(shading_point(parts.shapes[shape], {p, {0, 0, 1}})).x;
+    };
     // What was at +x, where u = 0, is at +y.
     EXPECT_NEAR(u_at(0, {5, 2, 0}), 0.0, 1e-15);
     EXPECT_NEAR(u_at(0, {3, 0, 0}), 0.25, 1e-15);
     EXPECT_NEAR(u_at(1, {5, 2, 1}), 0.0, 1e-15);
     EXPECT_NEAR(u_at(1, {3, 0, 1}), 0.25, 1e-15);
-    EXPECT_NEAR(shading_point(parts.shapes[1], {{3, 0, 1.5}, {0, 0, 1}}).uv.y, 0.75, 1e-15);
-    EXPECT_NEAR(shading_point(parts.shapes[2], {{1, 0, -1}, {0, 0, 1}}).uv.y, 1.0 / 3.0, 1e-15);
+    EXPECT_NEAR(texture_coordinates(shading_point(parts.shapes[1], {{3, 0, 1.5}, {0, 0, 1}})).y, 0.75, 1e-15);
+    EXPECT_NEAR(texture_coordinates(shading_point(parts.shapes[2], {{1, 0, -1}, {0, 0, 1}})).y, 1.0 / 3.0, 1e-15);
 }
 
 }  // namespace neumann

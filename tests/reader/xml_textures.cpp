@@ -30,9 +30,7 @@ protected:
         return read("<shape type='rectangle'><bsdf type='diffuse'>" + texture + "</bsdf></shape>");
     }
     static Rgb at(const SceneParts& parts, double u, double v) {
-        ShadingPoint p;
-        p.uv = {u, v};
-        return reflectance(parts.bsdfs.at(0), p);
+        return reflectance(parts.bsdfs.at(0), point_with_coordinates({u, v}));
     }
     // A square of two triangles, with colours of vertices and faces.
     void write_colours() const {
@@ -134,9 +132,7 @@ TEST_F(XmlTextures, AreaLights) {
         "<texture name='radiance' type='bitmap'><string name='filename' value='two.exr'/></texture>"
         "</emitter></shape>");
     EXPECT_EQ(parts.lights.area.at(0).largest, Rgb(1.0, 1.5, 2.0));
-    ShadingPoint p;
-    p.uv = {0.75, 0.5};
-    EXPECT_EQ(parts.lights.area.at(0).function(p, {0, 0, 1}), Rgb(1.0, 1.5, 0.0));
+    EXPECT_EQ(parts.lights.area.at(0).function(point_with_coordinates({0.75, 0.5}), {0, 0, 1}), Rgb(1.0, 1.5, 0.0));
 }
 
 TEST_F(XmlTextures, PicturesAreInTheHash) {
