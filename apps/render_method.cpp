@@ -13,7 +13,8 @@ namespace {
 
 // Bounces without any request: until the rest is below this part of the sum.
 constexpr double default_tail = 0.01;
-constexpr int default_most_bounces = 64, default_bounces_without_end = 16;
+// At least the last of the sums that strip-doubling shows.
+constexpr int default_least_bounces = 16, default_most_bounces = 64;
 
 // Those of the plan that the method takes.
 std::vector<bool LeftOut::*> decisions(const RenderRequest& request) {
@@ -63,8 +64,10 @@ int choose_bounces(const RenderJob& job) {
         return n;
     }
     if (scene.bounces) return *scene.bounces;
-    const int n = pilot.bounces_for_tail(default_tail);
-    return n < 0 || !pilot.converges() ? default_bounces_without_end : std::min(n, default_most_bounces);
+    const int n = pilot.converges() ? pilot.bounces_for_tail(default_tail) : -1;
+    const int enough = n < 0 ? default_least_bounces : std::clamp(n, default_least_bounces, default_most_bounces);
+    const int end = pilot.bounces_for_tail(0.0);
+    return end < 0 ? enough : std::min(enough, end);
 }
 
 RenderResult render_by_method(const RenderJob& job) {

@@ -258,9 +258,8 @@ StartPicker anywhere_on(const Scene& scene, std::uint32_t shape) {
         cumulative.push_back(scene.geometry.area(shape, i) + (i ? cumulative.back() : 0.0));
     return [&geometry = scene.geometry, shape, cumulative](Random& random) {
         const double choice = random.next() * cumulative.back();
-        std::uint32_t primitive = 0;
-        while (primitive + 1 < cumulative.size() && cumulative[primitive] <= choice) ++primitive;
-        const SurfacePoint p = geometry.point(shape, primitive, random.next2());
+        const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, choice);
+        const SurfacePoint p = geometry.point(shape, static_cast<std::uint32_t>(found - cumulative.begin()), random.next2());
         return Start{p, p.normal};
     };
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t pilot_stream = 0x70696c6f74ull;  // another seed than the pictures'
 constexpr std::uint64_t batch = 64, largest_batches = 256;
-constexpr std::uint64_t enough_rays = 4'000'000;
+constexpr std::uint64_t enough_rays = 1'000'000;
 
 }  // namespace
 
