@@ -1,5 +1,5 @@
-# What `cmake --install` puts where, and the Debian packages that cpack makes of it: neumann, the program with its manual and scenes, and
-# libneumann-dev, the libraries with headers and CMake package.
+# What `cmake --install` puts where, and the Debian packages that cpack makes of it: neumann, the program with its manual and scenes,
+# libneumann-dev, the libraries with headers and CMake package, and python3-neumann, the module, where it is built.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(packaging ${PROJECT_SOURCE_DIR}/apps/packaging)
@@ -45,7 +45,7 @@ install(FILES ${PROJECT_BINARY_DIR}/neumannConfig.cmake ${PROJECT_BINARY_DIR}/ne
   DESTINATION ${package} COMPONENT development)
 install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libneumann-dev COMPONENT development)
 
-# One package a component; a component that is not named here, such as that of the Python module, is left out.
+# One package a component.
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
@@ -72,4 +72,19 @@ libfmt-dev, libboost-dev, libeigen3-dev, libspectra-dev, librandom123-dev, libxx
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "operators of the rendering equation, development files
  Static libraries, headers and CMake package of neumann: scenes, T, R,
  K = R T, the Neumann series, its solvers and its statistics.")
+if(NEUMANN_PYTHON)
+  # It is compiled for one Python, as packages of Debian's are.
+  math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+  install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-neumann COMPONENT python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-neumann)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, python3-scipy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, neumann")
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "bounces of light as NumPy arrays
+ The Python module of neumann: renders, the matrices T and R of a scene, the
+ spectrum of K = R T, solvers, series, plans and studies.")
+endif()
 include(CPack)

@@ -1,4 +1,5 @@
-# Makes the Debian packages, and looks what is in them and what they depend on. cmake -DBUILD=… -DFOLDER=… -P packages.cmake
+# Makes the Debian packages, and looks what is in them and what they depend on. cmake -DBUILD=… -DFOLDER=… -DPYTHON=…
+# -P packages.cmake, with PYTHON true where the module is built.
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE ${FOLDER})
@@ -35,4 +36,9 @@ expect(neumann
 expect(libneumann-dev
   "Package: libneumann-dev\n;Section: libdevel\n;Depends: [^\n]*libembree-dev"
   "include/neumann/core/scene/scene.h;include/neumann/operators/series/neumann_series.h;share/doc/libneumann-dev/copyright")
+if(PYTHON)
+  expect(python3-neumann
+    "Package: python3-neumann\n;Section: python\n;Depends: [^\n]*python3-numpy, python3-scipy, [^\n]*libembree;Recommends: python3-matplotlib"
+    "lib/python3/dist-packages/neumann/__init__.py;lib/python3/dist-packages/neumann/py.typed;share/doc/python3-neumann/copyright")
+endif()
 file(REMOVE_RECURSE ${FOLDER})
