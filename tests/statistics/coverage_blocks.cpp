@@ -1,4 +1,4 @@
-// The written errors are right: 95% intervals hold the truth in 95% of the cases, counted on means of blocks of 16×16 pixels of
+// The written errors are right: 95% intervals hold the truth in 95% of the cases, counted on means of blocks of 8×8 pixels of
 // small pictures with many seeds. Both scenes have answers that are known exactly, for every pixel and every bounce. A pass is 93%
 // … 97%, for each sampler and bounce over at least 10,240 intervals of both scenes together (the count itself is uncertain by
 // ±0.43%, 2σ), and for each scene by itself over 5120 (±0.61%): intervals that are right fail with a probability below 1e-10.
@@ -18,7 +18,7 @@
 namespace neumann {
 namespace {
 
-constexpr int resolution = 64, block = 16, bounces = 6;
+constexpr int resolution = 32, block = 8, bounces = 6;
 constexpr std::uint64_t first_seed = 1;
 
 // A scene and the exact means over every pixel of K^0 Le … K^N Le.
