@@ -82,6 +82,8 @@ if(NEUMANN_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, python3-scipy")
+  # They compile it, and take what was compiled away with it.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${packaging}/python/postinst;${packaging}/python/prerm")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, neumann")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION "bounces of light as NumPy arrays
  The Python module of neumann: renders, the matrices T and R of a scene, the
