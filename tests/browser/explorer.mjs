@@ -242,6 +242,19 @@ for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
   await phone.locator("#stage").click();
   await settled(phone);
   await expectNoSidewaysScroll(phone);
+  // Two fingers that part from 40 to 120 pixels zoom three times, and what was between them stays there.
+  const box = await phone.locator("#stage").boundingBox();
+  const middle = { x: box.x + 0.4 * box.width, y: box.y + 0.5 * box.height };
+  const between = () => phone.evaluate(({ clientX, clientY }) => pixelAt({ clientX, clientY }), { clientX: middle.x, clientY: middle.y });
+  const touch = await phone.context().newCDPSession(phone);
+  const fingers = apart => [-0.5, 0.5].map((part, id) => ({ x: middle.x + part * apart, y: middle.y, id }));
+  const pixel = await between();
+  await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: fingers(40) });
+  for (let apart = 50; apart <= 120; apart += 10) await touch.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: fingers(apart) });
+  await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await settled(phone);
+  expectClose(await phone.evaluate(() => state.zoom), 3, 0.01, "zoom of two fingers");
+  assert.deepEqual(await between(), pixel);
 }
 
 await browser.close();
