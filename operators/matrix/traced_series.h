@@ -30,7 +30,7 @@ struct TracedSeries {
     std::uint64_t rays = 0;        // cast
     std::uint64_t light_rays = 0;  // of these, for b
     bool rest_converges = false;
-    std::vector<PowerOfTerm> power;  // of the terms 0 … N; of light only
+    std::vector<PowerOfTerm> power = {};  // of the terms 0 … N; of light only
 };
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace neumann::known {
@@ -78,10 +79,8 @@ Cases extreme_material_cases() {
                                  probe(scene, seen(scene, {0.01, 0.02, 3}, {0, 0, -1}), Way::mis,
                                        {.samples = 65536, .bounces = 4, .sampler = SamplerKind::independent, .seed = seed});
                              if (index > 2.0) {
-                                 std::vector<double> exact{R};
-                                 for (int i = 2; i <= 4; ++i) exact.push_back((1.0 - R) * (1.0 - R) * std::pow(R, i - 2));
-                                 exact.resize(3);
-                                 figures.terms(found, exact);
+                                 const double through = (1.0 - R) * (1.0 - R);
+                                 figures.terms(found, std::array{R, through, through * R});
                              } else {
                                  // A walk in 4e12 is reflected.
                                  figures.near("K^2 Le", found.terms[2].mean.r, 1.0, 1e-12);
