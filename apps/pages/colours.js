@@ -41,7 +41,7 @@ const shownAs = {
   false(series, ref, exposure) {
     const mean = series.mean(ref), n = series.pixels, high = 1 / exposure, low = high / 1e4;
     return { ...scaled(viridis, low, high, true, p => luminance(mean[p], mean[p + n], mean[p + 2 * n])),
-             quantity: `${series.importance ? "importance" : "luminance of the radiance"}, ${series.unit}` };
+             quantity: `${series.importance ? "importance" : "luminance of the radiance"}, ${series.unit}; 0 is black` };
   },
   noise(series, ref) {
     const mean = series.mean(ref), n = series.pixels, errors = series.errors(ref), channels = [0, n, 2 * n];
@@ -51,7 +51,7 @@ const shownAs = {
       return e === 0 ? 0 : e === Infinity ? NaN : e / Math.hypot(...channels.map(c => mean[p + c]));
     };
     return { ...scaled(viridis, 1e-3, 1, true, relative), relative,
-             quantity: "standard error of a pixel / its value" + (errors ? "; grey where it is not known" : ": not in the files") };
+             quantity: "standard error of a pixel / its value" + (errors ? "; grey where it is not known, black where all samples agree" : ": not in the files") };
   },
   difference(series, ref, exposure, other, otherRef) {
     return { ...scaled(signed, -1 / exposure, 1 / exposure, false, difference(series, ref, other, otherRef).value),

@@ -35,7 +35,7 @@ const drawNotes = () => {
   $("pixel").setAttribute("aria-label", "The chosen pixel's bounces in red, green and blue on a logarithmic axis");
   $("error").setAttribute("aria-label", "Relative standard error of the bounces and the sum against seconds");
   $("error-note").textContent = "Relative standard error √(Σ SE² / Σ mean²) of the bounce that is shown and of the sum; the other bounces in grey." +
-    (all.some(s => s.convergence.length === 1) ? " Where there is one point, errors at fewer samples were not taken." : "");
+    (all.some(s => s.convergence.filter(row => Number.isFinite(row.relative_stderr_sum)).length === 1) ? " Where there is one point, errors at fewer samples were not taken." : "");
 };
 
 // What is shown, in words and on the controls.
@@ -136,7 +136,9 @@ document.addEventListener("keydown", event => {
     return;
   }
   // What a control does with a key itself.
-  if (on.matches("select") || (on.matches("input") && (arrow || ["Home", "End", " "].includes(event.key))) || (on.matches("button, summary, a") && [" ", "Enter"].includes(event.key))) return;
+  const own = { "select": () => true, "[type=range]": () => arrow || ["Home", "End"].includes(event.key), "[type=radio]": () => arrow || event.key === " ",
+                "[type=checkbox]": () => event.key === " ", "button, summary, a": () => [" ", "Enter"].includes(event.key) };
+  if (Object.entries(own).some(([kind, does]) => on.matches(kind) && does())) return;
   const key = keys.find(k => k[2].includes(event.key));
   if (!key) return;
   key[3](event.key);
@@ -222,7 +224,7 @@ drawNotes();
 
 // First what is seen first.
 const loadAll = async () => {
-  if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot unpack the pictures: it takes Chrome 80, Firefox 113, Safari 16.4 or later.");
+  if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot unpack the pictures: it takes Chrome 86, Firefox 113, Safari 16.4 or later.");
   for (const s of all) await s.load(state.i);
   draw();
   for (const s of all) for (let i = 0; i < s.heads.length; ++i) if (!s.planes[i]) await s.load(i);

@@ -104,7 +104,8 @@ const drawReadout = () => {
     const errors = s.errors(ref), patches = s.errors(ref, "_discretisation"), values = [0, 1, 2].map(c => s.meanAt(ref, p + c * n));
     const size = Math.hypot(...values), relative = errors && Math.hypot(...[0, 1, 2].map(c => errors(p + c * n))) / size;
     const text = [["", runName(s) + s.title(ref)], ...["red", "green", "blue"].map((name, c) => [name, withInterval(values[c], s.halfInterval(ref, p + c * n))])];
-    if (errors && size > 0) text.push(["relative error", Number.isFinite(relative) ? `${number(100 * relative, 2)}%` : "unknown"]);
+    if (errors && size > 0) text.push(["relative standard error", Number.isFinite(relative) ? `${number(100 * relative, 2)}%` : "unknown"]);
+    if (errors && values.some((v, c) => v === 0 && errors(p + c * n) === 0)) text.push(["", "0: no light in any sample"]);
     if (patches) text.push(["discretisation", [0, 1, 2].map(c => number(patches(p + c * n), 2)).join(", ")]);
     const line = element("div", undefined, "values");
     text.forEach(([name, value]) => { const part = element("span"); part.append(element("span", name && name + " ", "dim"), value); line.append(part); });

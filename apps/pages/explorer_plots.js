@@ -84,7 +84,10 @@ const errorSets = (all, names, i) => all.flatMap((s, r) => {
   const of = key => rows.map(row => ({ x: row.seconds, y: row[key], note: `${row.samples} samples a pixel in ${number(row.seconds)} s` })).filter(p => p.x > 0 && positive(p));
   const key = k => String(k).padStart(3, "0");
   const sets = [];
-  for (let k = 0; k <= s.last; ++k) if (k !== i) sets.push(line("", of(`relative_stderr_${key(k)}`).map(p => ({ ...p, label: `bounce ${k}${names[r]}` })), color("faint"), dash));
+  for (let k = 0; k <= s.last; ++k) if (k !== i) {
+    const points = of(`relative_stderr_${key(k)}`).map(p => ({ ...p, label: `bounce ${k}${names[r]}` }));
+    sets.push(points.length === 1 ? dots("", points, color("line"), "circle", { pointRadius: 2 }) : line("", points, color("faint"), dash));
+  }
   if (i <= s.last) sets.push(dots(`bounce ${i}${names[r]}`, of(`relative_stderr_${key(i)}`), style(0).color, "circle", dash));
   sets.push(dots("sum" + names[r], of("relative_stderr_sum"), color("text"), "rect", dash));
   if (rows.length && "relative_error_sum" in rows[0]) {
@@ -94,8 +97,8 @@ const errorSets = (all, names, i) => all.flatMap((s, r) => {
   return sets.filter(set => set.data.length > 0);
 });
 const slopeGuide = sets => {
-  const all = sets.flatMap(s => s.data);
-  if (all.length < 2) return [];
+  const all = sets.filter(s => s.label && s.data.length > 1).flatMap(s => s.data);
+  if (all.length === 0) return [];
   const mean = f => Math.exp(all.reduce((a, p) => a + Math.log(f(p)), 0) / all.length), xs = all.map(p => p.x);
   const x0 = mean(p => p.x), y0 = mean(p => p.y);
   return [line("slope −1/2", [Math.min(...xs), Math.max(...xs)].map(x => ({ x, y: y0 * Math.sqrt(x0 / x) })), color("line"), { borderWidth: 1, borderDash: dashes[5], pointHitRadius: 0 })];

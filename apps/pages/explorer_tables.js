@@ -1,7 +1,7 @@
 "use strict";
 // The run in words.
 const sceneOf = s => s.run.scene.file.split("/").pop();
-const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.total_seconds)} s`;
+const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.sampling_seconds)} s, ${number(s.run.timing.total_seconds)} s in all`;
 document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": A and B" : "");
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
 all.forEach(s => (s.run.health?.complaints ?? []).forEach(c => $("warnings").append(element("p", `${runName(s)}sick: ${c}`, "warning"))));
@@ -46,7 +46,7 @@ const bouncesTable = s => {
     ...(subset ? [x.missing ? number(x.missing.mean) : ""] : [])];
   const discretised = b.some(x => x.discretisation), subset = b.some(x => x.missing);
   return wide(table(["bounce", `mean / ${s.unit}`, "± (95%)", "ratio", "bound on what follows", "rays", ...(discretised ? ["discretisation"] : []), ...(subset ? ["missing"] : [])],
-    [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", rest)])], []));
+    [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", { ...rest, ratio_estimate: undefined })])], []));
 };
 if (data.comparison) {
   section("A against B, the reference", wide(table(["", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],

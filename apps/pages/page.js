@@ -93,7 +93,21 @@ const logAxis = title => ({
 });
 // Half a step of room on both sides: log axes of Chart.js end at the data otherwise.
 const range = (axis, values) => {
-  if (values.length === 0) return;
-  axis.min = Math.min(...values) / 1.35;
-  axis.max = Math.max(...values) * 1.35;
+  axis.display = values.length > 0;
+  axis.min = values.length ? Math.min(...values) / 1.35 : undefined;
+  axis.max = values.length ? Math.max(...values) * 1.35 : undefined;
 };
+// Why there is nothing in a plot.
+const whereEmpty = why => ({
+  id: "where-empty",
+  afterDraw(chart) {
+    if (chart.data.datasets.some(set => set.data.length > 0)) return;
+    const { ctx, chartArea: area } = chart;
+    ctx.save();
+    ctx.fillStyle = color("dim");
+    ctx.font = "14px system-ui, sans-serif";
+    ctx.textAlign = "center";
+    ctx.fillText(why(), (area.left + area.right) / 2, (area.top + area.bottom) / 2);
+    ctx.restore();
+  }
+});

@@ -49,14 +49,14 @@ const read = words => {
   const [m, e = ""] = words.split("·10");
   return Number(m) * 10 ** Number([...e].map(c => "-0123456789"["⁻⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)]).join("") || 0);
 };
-// What stands under the picture of a pixel: value and half interval of each channel, and the relative error.
+// What stands under the picture of a pixel: value and half interval of each channel, and the relative standard error.
 const readout = async () => {
   const line = await page.locator("#readout .values").first().innerText();
   const channels = ["red", "green", "blue"].map(name => {
     const found = line.match(new RegExp(`${name} (\\S+)(?: ± (\\S+))?`));
     return { value: read(found[1]), half: read(found[2] ?? "0") };
   });
-  return { line, channels, relative: Number(line.match(/relative error (\S+)%/)?.[1]) / 100 };
+  return { line, channels, relative: Number(line.match(/relative standard error (\S+)%/)?.[1]) / 100 };
 };
 const expectReadout = async (x, y, i, sum) => {
   const exr = pixels[fileOf(i, sum)], p = y * side + x, { channels, relative, line } = await readout();
@@ -227,7 +227,7 @@ assert.equal(await one.locator("#warnings").innerText(), "a single replicate was
 await one.locator("#stage").click();
 await one.selectOption("#view", "noise");
 await settled(one);
-assert.match(await one.locator("#readout .values").innerText(), /red (\S+) ± unknown.*relative error unknown|red 0 ± unknown/s);
+assert.match(await one.locator("#readout .values").innerText(), /red (\S+) ± unknown.*relative standard error unknown|red 0 ± unknown/s);
 assert.deepEqual(await one.evaluate(() => [unknown, image.at(0)]), [0xff808080, 0xff808080]);
 
 // Parts of run.json that this page does not know are tables all the same.
