@@ -18,6 +18,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace neumann {
@@ -33,6 +34,7 @@ struct Row {
     MeanDifferences means;
     double noise = 0.0;
     bool a_has_error = false, b_has_error = false, degrees_known = true, infinite_variance = false;
+    bool widest = false;  // the interval of the mean: the errors of a picture's pixels may go together
 
     bool has_error() const { return a_has_error || b_has_error; }
     bool has_interval() const { return has_error() && !infinite_variance; }
@@ -41,6 +43,7 @@ struct Row {
 struct Comparison {
     std::vector<Row> rows;
     std::vector<std::string> only_in_a, only_in_b;
+    std::optional<std::pair<std::string, std::string>> rests;  // where they differ: after which bounces they begin
 };
 
 Row compare_pictures(const std::string& name, const std::string& path_a, const std::string& path_b) {
@@ -53,6 +56,8 @@ Row compare_pictures(const std::string& name, const std::string& path_a, const s
                                   b.degrees_of_freedom.value_or(exact_degrees_of_freedom), confidence);
         row.degrees_known = (!a.has_error() || a.degrees_of_freedom) && (!b.has_error() || b.degrees_of_freedom);
         row.infinite_variance = a.infinite_variance || b.infinite_variance;
+        const auto may_go_together = [](const RenderedPicture& p) { return p.has_error() && !p.picture.pixels_are_independent; };
+        row.widest = may_go_together(a) || may_go_together(b);
         return row;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{} and {}: {}", path_a, path_b, error.what()));
@@ -84,8 +89,16 @@ Comparison compare_folders(const std::string& a, const std::string& b) {
     Comparison out;
     std::set_difference(in_a.begin(), in_a.end(), in_b.begin(), in_b.end(), std::back_inserter(out.only_in_a), SeriesOrder());
     std::set_difference(in_b.begin(), in_b.end(), in_a.begin(), in_a.end(), std::back_inserter(out.only_in_b), SeriesOrder());
+    // Where series end at different bounces, their rests are not the same light.
+    const auto last_bounce = [](const auto& names) {
+        const auto end = names.lower_bound("sum_");
+        return end == names.begin() ? std::string() : fs::path(*std::prev(end)).stem().string();
+    };
+    const bool rests_differ = last_bounce(in_a) != last_bounce(in_b);
+    if (rests_differ && in_a.contains("rest.exr") && in_b.contains("rest.exr"))
+        out.rests = {{last_bounce(in_a), last_bounce(in_b)}};
     for (const std::string& name : in_a) {
-        if (!in_b.contains(name)) continue;
+        if (!in_b.contains(name) || (out.rests && name == "rest.exr")) continue;
         out.rows.push_back(compare_pictures(fs::path(name).stem(), (fs::path(a) / name).string(), (fs::path(b) / name).string()));
     }
     if (out.rows.empty()) throw InputError(fmt::format("{} and {}: no picture that both have", a, b));
@@ -123,6 +136,15 @@ void print_notes(const Comparison& comparison) {
     if (any([](const Row& row) { return row.has_interval() && !row.degrees_known; })) {
         fmt::print("Where a file does not say its degrees of freedom, they are taken as many.\n");
     }
+    if (any([](const Row& row) { return row.has_interval() && row.widest; })) {
+        fmt::print(
+            "Errors of the pixels of one picture may go together here (all methods but those that walk from the camera), so that "
+            "the\n"
+            "intervals are upper bounds, perhaps far too wide; series.csv of each render has its own, of the means.\n");
+    }
+    if (comparison.rests)
+        fmt::print("The rests are not compared: that of A begins after {}, that of B after {}.\n", comparison.rests->first,
+                   comparison.rests->second);
     if (!comparison.only_in_a.empty()) fmt::print("Only in A: {}\n", fmt::join(comparison.only_in_a, " "));
     if (!comparison.only_in_b.empty()) fmt::print("Only in B: {}\n", fmt::join(comparison.only_in_b, " "));
 }

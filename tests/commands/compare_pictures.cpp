@@ -172,6 +172,30 @@ TEST_F(CompareCommand, FoldersAreComparedInOrderAndTheRestIsNamed) {
     EXPECT_NE(table.find("\nOnly in A: bounce_002.exr\nOnly in B: sum_001.exr\n"), std::string::npos) << table;
 }
 
+TEST_F(CompareCommand, RestsAreComparedWhereSeriesEndAtTheSameBounce) {
+    for (const char* name : {"bounce_000.exr", "sum_000.exr", "rest.exr"}) {
+        put(std::string("a/") + name, constant(2, 1.0, 0.1));
+        put(std::string("b/") + name, constant(2, 1.5, 0.1));
+    }
+    const std::string a = (base_ / "a").string(), b = (base_ / "b").string();
+    EXPECT_EQ(numbers(a, b).at("pictures").size(), 3u);
+    put("b/bounce_001.exr", constant(2, 1.0, 0.1));
+    EXPECT_EQ(numbers(a, b).at("pictures").size(), 2u);
+    const std::string table = printed(a, b);
+    EXPECT_NE(table.find("\nThe rests are not compared: that of A begins after bounce_000, that of B after bounce_001.\n"),
+              std::string::npos)
+        << table;
+}
+
+TEST_F(CompareCommand, IntervalsOfPixelsThatErrTogetherAreSaidToBeUpperBounds) {
+    Estimate together = constant(4, 3.0, 0.5);
+    const std::string a = put("a.exr", together), b = put("b.exr", constant(4, 2.0, 0.5)),
+                      c = put("c.exr", together, {{"neumann:pixels", std::string("correlated")}});
+    EXPECT_EQ(printed(a, b).find("upper bounds"), std::string::npos);
+    EXPECT_NE(printed(c, b).find("upper bounds"), std::string::npos);
+    EXPECT_NE(printed(b, c).find("upper bounds"), std::string::npos);
+}
+
 TEST_F(CompareCommand, PixelsThatAreNotFiniteAreSaid) {
     Estimate broken = constant(4, 3.0, 0.5);
     broken.mean.at(1, 2).g = std::nan("");
