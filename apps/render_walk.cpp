@@ -34,7 +34,8 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, 
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
                  seconds = pilot.seconds_per_walk() * std::max(split.lights, split.walks),
                  affordable = *goal.seconds / (pixels * seconds);
-    return std::bit_floor(static_cast<std::uint32_t>(std::clamp(affordable / 4.0, 1.0, static_cast<double>(largest_replicate))));
+    return std::bit_floor(
+        static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
 }
 
 // What the moments of all pictures need at most: refused before the machine starts to swap.

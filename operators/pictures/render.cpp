@@ -32,9 +32,8 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const RenderObserver& o
 }  // namespace
 
 std::uint32_t replicate_size(std::uint64_t samples) {
-    const std::uint64_t fewest = samples < 64 ? 4 : 2;
     std::uint32_t size = largest_replicate;
-    while (size > 1 && (samples % size != 0 || samples / size < fewest)) size /= 2;
+    while (size > 1 && (samples % size != 0 || samples / size < fewest_replicates)) size /= 2;
     return size;
 }
 

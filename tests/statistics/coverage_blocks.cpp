@@ -198,7 +198,7 @@ void expect_right(const Coverage& coverage, int least, const std::string& what) 
 
 void expect_coverage(SamplerKind kind, const char* name) {
     const Known in_sphere = sphere(), in_dome = dome();
-    // Four replicates, as `render --spp 16` has them, and two, the fewest, as `--spp 64` has. In the dome the light itself is not
+    // Four replicates, as `render --spp 16` has them, and two, the fewest that have an error, as `--spp 2` has. In the dome the light itself is not
     // seen; it is enough to see it for bounce 0.
     Run runs[] = {
         {in_sphere, bounces, first_seed, 4, 4}, {in_dome, bounces, first_seed, 4, 2}, {in_sphere, 0, first_seed + 320, 4, 2}};
