@@ -232,21 +232,33 @@ def read(folder: Union[str, "PathLike[str]"]) -> BounceSeries:
     return BounceSeries(Folder(Path(folder)), fspath(folder))
 
 
+def _picture(x: "Comparable") -> Optional[Tuple[NDArray[Any], Optional[Picture]]]:
+    """A picture with its standard error, from memory or a file; None of a series."""
+    if isinstance(x, (str, PathLike)):
+        return None if Path(x).is_dir() else _neumann.read(fspath(x))[:2]
+    return None if isinstance(x, BounceSeries) else (np.asarray(x), None)
+
+
 Comparable = Union[BounceSeries, NDArray[Any], str, "PathLike[str]"]
 
 
 def compare(a: Comparable, b: Comparable) -> Any:
     """How far a is from the reference b, as ``neumann compare``.
 
-    Two pictures (height, width, 3) give a Report: rmse, rel_mse, mape, smape, max_error, mean, reference_mean, mean_difference; means
-    run over pixels and channels, fractions and not percent, with ε = 0.01:
+    Two pictures, each an array (height, width, 3) or an EXR file, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
+    reference_mean, mean_difference; means run over pixels and channels, fractions and not percent, with ε = 0.01:
     RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
 
     Two series, or folders of renders, give a structured array: a row for each picture that both have ("bounce_000" …, "sum_000" …,
-    "rest"), with a column ``rmse_by_noise``, the RMSE that the standard errors alone explain. Raises InputError where sizes differ.
+    "rest" where they end at the same bounce). ``rmse_by_noise`` is the RMSE that standard errors alone explain. Raises InputError
+    where sizes differ.
     """
-    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
-        return Report(_neumann.compare(np.asarray(a), np.asarray(b)))
+    pictures = [_picture(x) for x in (a, b)]
+    if all(pictures):
+        (x, x_stderr), (y, y_stderr) = pictures
+        return Report(_neumann.compare(x, y, x_stderr, y_stderr))
+    if any(pictures):
+        raise _neumann.InputError("a series against a picture; compare a picture with a picture, as series.terms[2] is one")
     a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
     both, rows = range(min(len(a), len(b))), []
 

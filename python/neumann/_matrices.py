@@ -26,27 +26,28 @@ class Matrices:
 
     Fields on patches are vectors of one value an unknown, basic radiance in W·m⁻²·sr⁻¹: a diffuse side of a patch is one unknown,
     others have one for each cell of their directions.
+
+    T: transport, (rays, unknowns): a row is 1 where its ray meets an unknown.
+    R: reflection, (unknowns, rays): what the rays bring to what the unknowns send.
+    Le: emitted radiance, (unknowns,).
+    b: K Le, (unknowns,); sampled on the lights where the rays hardly meet them.
+    measure: n² times area times projected solid angle of an unknown, (unknowns,), m²·sr: ⟨f, g⟩ = Σ measure · f · g.
+    ray_measure: the same of a ray, (rays,).
+    patches: a row for each side of a patch: its first ``unknown``, how many ``directions``, ``patch``, ``side``, ``shape``, the middle
+    ``x, y, z`` and the normal ``nx, ny, nz`` in scene units, ``area``.
+    channel: "grey", "red", "green" or "blue".
+    radius: the spectral radius of K.
     """
 
     T: scipy.sparse.csr_matrix
-    """Transport, (rays, unknowns): a row is 1 where its ray meets an unknown."""
     R: scipy.sparse.csr_matrix
-    """Reflection, (unknowns, rays): what the rays bring to what the unknowns send."""
     Le: Vector
-    """Emitted radiance, (unknowns,)."""
     b: Vector
-    """K Le, (unknowns,); sampled on the lights where the rays hardly meet them."""
     measure: Vector
-    """n² times area times projected solid angle of an unknown, (unknowns,), m²·sr: ⟨f, g⟩ = Σ measure · f · g."""
     ray_measure: Vector
-    """The same of a ray, (rays,)."""
     patches: NDArray[Any]
-    """A row for each side of a patch: its first ``unknown``, how many ``directions``, ``patch``, ``side``, ``shape``, the middle
-    ``x, y, z`` and the normal ``nx, ny, nz`` in scene units, ``area``."""
     channel: str
-    """"grey", "red", "green" or "blue"."""
     radius: float
-    """The spectral radius of K."""
 
     def __init__(self, patched: "_neumann.Patched") -> None:
         self._patched = patched
@@ -78,7 +79,10 @@ class Matrices:
 
     def picture(self, x: ArrayLike, spp: int = 16) -> Vector:
         """What the camera sees of a field x (unknowns,), as it is on the patches: (height, width), row 0 on top."""
-        return (self.camera(spp) @ np.asarray(x)).reshape(self._patched.height, self._patched.width)
+        x = np.asarray(x)
+        if x.shape != self.Le.shape:
+            raise _neumann.InputError(f"x has the shape {x.shape}, expected one value an unknown, {self.Le.shape}")
+        return (self.camera(spp) @ x).reshape(self._patched.height, self._patched.width)
 
     def __repr__(self) -> str:
         return f"<Matrices of {self.title}, {self.channel}: T {self.T.shape}, R {self.R.shape}, spectral radius {self.radius:.6f}>"
@@ -112,7 +116,7 @@ def series(
     warnings;
     rows, a structured array with a row a bounce: bounce, power Σ m|t|, l2, sup of the term t = K^n Le, ratio of powers, and bounds on
     ‖L − S_n‖∞: a_priori, a_posteriori (inf: there is none), estimate (no bound), enclosure_width, relative;
-    rate, by how much the last terms fall a bounce;
+    rate, the ratio of the last terms;
     enclosure: exists, why not, low and high (n,), between which L lies, width, c1, c2 (Collatz and Wielandt's quotients).
     """
     operator = _operator(K, measure)

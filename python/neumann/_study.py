@@ -12,16 +12,18 @@ from ._report import Report
 
 
 class Study:
-    """What ``neumann study`` finds."""
+    """What ``neumann study`` finds.
+
+    data: study.json as a Report: reference, budgets, and for each picture the methods, ranked, with all their points.
+    table: study.csv as a structured array, a row for every method, budget, repeat and bounce: ``"mse"``, ``"rel_mse"``, ``"rays"`` …
+    warnings: what the command would print. complete: not ended by Ctrl-C.
+    """
 
     def __init__(self, json: str, csv: str, warnings: List[str], complete: bool) -> None:
         self.data: Report = _report.from_json(json)
-        """study.json: reference, budgets, and for each picture the methods, ranked, with all their points."""
         self.table: NDArray[Any] = _report.table(csv)
-        """study.csv as a structured array, a row for every method, budget, repeat and bounce: ``"mse"``, ``"rel_mse"``, ``"rays"`` …"""
         self.warnings = warnings
         self.complete = complete
-        """Not ended by Ctrl-C."""
 
     @property
     def methods(self) -> List[str]:
@@ -53,6 +55,10 @@ class Study:
     def slope(self, method: str, bounce: Union[int, str] = "sum") -> Any:
         """d log RMSE / d log seconds: a Report of value and interval95, half of its 95% interval; None where there are too few budgets."""
         return self._of(method, bounce).slope
+
+    def __repr__(self) -> str:
+        cut = "" if self.complete else ", cut off"
+        return f"<Study of {self.data.scene.file}: {', '.join(self.methods)}; bounces 0 to {self.data.bounces}, {self.data.repeats} repeats{cut}>"
 
     def _repr_html_(self) -> str:
         names = ["bounce", "rank", "method", "RMSE", "relMSE", "seconds", "1/(V T)", "slope"]

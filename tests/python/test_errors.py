@@ -32,6 +32,8 @@ class Errors(Case):
             ({"bounces": 1.5}, ["-n", "1.5"]),
             ({"spp": 0}, ["--spp", "0"]),
             ({"spp": "many"}, ["--spp", "many"]),
+            ({"seed": 2**64}, ["--seed", str(2**64)]),
+            ({"seed": 2**70}, ["--seed", str(2**70)]),
             ({"method": "photons"}, ["--method", "photons"]),
             ({"roulette": 2}, ["--roulette", "2"]),
             ({"bounces": 3, "tail": 0.1}, ["-n", "3", "--tail", "0.1"]),

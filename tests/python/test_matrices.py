@@ -56,6 +56,8 @@ class Matrices(Case):
         # Everything in the furnace is seen, and shines alike.
         made = furnace(0.5).matrices(**SIZE)
         picture = made.picture(made.Le, spp=4)
+        with self.assertRaisesRegex(neumann.InputError, r"^x has the shape \(3,\), expected one value an unknown, \(\d+,\)$"):
+            made.picture(np.ones(3))
         self.assertEqual(picture.shape, (8, 8))
         np.testing.assert_allclose(picture, 1.0, rtol=1e-14)
         # ⟨K*² We, Le⟩ is the mean of the picture of bounce 2, albedo².

@@ -124,6 +124,15 @@ class Render(Case):
         self.assertEqual(table["picture"][-1], "rest")
         self.assertTrue((table["rmse"] == 0.0).all())
         self.assertGreater(table["rmse_by_noise"][1], 0.0)
+        # Pictures as files, which have standard errors, and against one in memory.
+        files = [self.folder / "out" / f"bounce_00{i}.exr" for i in (1, 2)]
+        found = neumann.compare(*files)
+        self.assertEqual(found.rmse, neumann.compare(series.terms[1], str(files[1])).rmse)
+        self.assertGreater(found.rmse_by_noise, 0.0)
+        with self.assertRaisesRegex(neumann.InputError, "^a series against a picture"):
+            neumann.compare(series, files[0])
+        with self.assertRaisesRegex(neumann.InputError, "none.exr: cannot be read"):
+            neumann.compare(self.folder / "none.exr", files[0])
 
 
 if __name__ == "__main__":

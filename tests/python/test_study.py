@@ -28,6 +28,7 @@ class Study(Case):
         self.assertAlmostEqual(curve["rmse"][1], np.sqrt(rows["mse"].mean()), 5)
         self.assertTrue((curve["rays"] > 0).all() and (curve["seconds"] > 0).all())
         self.assertIn("<table>", study._repr_html_())
+        self.assertRegex(repr(study), "^<Study of .*furnace.xml: walk:plan=full, light; bounces 0 to 2, 4 repeats>$")
         with self.assertRaises(KeyError):
             study.curve("light", 7)
 
