@@ -199,7 +199,7 @@ figure, axes = plt.subplots(figsize=(6, 3.6))
 axes.errorbar(range(6), mean, yerr=limit() * error, fmt="o", capsize=3, label="bounce $i$")
 axes.errorbar([6], [rest], yerr=limit() * rest_error, fmt="s", capsize=3, color="C3", label="rest: all bounces beyond 5")
 ratio = mean[5] / mean[4]
-axes.plot([3, 7], mean[4] * ratio ** np.array([-1.0, 3]), "--", color="grey", label=f"falls by {ratio:.2f} a bounce")
+axes.plot([3, 7], mean[4] * ratio ** np.array([-1.0, 3]), "--", color="grey", label=f"× {ratio:.2f} a bounce")
 axes.set(
     yscale="log",
     xlabel="bounce $i$",

@@ -121,8 +121,8 @@ print(
 )
 
 # %% [markdown]
-# The figure: what is left falls by 0.66 a bounce. The a-priori bound falls by $a = 0.95$, that of the whitest face, as if the
-# whole room were white; the a-posteriori bound falls like the terms, at a fixed distance. The enclosure shrinks faster than the
+# The figure: with each bounce 0.66 of what is left is left. Of the a-priori bound it is $a = 0.95$, that of the whitest face, as if
+# the whole room were white; the a-posteriori bound falls like the terms, at a fixed distance. The enclosure shrinks faster than the
 # terms themselves: it does not wait for the rest to vanish, it *knows* the rest, because the terms have become proportional to
 # each other.
 #

@@ -34,7 +34,7 @@ for axis in axes:
 plt.show()
 
 # %% [markdown]
-# The figure: $T$ has one entry a row, $R$ is a staircase: each patch has its own rays and nobody else's. Their product is full of
+# The figure: $T$ has at most one entry a row (none, where the ray leaves the room), $R$ is a staircase: each patch has its own rays and nobody else's. Their product is full of
 # blocks: a block is what one surface (floor, wall, side of a box) sees of another one.
 #
 # **Q1.** What would a block on the diagonal of $K$ say about a surface? Which surfaces of the Cornell box could have one?
@@ -49,7 +49,7 @@ for shape in np.unique(small.patches["shape"]):
     own = small.patches[small.patches["shape"] == shape]
     if not 0 < np.ptp(own["ny"]) < 0.01:  # but for the left wall, whose corners are not quite in one plane
         assert K[own["unknown"]][:, own["unknown"]].nnz == 0, "flat walls and convex boxes see nothing of themselves"
-print(f"{K.nnz / np.prod(K.shape):.0%} of the entries of K are not 0; all of its blocks on the diagonal are")
+print(f"{K.nnz / np.prod(K.shape):.0%} of the entries of K are not 0, and none of them is in a block on the diagonal")
 
 # %% [markdown]
 # (A1: that the surface sees itself, like the inside of a ball. Here all are flat, or convex like the boxes.)
@@ -150,7 +150,7 @@ axes[0].semilogy(
     angles[5] * np.abs(values[1] / values[0]) ** np.arange(20),
     "--",
     color="grey",
-    label=r"falls by $|\lambda_2 / \lambda_1|$",
+    label=r"$\times\,|\lambda_2 / \lambda_1|$ an iteration",
 )
 axes[1].plot(ratios, ".-", label="power of bounce $n+1$ over bounce $n$")
 axes[1].axhline(values[0].real, color="grey", ls="--", label=r"$\lambda_1$")

@@ -175,8 +175,9 @@ for m in methods:
 # The figure: bounce 2 of the floating panels by five generators, with 64 samples a pixel. The table counts what the noise costs
 # in rays.
 #
-# **Q4.** `light` is best in one bounce and bad in another, although it is the same walk. In what does its noise differ, to the
-# eye?
+# **Q4.** In bounce 1 the noise of `light` costs ten times as many rays as that of `walk`, in bounce 3 less than twice as many,
+# although it is the same walk from the other end. Which of its rays are of no use to bounce 1? And in what does its noise differ,
+# to the eye?
 #
 # ## Russian roulette
 # A walk in a furnace of albedo $\rho$ that goes on with probability $q$ and is weighted by $1/q$ has the score
@@ -249,9 +250,10 @@ axes.legend(fontsize=8)
 plt.show()
 
 # %% [markdown]
-# The figure: cost of each bounce's noise for a path and for four trees. In this scene one pixel sees one point, more or less, so
-# that asking the lamp more often there pays for bounce 1 and walks pay for the others, a little; the expensive tree wins little,
-# for its sixteen walks start at the same point. Would you have guessed?
+# The figure: cost of each bounce's noise for a path and for four trees. Asking the lamp four times makes bounce 1 cheaper by a
+# third and the others dearer by a quarter; four walks make the others cheaper by a quarter, and bounce 1 three times as dear. The
+# largest tree costs bounce 1 five times as much and wins nothing over four walks, for its sixteen start at the same point. Would
+# you have guessed?
 #
 # **Q6.** A tree that branches at *every* stop has $C^i$ walks in bounce $i$. Where does its effort go, and where is the light?
 #

@@ -26,7 +26,7 @@ import neumann
 
 # %%
 room = scene("cornell-box", res=64)
-patches = room.matrices(patches=1500, channel="g", seed=seed, quiet=True)
+patches = room.matrices(patches=1500, directions=1024, channel="g", seed=seed, quiet=True)
 K, Le, m = patches.K, patches.Le, patches.measure
 M, inverse = scipy.sparse.diags(m), scipy.sparse.diags(1 / m)
 adjoint = (inverse @ K.T @ M).tocsr()
@@ -70,7 +70,7 @@ for i in range(7):
 #
 # **Q2.** $K = R\,T$, so $K^* = T^* R^*$: which of the two acts first on importance? Since materials are reciprocal, $R^* = R$.
 # What is $T^*$ in words? (A2: $R^*$: importance arrives at a surface, is scattered there exactly as light would be, and only then
-# is carried on. $T^*$ carries it along the same straight lines, backwards: the same as $T$ in a closed room.)
+# is carried on. $T^*$ carries it along the same straight lines, backwards, which is what $T$ does: $T^* = T$.)
 #
 # ## What importance looks like
 # `render(method="patches", importance=True)` shows the bounces of importance instead of light. Think of the camera as a flash.
@@ -128,7 +128,7 @@ plt.show()
 # The figure: the ceiling from below. Each patch has the colour of what a lamp there, of radiance 1, would add to the picture's
 # mean, for each square millimetre, not counting that one sees the lamp itself. Dashed: where it really is.
 #
-# **Q3.** Would you move it? Check the map with a direct computation for one patch that is no lamp:
+# **Q3.** Would you move it? To where, and why there? Check the map with a direct computation for its brightest patch:
 
 # %%
 best = u[np.argmax(unseen)]
@@ -140,6 +140,7 @@ print(
     f"mean of the picture with a lamp there {inner(We, lit):.6e}, by importance {W[best] * m[best]:.6e}"
 )
 assert np.isclose(inner(We, lit), W[best] * m[best], rtol=1e-9)
+assert table["z"][np.argmax(unseen)] > 500, "at the back wall, which fills the picture (which patch there is chance: 1024 rays each)"
 
 # %% [markdown]
 # ## Light tracing
@@ -221,11 +222,16 @@ pictures(
 plt.show()
 print("light:", lost.run.paths)
 assert lost.run.paths != "all" and seen.run.paths == "all"
+floor = slice(50, 60), slice(15, 50)
+noise = [np.mean(np.square(s.terms_stderr[2][floor], dtype=float)) for s in (seen, lost)]
+print(f"variance of bounce 2 on the floor: {noise[0] / noise[1]:.0f} times as large by the walk")
+assert noise[0] > 2 * noise[1]
 assert np.all(lost.terms[1].mean(axis=(0, 1)) < seen.terms[1].mean(axis=(0, 1)))
 
 # %% [markdown]
-# The figure: light tracing has what the mirrors throw on the floor, without noise, and none of what one sees *in* them. Walks
-# from the camera are good at just the other half.
+# The figure: what the mirrors throw on the floor in bounce 2 has far less noise by light tracing than by the walk, which has to
+# hit the lamp by way of a mirror by chance; and of what one sees *in* the mirrors it has nothing. Walks from the camera are good at
+# just the other half.
 #
 # ## Exercises
 # 1. Put the camera's importance on *one pixel* (a row of `patches.camera()`), and show $K^{*i} W_e$ as pictures. Where would you

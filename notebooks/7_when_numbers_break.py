@@ -140,8 +140,8 @@ axes.legend()
 plt.show()
 
 # %% [markdown]
-# The figure: self-hits against the size of the scene. Without an offset a third of all rays hit again, at any size, for half of
-# the hit points lie inside; the constant $\varepsilon$ helps only where it happens to be larger than the rounding, and in a ball
+# The figure: self-hits against the size of the scene. Without an offset a quarter to a half of all rays hit again, at any size: those
+# whose starting points were rounded to the inside; the constant $\varepsilon$ helps only where it happens to be larger than the rounding, and in a ball
 # of radius $10^{-6}$ it is a hundred times the ball, so that real walls closer than that would be invisible, too. What has to set
 # the offset is the rounding of *this* hit.
 
@@ -284,7 +284,7 @@ plt.show()
 
 # %% [markdown]
 # The figure: a *stiff* room. For fifteen bounces light falls as if there were no gap; then what is left is what crept in at its
-# edges, and that falls by 0.91 a bounce.
+# edges, of which 0.91 are left with each bounce.
 #
 # **Q4.** The ratio of bounce 12 to bounce 11 is as settled as can be. What does it promise for bounce 40? **Q5.** Two eigenvalues
 # $\pm\lambda$: what does the light in the gap do from bounce to bounce?
