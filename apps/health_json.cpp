@@ -119,9 +119,12 @@ std::vector<std::string> complaints(const Health& health, const Scene& scene, co
     for (std::size_t q = 0; q < health.bounces.size(); ++q) {
         const SampleHealth& b = health.bounces[q];
         if (b.fireflies == 0) continue;
-        lines.push_back(fmt::format("{}: {} samples each make more than half of their pixel; {:.3g}% of {} is a single one: {}",
-                                    bounce_text(health, q), b.fireflies, 100.0 * b.largest->of_sum,
-                                    pixel_text(scene.film, b.largest->sample.place.pixel), replay(named.largest[q])));
+        const std::string makers = b.fireflies == 1
+                                       ? "one sample makes more than half of its pixel"
+                                       : fmt::format("{} samples each make more than half of their pixel", b.fireflies);
+        lines.push_back(fmt::format("{}: {}; {:.3g}% of {} is a single one: {}", bounce_text(health, q), makers,
+                                    100.0 * b.largest->of_sum, pixel_text(scene.film, b.largest->sample.place.pixel),
+                                    replay(named.largest[q])));
     }
     if (!health.checkup) return lines;
     const Checkup& checkup = *health.checkup;

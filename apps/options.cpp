@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 
 #include <fmt/format.h>
+#include <charconv>
 #include <cmath>
 
 namespace neumann {
@@ -21,8 +22,8 @@ CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
     return CLI::Validator(
         [=](std::string& text) {
             std::uint64_t value = 0;
-            const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-            const bool good = digits && CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
             return good ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
         },
         "", "whole");
