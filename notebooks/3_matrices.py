@@ -34,8 +34,9 @@ for axis in axes:
 plt.show()
 
 # %% [markdown]
-# The figure: $T$ has at most one entry a row (none, where the ray leaves the room), $R$ is a staircase: each patch has its own rays and nobody else's. Their product is full of
-# blocks: a block is what one surface (floor, wall, side of a box) sees of another one.
+# The figure: $T$ has at most one entry a row (none, where the ray leaves the room), $R$ is a staircase: each patch has its own
+# rays and nobody else's. Their product is full of blocks: a block is what one surface (floor, wall, side of a box) sees of
+# another one.
 #
 # **Q1.** What would a block on the diagonal of $K$ say about a surface? Which surfaces of the Cornell box could have one?
 

@@ -140,10 +140,10 @@ axes.legend()
 plt.show()
 
 # %% [markdown]
-# The figure: self-hits against the size of the scene. Without an offset a quarter to a half of all rays hit again, at any size: those
-# whose starting points were rounded to the inside; the constant $\varepsilon$ helps only where it happens to be larger than the rounding, and in a ball
-# of radius $10^{-6}$ it is a hundred times the ball, so that real walls closer than that would be invisible, too. What has to set
-# the offset is the rounding of *this* hit.
+# The figure: self-hits against the size of the scene. Without an offset a quarter to a half of all rays hit again, at any size:
+# those whose starting points were rounded to the inside; the constant $\varepsilon$ helps only where it happens to be larger than
+# the rounding, and in a ball of radius $10^{-6}$ it is a hundred times the ball, so that real walls closer than that would be
+# invisible, too. What has to set the offset is the rounding of *this* hit.
 
 # %%
 assert shares["no offset"].max() > 0.01 and shares[r"$\varepsilon = 10^{-4}$"][-1] > 0.01
