@@ -52,7 +52,8 @@ if (data.comparison) {
   section("A against B, the reference", wide(table(["", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],
     data.comparison.pictures.map(p => [p.name, ...["rmse", "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
       p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
-    element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.`, "note"));
+    element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
+      (all.every(s => s.independent) ? "" : " Errors of the pixels of one picture may go together here: the intervals are upper bounds."), "note"));
 }
 all.forEach(s => {
   const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;

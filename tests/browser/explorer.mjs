@@ -187,10 +187,18 @@ await page.keyboard.press("Escape");
 assert.ok(await page.locator("#help").isHidden());
 await expectNames(page);
 
+// A box that was clicked leaves the keys of the bounces alone, and keeps its own.
+await page.locator("#wipe").click();
+await press("Home", "ArrowRight", "ArrowRight");
+assert.match(await text("name"), /^bounce 2: /);
+await press(" ");
+assert.deepEqual(await page.evaluate(() => [state.wipe, playing]), [false, null]);
+
 // Two methods on one page.
 const both = await browser.open(at("both/index.html"));
 await both.waitForSelector("body[data-ready]");
 assert.match(await both.locator("#side-b").innerText(), /^B: bounce 1$/);
+assert.match(await both.locator("#tables").innerText(), /the intervals are upper bounds/);
 const differences = JSON.parse(readFileSync(at("both/compare.json")));
 await both.keyboard.press("s");
 await both.keyboard.press("End");
