@@ -86,26 +86,14 @@ ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
     return out;
 }
 
-// A folder takes the files of one command: others would be removed as those of an earlier run.
-void expect_no_other_files(const std::string& output) {
-    std::error_code error;
-    for (fs::directory_iterator entry(output, error), end; !error && entry != end; entry.increment(error)) {
-        const std::string name = entry->path().filename().string();
-        if (is_output_name(name) && name != "index.html" && name != "compare.json")
-            throw InputError(
-                fmt::format("-o: {} holds {} of another command, which would be lost; expected another folder", output, name));
-    }
-}
-
 }  // namespace
 
 void write_compare_page(const std::string& output, const std::string& a, const std::string& b, const Json& figures) {
-    expect_no_other_files(output);
     const RenderedFolder folder_a(a), folder_b(b);
     if (folder_a.size != folder_b.size)
         throw InputError(fmt::format("{} and {}: {}×{} and {}×{} pixels; expected one size", a, b, folder_a.size.width,
                                      folder_a.size.height, folder_b.size.width, folder_b.size.height));
-    OutputFolder folder(output);
+    OutputFolder folder(output, "compare");
     const std::size_t pictures = folder_a.pictures() + folder_b.pictures();
     const ExploredRun run_a = explored(folder_a, pictures), run_b = explored(folder_b, pictures);
     if (run_a.pictures.factor() > 1) fmt::print(stderr, "note: {}\n", run_a.pictures.reduction());

@@ -99,7 +99,7 @@ void write_pictures(const fs::path& folder, const ConformResult& result, const E
                     const glm::dmat3& rgb_from_xyz) {
     Image difference = picture.mean;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= reference.pixels[i];
-    OutputFolder files(folder);
+    OutputFolder files(folder, "conform");
     const auto write = [&](const char* name, const Image& image) {
         files.write(name, encode_exr({image, {}}, {{"neumann:scene", result.name}}));
     };

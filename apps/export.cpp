@@ -32,7 +32,7 @@ void check_folder(const std::string& output) {
 // Files of an export, with what they are called in Python.
 class Export {
 public:
-    Export(const std::string& output, bool quiet) : folder_(output), quiet_(quiet) {}
+    Export(const std::string& output, bool quiet) : folder_(output, "export"), quiet_(quiet) {}
 
     template <class Matrix>
     void write(const std::string& name, const Matrix& matrix, const std::string& what) {

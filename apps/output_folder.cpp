@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
+#include <optional>
 #include <regex>
 #include <stdexcept>
 #include <system_error>
@@ -67,51 +69,42 @@ std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
     return names;
 }
 
-}  // namespace
-
-bool is_output_name(std::string_view name) {
-    constexpr std::string_view names[] = {"rest.exr",
-                                          "contact-sheet.png",
-                                          "bounces.gif",
-                                          "series.csv",
-                                          "convergence.csv",
-                                          "run.json",
-                                          "ways.png",
-                                          "index.html",
-                                          "strip-terms.png",
-                                          "strip-terms.gif",
-                                          "strip-sums.png",
-                                          "strip-sums.gif",
-                                          "strip-doubling.png",
-                                          "strip-doubling.gif",  // render
-                                          "study.csv",
-                                          "study.json",    // study
-                                          "compare.json",  // compare
-                                          "T.mtx",
-                                          "R.mtx",
-                                          "R_r.mtx",
-                                          "R_g.mtx",
-                                          "R_b.mtx",
-                                          "K.mtx",
-                                          "K_r.mtx",
-                                          "K_g.mtx",
-                                          "K_b.mtx",
-                                          "Le.mtx",
-                                          "b.mtx",
-                                          "measure.mtx",
-                                          "ray_measure.mtx",
-                                          "patches.csv",  // export
-                                          "picture.exr",
-                                          "reference.exr",
-                                          "p-reference.exr",
-                                          "p-error.exr",
-                                          "difference.exr"};  // conform
-    return is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name) ||
-           std::find(std::begin(names), std::end(names), name) != std::end(names);
+// The command that writes a file of this name; "any" of several.
+std::optional<std::string_view> writer_of(std::string_view name) {
+    static const std::map<std::string_view, std::vector<std::string_view>> names = {
+        {"any", {"run.json", "index.html"}},
+        {"render",
+         {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
+          "strip-terms.gif", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
+        {"study", {"study.csv", "study.json"}},
+        {"compare", {"compare.json"}},
+        {"export",
+         {"T.mtx", "R.mtx", "R_r.mtx", "R_g.mtx", "R_b.mtx", "K.mtx", "K_r.mtx", "K_g.mtx", "K_b.mtx", "Le.mtx", "b.mtx",
+          "measure.mtx", "ray_measure.mtx", "patches.csv"}},
+        {"conform", {"picture.exr", "reference.exr", "p-reference.exr", "p-error.exr", "difference.exr"}}};
+    if (is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name)) return "render";
+    for (const auto& [command, its] : names)
+        if (std::find(its.begin(), its.end(), name) != its.end()) return command;
+    return std::nullopt;
 }
 
-OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
+}  // namespace
+
+bool is_output_name(std::string_view name) { return writer_of(name).has_value(); }
+
+void OutputFolder::expect_no_other_files(std::string_view command) const {
+    const auto others = names_in(path_, [&](std::string_view name) {
+        const auto writer = writer_of(name);
+        return writer && *writer != "any" && *writer != command;
+    });
+    if (!others.empty())
+        throw InputError(fmt::format("{} holds {} of {}, which would be lost; expected another folder", path_.string(),
+                                     others.front(), *writer_of(others.front())));
+}
+
+OutputFolder::OutputFolder(const fs::path& path, std::string_view command) : path_(path) {
     if (path.empty()) throw InputError("the output folder has no name");
+    expect_no_other_files(command);
     try {
         create();
         lock();

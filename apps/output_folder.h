@@ -17,7 +17,8 @@ class OutputFolder {
 public:
     // Creates the folder, and those above it, where missing. Throws InputError where nothing can be written or another run is
     // writing: "out/x: cannot be written: Permission denied".
-    explicit OutputFolder(const std::filesystem::path& path);
+    // It takes the files of one command: InputError where there are another's, which commit() would remove.
+    OutputFolder(const std::filesystem::path& path, std::string_view command);
 
     // Without commit(), leaves everything as it was found.
     ~OutputFolder();
@@ -37,6 +38,7 @@ public:
 
 private:
     std::filesystem::path partial(const std::string& name) const { return path_ / ("." + name + ".partial"); }
+    void expect_no_other_files(std::string_view command) const;
     void create();
     void lock();
     void remove_leftovers();

@@ -4,6 +4,7 @@
 #include "apps/options.h"
 #include "apps/progress_line.h"
 #include "apps/rendering.h"
+#include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 
@@ -67,12 +68,15 @@ int render_command(const RenderRequest& given) {
     request.definitions = parse_definitions(request.definition_texts);
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
+    std::error_code missing;
+    if (!request.reference.empty() && std::filesystem::equivalent(request.reference, request.output, missing))
+        throw InputError(fmt::format("-o {}: is the reference, which would be lost; expected another folder", request.output));
     const Stopwatch watch;
     catch_interrupts();
     const ThreadLimit threads(request.threads);
 
     Scene scene = read_scene(request.scene, request.definitions);
-    OutputFolder folder(request.output);
+    OutputFolder folder(request.output, "render");
     const double reading_seconds = watch.seconds();
     ProgressLine line(request.quiet);
     const auto rendering =

@@ -98,7 +98,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
                    const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const Json&)>& found) {
     expect_sense(request);
     const std::vector<StudyMethod> methods = study_methods(request);
-    OutputFolder folder(request.output);
+    OutputFolder folder(request.output, "study");
     StudyJournal journal(folder.path(), request.resume);
     const Json study = identity(request, scene);
     if (request.resume) journal.expect_same(study);

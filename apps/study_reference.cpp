@@ -115,7 +115,7 @@ bool is_cached(const fs::path& folder, const Json& identity) {
 
 // The pictures as in a folder of a render, and the identity as its run.json.
 void keep(const fs::path& path, const Json& identity, const StudyReference& reference, double degrees_of_freedom) {
-    OutputFolder folder(path);
+    OutputFolder folder(path, "render");
     const std::size_t N = reference.pictures.size() - 2;
     const Attributes attributes{{"neumann:degrees_of_freedom", degrees_of_freedom}};
     for (std::size_t i = 0; i <= N; ++i) folder.write(bounce_file(i), encode_exr(reference.pictures[i], attributes));

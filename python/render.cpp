@@ -34,7 +34,7 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
 std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std::string& path) {
     return std::make_unique<Job>(0, [rendering, path](Job& job) -> Job::Finish {
         job.tell("writing " + path);
-        OutputFolder folder(path);
+        OutputFolder folder(path, "render");
         write_rendering(*rendering, folder);
         return [] { return py::none(); };
     });

@@ -42,7 +42,7 @@ protected:
 
     static std::string refusal(const fs::path& path) {
         try {
-            OutputFolder folder(path);
+            OutputFolder folder(path, "render");
         } catch (const InputError& error) {
             return error.what();
         }
@@ -56,7 +56,7 @@ using Names = std::set<std::string>;
 
 TEST_F(OutputFolderTest, FilesAppearTogether) {
     const fs::path path = base_ / "a" / "b";
-    OutputFolder folder(path);
+    OutputFolder folder(path, "render");
     folder.write("run.json", "{}");
     folder.write("bounce_000.exr", std::string(100'000, 'x'));
     EXPECT_EQ(names_in(path), (Names{".bounce_000.exr.partial", ".run.json.partial"}));
@@ -68,7 +68,7 @@ TEST_F(OutputFolderTest, FilesAppearTogether) {
 
 TEST_F(OutputFolderTest, WithoutCommitNothingIsLeft) {
     {
-        OutputFolder folder(base_ / "a" / "b");
+        OutputFolder folder(base_ / "a" / "b", "render");
         folder.write("sum_000.exr", "x");
     }
     EXPECT_EQ(names_in(base_), Names{});
@@ -77,7 +77,7 @@ TEST_F(OutputFolderTest, WithoutCommitNothingIsLeft) {
 TEST_F(OutputFolderTest, WithoutCommitAnEarlierRunStays) {
     put(base_ / "bounce_000.exr", "old");
     {
-        OutputFolder folder(base_);
+        OutputFolder folder(base_, "render");
         folder.write("bounce_000.exr", "new");
         EXPECT_EQ(text_of(base_ / "bounce_000.exr"), "old");
     }
@@ -91,7 +91,7 @@ TEST_F(OutputFolderTest, ACommitRemovesWhatAnEarlierRunLeftAndNothingElse) {
     }
     const Names others = {"notes.txt", "bounce_1.exr", "bounce_0x1.exr", "my_bounce_001.exr", "sum_001.exr.bak", ".mine.partial"};
     for (const std::string& name : others) put(base_ / name, "mine");
-    OutputFolder folder(base_);
+    OutputFolder folder(base_, "render");
     folder.write("bounce_000.exr", "new");
     folder.commit();
     Names expected = others;
@@ -100,7 +100,7 @@ TEST_F(OutputFolderTest, ACommitRemovesWhatAnEarlierRunLeftAndNothingElse) {
 }
 
 TEST_F(OutputFolderTest, WritingTwiceKeepsTheLast) {
-    OutputFolder folder(base_);
+    OutputFolder folder(base_, "render");
     folder.write("series.csv", "a longer first");
     folder.write("series.csv", "second");
     folder.commit();
@@ -108,7 +108,7 @@ TEST_F(OutputFolderTest, WritingTwiceKeepsTheLast) {
 }
 
 TEST_F(OutputFolderTest, OnlyKnownNamesAreWritten) {
-    OutputFolder folder(base_);
+    OutputFolder folder(base_, "render");
     EXPECT_THROW(folder.write("../run.json", ""), std::invalid_argument);
 }
 
@@ -128,18 +128,31 @@ TEST_F(OutputFolderTest, WhereNothingCanBeWrittenIsRefused) {
 }
 
 TEST_F(OutputFolderTest, TwoRunsDoNotShareAFolder) {
-    OutputFolder first(base_);
+    OutputFolder first(base_, "render");
     first.write("run.json", "{}");
     EXPECT_EQ(refusal(base_), base_.string() + ": another run is writing there");
     first.commit();
     EXPECT_EQ(names_in(base_), Names{"run.json"});
 }
 
+TEST_F(OutputFolderTest, WhatAnotherCommandWroteIsNotReplaced) {
+    for (const char* name : {"study.json", "T.mtx", "compare.json"}) {
+        put(base_ / name, "x");
+        put(base_ / "run.json", "{}");
+        const std::string text = refusal(base_);
+        EXPECT_NE(text.find(std::string(" holds ") + name + " of "), std::string::npos) << text;
+        EXPECT_EQ(names_in(base_), (Names{name, "run.json"}));
+        fs::remove(base_ / name);
+    }
+    put(base_ / "notes.txt", "x");
+    EXPECT_EQ(refusal(base_), "accepted");
+}
+
 TEST_F(OutputFolderTest, AFullDiskIsSaidAndLeavesTheOldSet) {
     put(base_ / "bounce_000.exr", "old");
     put(base_ / "run.json", "old");
     {
-        OutputFolder folder(base_);
+        OutputFolder folder(base_, "render");
         folder.write("run.json", "new");
         fs::create_symlink("/dev/full", base_ / ".bounce_000.exr.partial");
         try {
@@ -161,7 +174,7 @@ TEST_F(OutputFolderTest, AFileCutOffInTheMiddleIsSaidAndRemoved) {
     const rlimit limit{1000, old_limit.rlim_max};
     std::string message;
     {
-        OutputFolder folder(base_ / "new");
+        OutputFolder folder(base_ / "new", "render");
         ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
         try {
             folder.write("bounce_000.exr", std::string(5000, 'x'));
