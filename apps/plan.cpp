@@ -1,6 +1,7 @@
 #include "apps/plan.h"
 
 #include "apps/options.h"
+#include "apps/render_method.h"
 #include "core/reader/read_scene.h"
 #include "operators/pictures/pilot.h"
 
@@ -16,12 +17,11 @@ PlanPart late_bounces(const Scene& scene) {
     if (scene.bounces)
         return {part, false, fmt::format("the scene's max_depth asks for bounces 0 to {}", *scene.bounces),
                 "pictures of all later ones: their sum is measured as the rest"};
-    constexpr double tail = 0.01;
     const Pilot pilot(scene, {}, 0);
-    const int n = pilot.bounces_for_tail(tail);
-    if (n < 0 || !pilot.converges()) return {part, true, "the series falls too slowly, or does not end", ""};
+    if (!pilot.converges()) return {part, true, "the series does not end", ""};
+    const int n = default_bounces(pilot);
     return {part, false,
-            fmt::format("by {} walks, bounces after {} are below {} of the sum: {:.2g} of it", pilot.walks(), n, tail,
+            fmt::format("by {} walks, bounces after {} are {:.2g} of the sum", pilot.walks(), n,
                         pilot.sum() > 0.0 ? pilot.rest(n).mean / pilot.sum() : 0.0),
             "pictures of these: their sum is measured as the rest"};
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace neumann {
 
@@ -63,19 +64,44 @@ int choose_bounces(const RenderJob& job) {
                                        Pilot::bounces));
         return n;
     }
-    if (scene.bounces) return *scene.bounces;
+    return scene.bounces ? *scene.bounces : default_bounces(pilot);
+}
+
+int default_bounces(const Pilot& pilot) {
     const int n = pilot.converges() ? pilot.bounces_for_tail(default_tail) : -1;
     const int enough = n < 0 ? default_least_bounces : std::clamp(n, default_least_bounces, default_most_bounces);
     const int end = pilot.bounces_for_tail(0.0);
     return end < 0 ? enough : std::min(enough, end);
 }
 
+namespace {
+
+// By what its run.json says, where it has one.
+void warn_of_reference(const RenderRequest& request, Warnings& warnings) {
+    std::ifstream file(std::filesystem::path(request.reference) / "run.json");
+    const auto run = nlohmann::json::parse(file, nullptr, false);
+    if (run.is_discarded()) return;
+    const auto is = [&](const char* part, const nlohmann::json& value) {
+        const nlohmann::json::json_pointer at(part);
+        return run.contains(at) && run.at(at) == value;
+    };
+    if (is("/options/seed", request.seed) && is("/options/method", request.method))
+        warnings.add("the reference has the same seed and method, so that samples are shared: errors against it are too small");
+    if (run.contains("paths") && !is("/paths", "all")) warnings.add("the reference has a subset of all paths");
+    if (run.contains("quantity") && is("/quantity/unit", "m^-2 sr^-1") != request.importance)
+        warnings.add("the reference is of another quantity: radiance against importance");
+}
+
+}  // namespace
+
 RenderResult render_by_method(const RenderJob& job) {
     if (job.request.importance && job.request.method != "patches")
         throw InputError("--importance belongs to --method patches, not to " + job.request.method);
     if (job.request.importance && job.request.tail)
         throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
-    return is_field_method(job.request.method) ? render_by_fields(job) : render_by_walk(job);
+    RenderResult result = is_field_method(job.request.method) ? render_by_fields(job) : render_by_walk(job);
+    if (!job.request.reference.empty()) warn_of_reference(job.request, result.warnings);
+    return result;
 }
 
 RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film) {

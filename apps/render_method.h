@@ -47,6 +47,8 @@ std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& req
 Plan plan_of(const RenderRequest& request, const Scene& scene);
 // The last bounce with a picture of its own. Throws RunError where --tail cannot be met.
 int choose_bounces(const RenderJob& job);
+// The same where neither the request nor the scene says.
+int default_bounces(const Pilot& pilot);
 
 // A picture of an earlier render, of the size of this film. Throws InputError.
 RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film);
