@@ -82,7 +82,12 @@ class Folder:
         return [w["text"] for w in _report.from_json(self.run())["warnings"]]
 
     def ways(self) -> Any:
-        return None
+        found = []
+        for path in self._folder.glob("way_s*_t*_unweighted.exr"):
+            name = path.name[: -len("_unweighted.exr")]
+            s, t = (int(part[1:]) for part in name.split("_")[1:])
+            found.append((s, t, _neumann.read(str(self._folder / f"{name}.exr"))[0], _neumann.read(str(path))[0]))
+        return sorted(found, key=lambda way: way[:2]) or None
 
     def save(self, folder: str) -> None:
         raise _neumann.InputError(f"{self._folder}: was read from there; copy the folder")
@@ -245,7 +250,7 @@ Comparable = Union[BounceSeries, NDArray[Any], str, "PathLike[str]"]
 def compare(a: Comparable, b: Comparable) -> Any:
     """How far a is from the reference b, as ``neumann compare``.
 
-    Two pictures, each an array (height, width, 3) or an EXR file, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
+    Two pictures, each an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
     reference_mean, mean_difference; means run over pixels and channels, fractions and not percent, with ε = 0.01:
     RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
 

@@ -104,6 +104,11 @@ class Render(Case):
         series = cornell().render(bounces=2, spp=4, method="bidirectional", ways=2)
         self.assertEqual([(way.s, way.t) for way in series.ways], [(0, 4), (1, 3), (2, 2), (3, 1)])
         self.assertEqual(series.ways[0].weighted.shape, (16, 16, 3))
+        series.save(self.folder / "ways")
+        for way, again in zip(series.ways, neumann.read(self.folder / "ways").ways, strict=True):
+            self.assertEqual((way.s, way.t), (again.s, again.t))
+            np.testing.assert_array_equal(way.weighted, again.weighted)
+            np.testing.assert_array_equal(way.unweighted, again.unweighted)
 
     def test_true_errors_against_a_reference(self):
         self.by_command()
