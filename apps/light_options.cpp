@@ -107,7 +107,10 @@ void check_light_options(const LightOptions& options, const std::string& method)
             throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
         return;
     }
-    if (method == "light" && options.direct.empty() && options.lights.empty() && options.split.empty()) return;
+    if (method == "light") {
+        if (options.direct.empty() && options.lights.empty() && options.split.empty()) return;
+        throw InputError("--direct, --lights and --split belong to --method walk and bidirectional, not to light");
+    }
     if (options.given() && method != "walk")
         throw InputError("--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to " + method);
 }

@@ -62,9 +62,11 @@ RenderRequest parse_method(const std::string& text) {
     while (std::getline(parts, part, ':')) {
         const std::size_t equals = part.find('=');
         const CLI::Option* option = command.get_option_no_throw("--" + part.substr(0, equals));
-        if (equals == std::string::npos || option == nullptr || part.starts_with("method="))
-            throw InputError(
-                fmt::format("{}: '{}' is not an option of a method, expected NAME=VALUE as in direct=bsdf", text, part));
+        if (equals == std::string::npos)
+            throw InputError(fmt::format("{}: '{}' is no option, expected NAME=VALUE as in direct=bsdf", text, part));
+        if (option == nullptr || part.starts_with("method="))
+            throw InputError(fmt::format("{}: '{}' is not an option of a method, such as direct, lights or roulette", text,
+                                         part.substr(0, equals)));
         arguments.insert(arguments.end(), {"--" + part.substr(0, equals), part.substr(equals + 1)});
     }
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them

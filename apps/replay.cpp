@@ -147,7 +147,8 @@ void print(const ReplayedStep& s, const Scene& scene, bool first_unsound) {
     fmt::print("    from      {}\n    along     {}\n", text(step.from.position), text(step.w));
     if (step.kind == PathStep::Kind::goes_on && !step.from_light)
         fmt::print("    pdf       {}\n", step.pdf == delta_pdf ? "the only direction" : fmt::format("{:.6g} per sr", step.pdf));
-    if (step.kind != PathStep::Kind::asks) fmt::print("    {}    {}\n", step.from_light ? "power " : "weight", text(step.beta));
+    if (step.kind != PathStep::Kind::asks)
+        fmt::print("    {} {}\n", step.from_light ? "power     " : "throughput", text(step.beta));
     if (step.kind == PathStep::Kind::asks)
         fmt::print("    {}\n", step.found ? "nothing is in between" : "hidden, or nothing is there");
     else if (step.to.is_infinite())
@@ -171,7 +172,7 @@ Json as_json(const ReplayedStep& s, const Scene& scene) {
     Json json = {{"ray", heading(step)}, {"bounce", step.bounce}, {"from", rgb(step.from.position)}, {"along", rgb(step.w)}};
     if (step.kind == PathStep::Kind::goes_on && !step.from_light)
         json["pdf"] = step.pdf == delta_pdf ? Json("delta") : Json(step.pdf);
-    if (step.kind != PathStep::Kind::asks) json[step.from_light ? "power" : "weight"] = rgb(step.beta);
+    if (step.kind != PathStep::Kind::asks) json[step.from_light ? "power" : "throughput"] = rgb(step.beta);
     json["found"] = step.found;
     if (step.found && step.kind != PathStep::Kind::asks)
         json["meets"] = {{"shape", name_of_shape(scene, step.to.shape)},

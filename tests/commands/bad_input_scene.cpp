@@ -40,10 +40,11 @@ TEST_F(BadInputScene, Plugins) {
     EXPECT_EQ(refusal_of("<shape type=\"teapot\"/>"),
               "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, "
               "serialized, shapegroup, sphere\n");
-    EXPECT_EQ(refusal_of("<bsdf type=\"velvet\"/>"),
-              "scene.xml:2:7: bsdf type 'velvet' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-              "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-              "thindielectric, twosided\n");
+    EXPECT_EQ(
+        refusal_of("<bsdf type=\"velvet\"/>"),
+        "scene.xml:2:7: bsdf type 'velvet' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
+        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
+        "thindielectric, twosided\n");
 }
 
 TEST_F(BadInputScene, Parameters) {

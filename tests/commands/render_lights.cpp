@@ -60,10 +60,9 @@ TEST_F(RenderLights, WalksEndByRoulette) {
             std::string(how) == "0.5")
             << done.err;
     }
-    EXPECT_EQ(
-        run({"render", "room.xml", "--roulette", "2"}).err,
-        "--roulette: '2' is not none, albedo, throughput or a number above 0 and at most 1\nRun with --help for more "
-        "information.\n");
+    EXPECT_EQ(run({"render", "room.xml", "--roulette", "2"}).err,
+              "--roulette: '2' is not none, albedo, throughput or a number above 0 and at most 1\nRun with --help for more "
+              "information.\n");
 }
 
 TEST_F(RenderLights, WhatCannotFindALightIsRefused) {

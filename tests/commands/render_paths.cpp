@@ -66,7 +66,7 @@ TEST_F(RenderPaths, Refusals) {
     expect_refused({"--method", "bidirectional", "--lights", "all"},
                    "--method bidirectional asks one light at a time; --lights all belongs to --method walk");
     expect_refused({"--method", "light", "--lights", "all"},
-                   "--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to light");
+                   "--direct, --lights and --split belong to --method walk and bidirectional, not to light");
 }
 
 TEST_F(RenderPaths, EmittersAreNotHidden) {

@@ -59,7 +59,9 @@ TEST_F(RenderReference, Refused) {
     EXPECT_EQ(refusal("one"), "one/bounce_002.exr: cannot be read: No such file or directory\n");
     EXPECT_EQ(refusal("one", {"-D", "width=163"}), "one/bounce_000.exr: is 164×5 pixels, expected 163×5 as the scene's film\n");
     write("broken/bounce_000.exr", "no picture");
-    EXPECT_EQ(refusal("broken"), "broken/bounce_000.exr: not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA\n");
+    EXPECT_EQ(refusal("broken"),
+              "broken/bounce_000.exr: not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, "
+              "BMP or TGA\n");
 }
 
 }  // namespace

@@ -232,9 +232,9 @@ TEST_F(StudyCommand, Refused) {
               "{walk,guided,surface,light,bidirectional,classic,pointwise,matrix,gather,patches}\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
     EXPECT_EQ(refusal({"--methods", "walk:colour=red"}),
-              "--methods walk:colour=red: 'colour=red' is not an option of a method, expected NAME=VALUE as in direct=bsdf\n");
+              "--methods walk:colour=red: 'colour' is not an option of a method, such as direct, lights or roulette\n");
     EXPECT_EQ(refusal({"--methods", "walk:direct"}),
-              "--methods walk:direct: 'direct' is not an option of a method, expected NAME=VALUE as in direct=bsdf\n");
+              "--methods walk:direct: 'direct' is no option, expected NAME=VALUE as in direct=bsdf\n");
     EXPECT_NE(refusal({"--methods", "walk:direct=nowhere"}).find("--methods walk:direct=nowhere: --direct: nowhere not in {"),
               std::string::npos);
     EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
