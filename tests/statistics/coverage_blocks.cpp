@@ -198,8 +198,8 @@ void expect_right(const Coverage& coverage, int least, const std::string& what) 
 
 void expect_coverage(SamplerKind kind, const char* name) {
     const Known in_sphere = sphere(), in_dome = dome();
-    // Four replicates, as `render --spp 16` has them, and two, the fewest that have an error, as `--spp 2` has. In the dome the light itself is not
-    // seen; it is enough to see it for bounce 0.
+    // Four replicates, as `render --spp 16` has them, and two, the fewest that have an error, as `--spp 2` has. In the dome the
+    // light itself is not seen; it is enough to see it for bounce 0.
     Run runs[] = {
         {in_sphere, bounces, first_seed, 4, 4}, {in_dome, bounces, first_seed, 4, 2}, {in_sphere, 0, first_seed + 320, 4, 2}};
     std::vector<Coverage> terms(bounces + 1), sums(bounces + 1);
