@@ -97,7 +97,9 @@ struct Batch {
     std::uint64_t given_up = 0;
 };
 
-// Adds the samples from `begin` to before `end`, as many as a power of two.
+constexpr std::uint32_t together = 64;  // walks
+
+// Adds the samples from `begin` to before `end`, a multiple of `together` or fewer than that.
 template <class Sampler>
 void run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
                const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
@@ -109,20 +111,20 @@ void run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effor
                                 .rest_probability = effort.rest_probability,
                                 .give_up = effort.give_up};
     const DirectLightSampler direct(scene, settings.direct);
-    const std::uint32_t together = std::min(end - begin, 64u);
-    std::vector<Sampler> samplers(together, sampler);
-    std::vector<Start> starts(together);
-    std::vector<CameraRay> rays(together);
-    std::vector<Rgb> samples(together * quantities);
+    const std::uint32_t packet = std::min(end - begin, together);
+    std::vector<Sampler> samplers(packet, sampler);
+    std::vector<Start> starts(packet);
+    std::vector<CameraRay> rays(packet);
+    std::vector<Rgb> samples(packet * quantities);
     Walkers walkers;
     TermSamples result{samples, batch.rays};
     const auto walk_on = [&](const auto& continuation) {
         walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
              std::span<Sampler>(samplers), walkers, result, continuation);
     };
-    for (std::uint32_t first = begin; first < end; first += together) {
+    for (std::uint32_t first = begin; first < end; first += packet) {
         std::fill(samples.begin(), samples.end(), Rgb(0.0));
-        for (std::uint32_t i = 0; i < together; ++i) {
+        for (std::uint32_t i = 0; i < packet; ++i) {
             samplers[i].start(first + i);
             FromSampler<Sampler> random(samplers[i]);
             starts[i] = pick(random);
@@ -136,7 +138,7 @@ void run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effor
             if (effort.going_on == GoingOn::surfaces) walk_on(SurfaceContinuation(scene.geometry));
             if (effort.going_on == GoingOn::specular) walk_on(SpecularContinuation());
         }
-        for (std::uint32_t i = 0; i < together; ++i) {
+        for (std::uint32_t i = 0; i < packet; ++i) {
             Rgb reflected(0.0);
             for (std::size_t q = 0; q < quantities; ++q) {
                 const Rgb x = starts[i].weight * samples[i * quantities + q];
@@ -171,7 +173,7 @@ public:
           series_(scene, way, effort.bounces),
           batches_(batch_count, Batch(static_cast<std::size_t>(effort.bounces) + 2)) {}
 
-    // Twice as many as before, or the first ones.
+    // More than before, or the first ones.
     void sample_to(std::uint32_t samples) {
         oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
             const auto run = [&](const auto& sampler) {
@@ -300,14 +302,17 @@ Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Eff
 }
 
 Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most) {
-    const auto is_sharp = [](const Statistic& s) { return s.standard_error.r <= 0.0019 * std::abs(s.mean.r); };
+    const auto excess = [](const Statistic& s) { return s.standard_error.r / (0.0019 * std::abs(s.mean.r)); };  // NaN: 0 ± 0
     Probe probe(scene, start, way, effort, most);
-    for (std::uint32_t samples = effort.samples;; samples *= 2) {
+    for (std::uint32_t samples = effort.samples;;) {
         probe.sample_to(samples);
         Estimates found = probe.estimates();
-        const bool sharp = std::all_of(found.terms.begin() + 1, found.terms.end(), is_sharp) &&
-                           (effort.rest_probability == 0.0 || is_sharp(found.rest));
-        if (sharp || samples >= most) return found;
+        double largest = effort.rest_probability > 0.0 ? excess(found.rest) : 0.0;
+        for (std::size_t i = 1; i < found.terms.size(); ++i) largest = std::fmax(largest, excess(found.terms[i]));
+        if (largest <= 1.0 || samples >= most) return found;
+        // As many as the square of the error asks for, an eighth to all as many as there are, in whole packets of walks.
+        const double more = samples * std::clamp(largest * largest - 1.0, 0.125, 1.0);
+        samples = std::min(samples + together * static_cast<std::uint32_t>(std::ceil(more / together)), most);
     }
 }
 

@@ -84,8 +84,8 @@ struct Estimates {
 
 Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort);
 
-// Goes on to 2, 4, … times the samples, until the standard errors of all terms from K Le on that are not 0, and of the rest if
-// it is asked for, are at most 0.19% of them, or a batch has `most` samples.
+// Goes on to more samples until the standard errors of all terms from K Le on that are not 0, and of the rest if it is asked for,
+// are at most 0.19% of them, or a batch has `most` samples.
 Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most = 1u << 17);
 
 inline Rgb power_of(const Rgb& rho, int i) { return {std::pow(rho.r, i), std::pow(rho.g, i), std::pow(rho.b, i)}; }
