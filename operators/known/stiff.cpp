@@ -235,13 +235,13 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     const Scene scene = rooms_with_door(rho);
     // On the wall beside the door.
     const StartPicker here = at(scene, {1.0, 0.9, 0.2}, {-1, 0, 0});
-    const Estimates found = probe(scene, here, Way::mis, {.samples = 4096, .bounces = 12, .rest_probability = 1.0, .seed = seed});
+    const Estimates found = probe(scene, here, Way::mis, {.samples = 8192, .bounces = 12, .rest_probability = 1.0, .seed = seed});
     figures.near("K Le", found.terms[1].mean.r, 0.0, 0.0);
     figures.at_least("K^3 Le over K^2 Le", found.terms[3].mean.r / found.terms[2].mean.r, 1.5);
     figures.at_least("K^4 Le over K^3 Le", found.terms[4].mean.r / found.terms[3].mean.r, 1.0);
     // The rest, asked for while all is dark, is what comes later.
     const Estimates early =
-        probe(scene, here, Way::mis, {.samples = 4096, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
+        probe(scene, here, Way::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
     figures.near("sum so far, at bounce 1", early.terms[0].mean.r + early.terms[1].mean.r, 0.0, 0.0);
     const double both = std::hypot(early.rest.standard_error.r, found.reflected.standard_error.r);
     figures.near("rest at bounce 1, and all K^i Le", early.rest.mean.r, found.reflected.mean.r, z_limit * both);
