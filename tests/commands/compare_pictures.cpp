@@ -47,7 +47,7 @@ protected:
 
     static std::string refusal(const std::string& a, const std::string& b) {
         try {
-            compare_command({a, b});
+            compare_command({a, b, "", false});
         } catch (const InputError& error) {
             return error.what();
         }

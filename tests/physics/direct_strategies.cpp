@@ -66,7 +66,7 @@ TEST(DirectStrategiesSlow, ARectangleByLambertsFormula) {
         settings.push_back({.direct = direct});
     for (const Settings& s : settings) {
         SCOPED_TRACE(describe(s));
-        const Estimates found = probe(scene, start, Way::mis, {.samples = 8192, .bounces = 2, .direct = s});
+        const Estimates found = probe(scene, start, Way::mis, {.samples = 512, .bounces = 2, .direct = s});
         expect_matches(found, std::vector{0.0, 0.7 * 3.0 * 0.1385316059948930, 0.0}, 0, asks_lights(s) ? power : 0.01);
     }
 }

@@ -43,7 +43,7 @@ TEST(Mask, HolesAndWhatIsBetweenThemAddUp) {
         const double exact[] = {opacity * rho * F * 3.0 + (1.0 - opacity) * 0.5, 0.0};
         for (const Way way : ways) {
             SCOPED_TRACE(name(way) + ", opacity " + std::to_string(opacity));
-            expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 2}), exact, 1, 0.003);
+            expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 1024, .bounces = 2}), exact, 1, 0.003);
         }
     }
 }
@@ -61,7 +61,7 @@ TEST(Mask, UnderTheSky) {
             SCOPED_TRACE(name(way));
             const double exact[] = {(side > 0.0 ? opacity * rho : 0.0) + 1.0 - opacity, 0.0};
             const auto start = at(scene, {0.1, 0.2, 0}, {0, 0, side});
-            expect_matches(probe(scene, start, way, {.samples = 8192, .bounces = 2}), exact, 1);
+            expect_matches(probe(scene, start, way, {.samples = 512, .bounces = 2}), exact, 1);
         }
 }
 
@@ -98,7 +98,7 @@ TEST(Blend, AMirrorAndAMattSurfaceMixAsOne) {
     const StartPicker start = [p](Random&) { return Start{p, at_cosine(0.1)}; };
     for (const Way way : ways) {
         SCOPED_TRACE(name(way));
-        expect_matches(probe(scene, start, way, {.samples = 8192, .bounces = 5}), exact, 0, 0.006);
+        expect_matches(probe(scene, start, way, {.samples = 512, .bounces = 5}), exact, 0, 0.006);
     }
 }
 

@@ -29,7 +29,7 @@ TEST(RoughFurnaceSlow, AllWaysFindTheSameTerms) {
                                         {0.2, std::vector{0.7899291865647029, 0.5594693134406654, 0.3932619909578068}}})
         for (const Way way : {Way::mis, Way::light, Way::pointwise, Way::surfaces}) {
             SCOPED_TRACE(name(way) + ", cosine " + std::to_string(cosine));
-            expect_matches(probe(scene, under(scene, cosine), way, {.samples = 8192, .bounces = 3}), exact, 1, 0.015);
+            expect_matches(probe(scene, under(scene, cosine), way, {.samples = 4096, .bounces = 3}), exact, 1, 0.015);
         }
 }
 

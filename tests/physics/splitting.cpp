@@ -22,7 +22,7 @@ TEST(SplittingSlow, VariancesAreDivided) {
         SCOPED_TRACE(describe(split));
         const auto variance = [&](DirectLight direct) {
             return probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Way::mis,
-                         {.samples = 1 << 14,
+                         {.samples = 1 << 11,
                           .bounces = 1,
                           .sampler = SamplerKind::independent,
                           .direct = DirectLightSettings{.direct = direct},
@@ -73,7 +73,7 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
             SCOPED_TRACE(describe(split) +
                          fmt::format(", direct {}, lights {}", static_cast<int>(direct.direct), static_cast<int>(direct.lights)));
             const Estimates found = probe(scene, start, Way::mis,
-                                          {.samples = direct.direct == DirectLight::cosine ? 4096u : 1024u,
+                                          {.samples = direct.direct == DirectLight::cosine ? 4096u : 256u,
                                            .bounces = 3,
                                            .rest_probability = 1.0,
                                            .direct = direct,

@@ -196,7 +196,7 @@ void expect_agreement(std::span<const Place> at, int bounces, std::uint64_t seed
 TEST(Agreement, OfTheFourFormsAndTheWalkOnDirectLight) { expect_agreement(places, 1, 1, 1024, 0.065); }
 // 4 places, two bounces: 240. (With three, the surface form has infinite variance: two random points on walls that meet.) A random
 // point on all surfaces is on the light in less than 1% of the cases, so the surface forms need many.
-TEST(AgreementSlow, OfTheFourFormsAndTheWalkOnTwoBounces) { expect_agreement(std::span(places).first(4), 2, 1, 32768, 0.1); }
+TEST(AgreementSlow, OfTheFourFormsAndTheWalkOnTwoBounces) { expect_agreement(std::span(places).first(4), 2, 1, 20480, 0.1); }
 
 }  // namespace
 }  // namespace neumann

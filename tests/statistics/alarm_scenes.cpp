@@ -56,7 +56,7 @@ constexpr const char* name_of(SamplerKind kind) { return kind == SamplerKind::so
 // that at least one is found in every picture.
 TEST(AlarmSlow, IsRaisedForALightThatTouchesTheWalls) {
     const Scene scene = cube();
-    constexpr int seeds = 20;
+    constexpr int seeds = 12;
     for (const SamplerKind kind : {SamplerKind::independent, SamplerKind::sobol}) {
         double index[bounces + 2] = {};
         int alarms[bounces + 2] = {};
