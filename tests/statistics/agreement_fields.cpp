@@ -27,7 +27,7 @@ class FieldPicturesSlow : public testing::TestWithParam<const char*> {};
 // In at least 95% of all pixels and channels of every bounce the difference is at most t · SE + discretisation, with the walk's own
 // error in SE; and the mean of the reported discretisation error is at most 5 times that of the true error.
 TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
-    const Scene scene = read_scene(fmt::format("{0}/{1}/{1}.xml", SCENES, GetParam()), {{"res", "48"}});
+    const Scene scene = read_scene(fmt::format("{0}/{1}/{1}.xml", SCENES, GetParam()), {{"res", "32"}});
     constexpr int N = 4;
     const RenderedSeries truth = walk(scene, N, 4096);
     const auto walked = truth.moments.result();
