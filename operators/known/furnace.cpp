@@ -109,7 +109,7 @@ void add_laws(Cases& cases) {
                  for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == lit ? glowing(rho, 1.0) : matte(rho));
                  const Scene scene = maker.make();
                  const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis,
-                                               {.samples = 8192, .bounces = 4, .seed = seed + lit});
+                                               {.samples = 2048, .bounces = 4, .seed = seed + lit});
                  for (std::size_t i = 0; i < sums.size(); ++i) {
                      const Rgb a = sums[i].standard_error, b = found.terms[i].standard_error;
                      sums[i].mean += found.terms[i].mean;

@@ -124,7 +124,7 @@ void furnace(Figures& figures, std::uint64_t seed, Way way) {
     maker.add(make_cube(glm::dmat4(0.3, 0, 0, 0, 0, 0.3, 0, 0, 0, 0, 0.3, 0, -0.9, 0.1, 0.2, 1)), glass(1.33));
     const Scene scene = maker.make();
     const Estimates found =
-        probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), way, {.samples = 1024, .bounces = 80, .seed = seed});
+        probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), way, {.samples = 128, .bounces = 80, .seed = seed});
     // 0.5 a reflection on the wall, and at least every third bounce is one but for trapped light that the camera does not see.
     figures.sampled("sum of K^i Le, i <= 80", found.reflected, 1.0, std::pow(0.5, 26));
 }
