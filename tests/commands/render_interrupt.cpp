@@ -88,7 +88,7 @@ TEST_F(RenderInterrupt, WithinTheFirstMoments) {
 using RenderInterruptSlow = RenderInterrupt;
 TEST_F(RenderInterruptSlow, LongBeforeTheFirstReplicateEnds) {
     RunningCommand command = start(
-        {"render", SCENES "/cornell-box/cornell-box.xml", "-o", "a", "-n", "2", "--spp", "4096", "-t", "1", "-D", "res=1024"});
+        {"render", SCENES "/cornell-box/cornell-box.xml", "-o", "a", "-n", "2", "--spp", "4096", "-t", "1", "-D", "res=512"});
     wait_for_folder();
     std::this_thread::sleep_for(milliseconds(4500));
     command.signal(SIGINT);

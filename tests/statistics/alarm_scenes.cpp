@@ -102,7 +102,7 @@ void expect_silent(const Scene& scene, DirectLight direct, SamplerKind kind, int
 }
 
 TEST(AlarmSlow, IsSilentWithMultipleImportanceSampling) {
-    expect_silent(cube(), DirectLight::mis, SamplerKind::sobol, 200, "cube, MIS");
+    expect_silent(cube(), DirectLight::mis, SamplerKind::sobol, 100, "cube, MIS");
 }
 TEST(AlarmSlow, IsSilentWithIndependentNumbers) {
     expect_silent(cube(), DirectLight::mis, SamplerKind::independent, 40, "cube, MIS");
@@ -112,7 +112,7 @@ TEST(AlarmSlow, IsSilentWithBsdfSampling) {
 }
 TEST(AlarmSlow, IsSilentInTheCornellBox) {
     const Scene scene = read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml", {{"res", std::to_string(resolution)}});
-    expect_silent(scene, DirectLight::mis, SamplerKind::sobol, 200, "mitsuba-cornell, MIS");
+    expect_silent(scene, DirectLight::mis, SamplerKind::sobol, 100, "mitsuba-cornell, MIS");
 }
 
 }  // namespace
