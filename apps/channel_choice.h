@@ -10,6 +10,7 @@ namespace neumann {
 struct ChosenChannel {
     int channel = 0;
     double radius = 0.0;        // spectral radius of its K; not a number where it was not found
+    std::string no_radius;      // why, then
     bool traps_light = false;   // within glass: the radius is 1, and says nothing of light that does not get there
     double applications = 0.0;  // to find the radius, of all channels looked at
     std::string why;

@@ -46,17 +46,22 @@ struct Comparison {
     std::optional<std::pair<std::string, std::string>> rests;  // where they differ: after which bounces they begin
 };
 
+ComparedPicture compared(const RenderedPicture& p) {
+    return {p.picture, p.degrees_of_freedom.value_or(exact_degrees_of_freedom), p.means ? &*p.means : nullptr};
+}
+
 Row compare_pictures(const std::string& name, const std::string& path_a, const std::string& path_b) {
     const RenderedPicture a = read_rendered_picture(path_a), b = read_rendered_picture(path_b);
     try {
         Row row{
             name, compare(a.picture.mean, b.picture.mean), {}, expected_rmse(a.picture, b.picture), a.has_error(), b.has_error(),
             true};
-        row.means = compare_means(a.picture, a.degrees_of_freedom.value_or(exact_degrees_of_freedom), b.picture,
-                                  b.degrees_of_freedom.value_or(exact_degrees_of_freedom), confidence);
+        row.means = compare_means(compared(a), compared(b), confidence);
         row.degrees_known = (!a.has_error() || a.degrees_of_freedom) && (!b.has_error() || b.degrees_of_freedom);
         row.infinite_variance = a.infinite_variance || b.infinite_variance;
-        const auto may_go_together = [](const RenderedPicture& p) { return p.has_error() && !p.picture.pixels_are_independent; };
+        const auto may_go_together = [&](const RenderedPicture& p) {
+            return p.has_error() && !p.picture.pixels_are_independent && !(p.means && row.metrics.not_finite == 0);
+        };
         row.widest = may_go_together(a) || may_go_together(b);
         return row;
     } catch (const InputError& error) {
@@ -138,9 +143,8 @@ void print_notes(const Comparison& comparison) {
     }
     if (any([](const Row& row) { return row.has_interval() && row.widest; })) {
         fmt::print(
-            "Errors of the pixels of one picture may go together here (all methods but those that walk from the camera), so that "
-            "the\n"
-            "intervals are upper bounds, perhaps far too wide; series.csv of each render has its own, of the means.\n");
+            "Errors of the pixels of one picture may go together here (all methods but those that walk from the camera), and a file\n"
+            "does not hold the error of its mean, or not all pixels count: intervals are upper bounds then, perhaps far too wide.\n");
     }
     if (comparison.rests)
         fmt::print("The rests are not compared: that of A begins after {}, that of B after {}.\n", comparison.rests->first,
@@ -197,7 +201,8 @@ nlohmann::ordered_json json_of(const Row& row) {
                                 {"max_error", m.max_error},
                                 {"pixels", m.pixels},
                                 {"not_finite", m.not_finite},
-                                {"infinite_variance", row.infinite_variance}};
+                                {"infinite_variance", row.infinite_variance},
+                                {"interval_is_upper_bound", row.has_interval() && row.widest}};
     if (row.has_interval()) j["rmse_by_noise"] = row.noise;
     j.update(json_of(row, row.means.all));
     constexpr const char* names[] = {"red", "green", "blue"};

@@ -47,7 +47,7 @@ struct Size {
     auto operator<=>(const Size&) const = default;
 };
 
-Estimate read_picture(const fs::path& path, Size size) {
+PixelEstimate read_picture(const fs::path& path, Size size) {
     RenderedPicture read = read_rendered_picture(path.string());
     const Image& mean = read.picture.mean;
     if (Size{mean.width, mean.height} != size)
@@ -75,8 +75,8 @@ ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
     const bool importance = folder.run["quantity"].value("name", "").starts_with("importance");
     Image emission;
     for (std::size_t i = 0; i < folder.bounces(); ++i) {
-        Estimate term = read_picture(folder.path / bounce_file(i), folder.size);
-        const Estimate sum = read_picture(folder.path / sum_file(i), folder.size);
+        PixelEstimate term = read_picture(folder.path / bounce_file(i), folder.size);
+        const PixelEstimate sum = read_picture(folder.path / sum_file(i), folder.size);
         out.pictures.add(term, &sum);
         if (i == 0) emission = std::move(term.mean);
         if (i + 1 == folder.bounces()) out.exposure = exposure_for(sum.mean, importance ? sum.mean : emission);

@@ -101,7 +101,7 @@ void write_pictures(const fs::path& folder, const ConformResult& result, const E
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= reference.pixels[i];
     OutputFolder files(folder, "conform");
     const auto write = [&](const char* name, const Image& image) {
-        files.write(name, encode_exr({image, {}}, {{"neumann:scene", result.name}}));
+        files.write(name, encode_exr(Estimate{image, {}}, {{"neumann:scene", result.name}}));
     };
     write("picture.exr", in_colors(rgb_from_xyz, picture.mean));
     write("reference.exr", in_colors(rgb_from_xyz, reference));

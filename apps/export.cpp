@@ -5,7 +5,6 @@
 #include "apps/options.h"
 #include "apps/output_folder.h"
 #include "core/base/error.h"
-#include "core/base/memory.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -85,7 +84,7 @@ void print_how_to_read(const PatchScene& scene, const ExportRequest& request, co
 void check_matrix_memory(const PatchOptions& options, const TracedSystem& system) {
     // R of a rough side has an entry for each ray and direction.
     const auto rays = static_cast<double>(std::max(system.rays(), reflection_entries(system.table(), system.reflection(0))));
-    const double fitting = std::min(0.5 * physical_memory() / bytes_of_entry, double{std::numeric_limits<int>::max()});
+    const double fitting = std::min(memory_limit(options.memory) / bytes_of_entry, double{std::numeric_limits<int>::max()});
     if (rays > fitting)
         throw InputError(fmt::format(
             "{}: the matrices of {} patches of {} rays are too large to export; at most {:.0f} patches of as many rays fit",

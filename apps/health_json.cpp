@@ -55,6 +55,25 @@ std::string pixel_text(const Film& film, std::uint32_t number) {
     return fmt::format("pixel {},{}", pixel.x, pixel.y);
 }
 
+const char* option(Remedy remedy) {
+    switch (remedy) {
+        case Remedy::ask_lights:
+            return "--method walk --direct mis";
+        case Remedy::bidirectional:
+            return "--method bidirectional";
+        case Remedy::more_bounces:
+            return "a larger -n";
+    }
+    return "";
+}
+
+std::string remedy_text(const std::vector<Remedy>& remedies) {
+    if (remedies.empty()) return "no method finds such a path but by chance";
+    std::string text = "such a path is found with less luck by ";
+    for (std::size_t i = 0; i < remedies.size(); ++i) text += (i > 0 ? " with " : "") + std::string(option(remedies[i]));
+    return text;
+}
+
 std::string bounce_text(const Health& health, std::size_t q) {
     return q + 1 == health.bounces.size() ? "the rest" : fmt::format("bounce {}", q);
 }
@@ -122,9 +141,9 @@ std::vector<std::string> complaints(const Health& health, const Scene& scene, co
         const std::string makers = b.fireflies == 1
                                        ? "one sample makes more than half of its pixel"
                                        : fmt::format("{} samples each make more than half of their pixel", b.fireflies);
-        lines.push_back(fmt::format("{}: {}; {:.3g}% of {} is a single one: {}", bounce_text(health, q), makers,
+        lines.push_back(fmt::format("{}: {}; {:.3g}% of {} is a single one: {}; {}", bounce_text(health, q), makers,
                                     100.0 * b.largest->of_sum, pixel_text(scene.film, b.largest->sample.place.pixel),
-                                    replay(named.largest[q])));
+                                    replay(named.largest[q]), remedy_text(b.remedies)));
     }
     if (!health.checkup) return lines;
     const Checkup& checkup = *health.checkup;
@@ -167,6 +186,9 @@ Json as_json(const Health& health, const Scene& scene, const std::string& folder
                            {"share_of_pixel", b.largest->of_bounce},
                            {"share_of_pixel_in_sum", b.largest->of_sum},
                            {"fireflies", b.fireflies}});
+        if (b.fireflies == 0) continue;
+        largest.back()["try"] = Json::array();
+        for (const Remedy remedy : b.remedies) largest.back()["try"].push_back(option(remedy));
     }
     json["non_finite_samples"] = {{"count", health.non_finite()}, {"by_bounce", by_bounce}, {"pixels_overflowed", overflowed}};
     json["largest_samples"] = largest;

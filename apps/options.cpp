@@ -1,6 +1,7 @@
 #include "apps/options.h"
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 
 #include <fmt/format.h>
 #include <charconv>
@@ -38,6 +39,14 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning
 void add_threads(CLI::App& command, int& threads) {
     command.add_option("-t", threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
 }
+
+void add_memory(CLI::App& command, std::optional<double>& gibibytes) {
+    command.add_option("--memory", gibibytes, "Memory that may be taken, about, in GiB; half of the machine's without it")
+        ->type_name("GIB")
+        ->check(above_zero());
+}
+
+double memory_limit(const std::optional<double>& gibibytes) { return gibibytes ? *gibibytes * 0x1p30 : default_memory(); }
 
 ThreadLimit::ThreadLimit(int threads) {
     if (threads > 0) limit_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));

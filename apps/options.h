@@ -20,6 +20,11 @@ void add_scene(CLI::App& command, std::string& scene);
 void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning = "Seed of the random numbers");
 void add_threads(CLI::App& command, int& threads);
 
+// --memory, in GiB; without it half of what there is.
+void add_memory(CLI::App& command, std::optional<double>& gibibytes);
+// Bytes that may be taken.
+double memory_limit(const std::optional<double>& gibibytes);
+
 // While it lives there are at most so many threads; all with 0.
 class ThreadLimit {
 public:

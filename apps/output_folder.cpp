@@ -88,6 +88,10 @@ std::optional<std::string_view> writer_of(std::string_view name) {
     return std::nullopt;
 }
 
+std::string size_text(double bytes) {
+    return bytes < 0x1p30 ? fmt::format("{:.3g} MiB", bytes / 0x1p20) : fmt::format("{:.3g} GiB", bytes / 0x1p30);
+}
+
 }  // namespace
 
 bool is_output_name(std::string_view name) { return writer_of(name).has_value(); }
@@ -175,6 +179,14 @@ void OutputFolder::write(const std::string& name, std::string_view bytes) {
     if (error == 0) return;
     ::unlink(partial(name).c_str());
     throw RunError(cannot_be_written(path_ / name, error));
+}
+
+void OutputFolder::expect_space(double bytes) const {
+    std::error_code unknown;
+    const fs::space_info space = fs::space(path_, unknown);
+    if (unknown || static_cast<double>(space.available) >= bytes) return;
+    throw InputError(fmt::format("{}: about {} are needed there, and {} are free; take another folder, a smaller film or fewer bounces",
+                                 path_.string(), size_text(bytes), size_text(static_cast<double>(space.available))));
 }
 
 void OutputFolder::commit() {

@@ -30,6 +30,9 @@ public:
     // reaches the disk: "out/x/bounce_000.exr: cannot be written: No space left on device".
     void write(const std::string& name, std::string_view bytes);
 
+    // Throws InputError where less than so many bytes are free: before time is spent on what cannot be written.
+    void expect_space(double bytes) const;
+
     // Puts all files in place, run.json last, and removes the program's files of earlier runs that are not among them. A folder
     // that holds pictures and no run.json is one where this was cut off.
     void commit();

@@ -26,7 +26,7 @@ TracedSettings settings(const PatchOptions& options) {
     if (!std::has_single_bit(rays))
         throw InputError(fmt::format("--directions {}: expected a power of two, such as {} or {}", rays, std::bit_floor(rays),
                                      std::bit_ceil(rays)));
-    return {options.patches, static_cast<std::uint32_t>(rays), options.seed};
+    return {options.patches, static_cast<std::uint32_t>(rays), options.seed, memory_limit(options.memory)};
 }
 
 std::shared_ptr<const Scene> read(const PatchOptions& options) {
@@ -48,6 +48,7 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
         ->capture_default_str();
     add_seed(command, options.seed);
     add_threads(command, options.threads);
+    add_memory(command, options.memory);
     add_definitions(command, options.definitions);
     command.add_flag("--quiet", options.quiet, "Print no warnings");
     command.add_flag("--json", options.json, "Print JSON");

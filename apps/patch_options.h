@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct PatchOptions {
     std::uint64_t rays = 64;  // of a facet
     std::uint64_t seed = 0;
     int threads = 0;  // 0: all
+    std::optional<double> memory;  // GiB
     bool quiet = false;
     bool json = false;
     std::string command_line;  // as typed

@@ -30,13 +30,17 @@ ProgressLine::ProgressLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)
 ProgressLine::~ProgressLine() { clear(); }
 
 void ProgressLine::show(int bounces, const RenderProgress& progress) {
+    show([&] { return progress_text(bounces, progress); });
+}
+
+void ProgressLine::show(const std::function<std::string()>& text) {
     if (!active_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     const auto now = std::chrono::steady_clock::now();
     if (!lock || now - last_ < std::chrono::milliseconds(200)) return;
     last_ = now;
     shown_ = true;
-    fmt::print(stderr, "\r\033[K{}", progress_text(bounces, progress));
+    fmt::print(stderr, "\r\033[K{}", text());
     std::fflush(stderr);
 }
 

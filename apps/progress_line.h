@@ -4,6 +4,7 @@
 #include "operators/pictures/render.h"
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -20,6 +21,7 @@ public:
 
     // From any thread; most calls do nothing.
     void show(int bounces, const RenderProgress& progress);
+    void show(const std::function<std::string()>& text);
     void clear();
 
 private:

@@ -22,6 +22,7 @@ struct RenderRequest {
     std::optional<std::uint64_t> samples;
     std::optional<double> seconds;
     std::optional<double> relative_error;
+    std::optional<double> memory;  // GiB
     std::string method = "walk";
     LightOptions light;
     std::optional<int> ways;    // of bidirectional: the bounce of which every way is shown

@@ -50,8 +50,10 @@ Plan plan_of(const RenderRequest& request, const Scene& scene) {
     return plan;
 }
 
-int choose_bounces(const RenderJob& job) {
-    const auto& [request, scene, pilot, plan, progress] = job;
+namespace {
+
+int find_bounces(const RenderJob& job) {
+    const auto& [request, scene, pilot, plan, progress, chosen] = job;
     if (request.bounces) return *request.bounces;
     if (request.tail) {
         if (!pilot.converges())
@@ -65,6 +67,14 @@ int choose_bounces(const RenderJob& job) {
         return n;
     }
     return scene.bounces ? *scene.bounces : default_bounces(pilot);
+}
+
+}  // namespace
+
+int choose_bounces(const RenderJob& job) {
+    const int bounces = find_bounces(job);
+    job.chosen(bounces);
+    return bounces;
 }
 
 int default_bounces(const Pilot& pilot) {

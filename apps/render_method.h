@@ -14,6 +14,9 @@
 
 namespace neumann {
 
+// The most that --error takes without --time, seconds.
+constexpr double longest_search = 600.0;
+
 struct RenderJob {
     const RenderRequest& request;
     const Scene& scene;
@@ -21,6 +24,8 @@ struct RenderJob {
     const Plan& plan;  // without parts where nothing is left out
     // Told how far it is with bounces 0 … N and the rest, from any thread.
     std::function<void(int bounces, const RenderProgress&)> progress = [](int, const RenderProgress&) {};
+    // Told the last bounce as soon as it is known, before anything is sampled; may throw.
+    std::function<void(int bounces)> chosen = [](int) {};
 };
 
 struct RenderResult {

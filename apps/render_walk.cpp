@@ -4,10 +4,12 @@
 #include "apps/health_json.h"
 #include "apps/interrupt.h"
 #include "apps/method_options.h"
+#include "apps/options.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "operators/guide/direction_tables.h"
+#include "operators/pictures/least_errors.h"
 #include "operators/walk/furnace_walk.h"
 
 #include <fmt/format.h>
@@ -39,15 +41,16 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, 
 }
 
 // What the moments of all pictures need at most: refused before the machine starts to swap.
-void check_memory(const Film& film, int bounces) {
-    const double nodes = 6.0;  // of the tree of replicates, at most, with the result
+void check_memory(const RenderRequest& request, const Film& film, int bounces) {
+    const double nodes = 7.0;  // of the tree of replicates, at most, with the result and the samples' ranges
     const double bytes =
         nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
-    const double memory = physical_memory();
-    if (bytes > 0.8 * memory)
-        throw InputError(fmt::format(
-            "{} bounces of {}×{} pixels need about {:.1f} GiB, the machine has {:.1f}; take fewer bounces or a smaller film",
-            bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
+    // All of it is known beforehand, so that it may be more than what grows by itself takes.
+    const double memory = request.memory ? memory_limit(request.memory) : 0.8 * usable_memory();
+    if (bytes > memory)
+        throw InputError(fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, and {:.1f} may be taken; take fewer bounces or a "
+                                     "smaller film",
+                                     bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
 Method method_of(const std::string& name) {
@@ -78,11 +81,24 @@ RestVerdict rest_verdict(const RenderJob& job) {
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
-                           SeriesReport report) {
+                           const std::shared_ptr<const LeastErrors>& least, SeriesReport report) {
     BounceSeries out;
-    out.term = [result](std::size_t i) { return result->term(i); };
-    out.sum = [result](std::size_t i) { return result->sum(i); };
-    if (report.rest_verdict == RestVerdict::measured) out.rest = result->term(result->quantities() - 1);
+    out.term = [result, least](std::size_t i) {
+        PixelEstimate term = result->term(i);
+        if (least) term.least_error = least->of_term(i);
+        return term;
+    };
+    out.sum = [result, least](std::size_t i) {
+        PixelEstimate sum = result->sum(i);
+        if (least) sum.least_error = least->of_sum(i);
+        return sum;
+    };
+    out.means_of_term = [result](std::size_t i) { return result->means_of_term(i); };
+    out.means_of_sum = [result](std::size_t i) { return result->means_of_sum(i); };
+    if (report.rest_verdict == RestVerdict::measured) {
+        out.rest = out.term(result->quantities() - 1);
+        out.means_of_rest = result->means_of_term(result->quantities() - 1);
+    }
     out.report = std::move(report);
     out.convergence = series.convergence;
     out.outcome = series.outcome;
@@ -124,7 +140,7 @@ SamplingSettings sampling_settings(const RenderRequest& request, const Scene& sc
 }
 
 std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& request, const Scene& scene, int bounces) {
-    GuideSettings settings{.bounces = bounces, .seed = request.seed};
+    GuideSettings settings{.bounces = bounces, .seed = request.seed, .memory = memory_limit(request.memory)};
     if (request.patches) settings.patches = *request.patches;
     if (request.directions) {
         settings.rays = *request.directions;
@@ -136,7 +152,7 @@ std::shared_ptr<const DirectionTables> direction_tables(const RenderRequest& req
 }
 
 RenderResult render_by_walk(const RenderJob& job) {
-    const auto& [request, scene, pilot, plan, progress] = job;
+    const auto& [request, scene, pilot, plan, progress, chosen] = job;
     PictureSampler::Settings settings = sampling_settings(request, scene, plan);
     const Paths paths = paths_of(settings.method, scene);
     settings.walk.bounces = choose_bounces(job);
@@ -152,13 +168,14 @@ RenderResult render_by_walk(const RenderJob& job) {
         if (goal.seconds) goal.seconds = std::max(*goal.seconds - setup_seconds, shortest_sampling);
     }
     settings.replicate_size = choose_replicate_size(goal, scene.film, pilot, settings.walk.split);
+    if (goal.relative_error && !goal.samples && !goal.seconds) goal.seconds = longest_search;
 
     RenderedSeries series{SeriesMoments(0, 0, 0), Tally(0), {}};
     SeriesReport report;
     const RestVerdict verdict = rest_verdict(job);
     for (;;) {
         const int N = settings.walk.bounces;
-        check_memory(scene.film, N);
+        check_memory(request, scene.film, N);
         settings.walk.rest_probability =
             verdict == RestVerdict::measured ? pilot.rest_probability(std::min(N, Pilot::bounces)) : 0.0;
 
@@ -190,7 +207,12 @@ RenderResult render_by_walk(const RenderJob& job) {
 
     RenderResult result;
     const auto moments = std::make_shared<const SeriesMoments::Result>(series.moments.result());
-    result.series = bounce_series(series, moments, std::move(report));
+    std::shared_ptr<const LeastErrors> least;
+    if (!request.only_pictures) {
+        least = std::make_shared<const LeastErrors>(scene, settings, series, *moments);
+        report_unmet(report, *least);
+    }
+    result.series = bounce_series(series, moments, least, std::move(report));
     result.series.paths = paths;
     Warnings& warnings = result.warnings;
     if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.method != Method::light)
@@ -224,8 +246,17 @@ RenderResult render_by_walk(const RenderJob& job) {
     warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up), series.tally.given_up);
     if (result.series.report.infinite_variance())
         warnings.add("the variance of some bounces is infinite: their intervals do not hold");
+    if (result.series.report.rare_large_samples())
+        warnings.add(
+            "the largest samples of some bounces are rare and make much of what is there: their intervals may be too short");
+    if (request.relative_error && series.outcome == Outcome::time_reached) {
+        const auto& errors = series.convergence.back().term_error;
+        const auto worst = std::max_element(errors.begin(), errors.end());
+        warnings.add(fmt::format("an error of {:g} was not reached in {:.0f} s: the largest is {:.2g}, in bounce {}",
+                                 *request.relative_error, series.seconds, *worst, worst - errors.begin()));
+    }
     if (request.ways) {
-        check_memory(scene.film, 2 * *request.ways + 2);
+        check_memory(request, scene.film, 2 * *request.ways + 2);
         RenderObserver observer;
         observer.progress = [&](const RenderProgress& so_far) { job.progress(*request.ways, so_far); };
         observer.interrupted = interrupted;

@@ -19,7 +19,8 @@ std::vector<std::string> Rendering::complaints(const std::string& folder) const 
 }
 
 std::unique_ptr<Rendering> render(const RenderRequest& request, Scene scene,
-                                  const std::function<void(int, const RenderProgress&)>& progress) {
+                                  const std::function<void(int, const RenderProgress&)>& progress,
+                                  const std::function<void(int)>& chosen) {
     const Stopwatch watch;
     Pilot pilot(scene, direct_light(request.light, scene.emitters), request.seed);
     Plan plan = plan_of(request, scene);
@@ -27,6 +28,7 @@ std::unique_ptr<Rendering> render(const RenderRequest& request, Scene scene,
     std::unique_ptr<Rendering> rendering(new Rendering{request, std::move(scene), std::move(pilot), std::move(plan), {}});
     RenderJob job = rendering->job();
     job.progress = progress;
+    job.chosen = chosen;
     rendering->result = render_by_method(job);
     rendering->seconds = watch.seconds();
     return rendering;

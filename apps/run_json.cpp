@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 // JSON has no infinity.
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-Json mean_json(const MeanWithError& mean, bool infinite_variance) {
+Json mean_json(const MeanWithError& mean, bool infinite_variance, bool rare_large_samples = false, bool unmet = false) {
     Json json = {{"mean", number(mean.mean)}};
     if (infinite_variance) {
         json["interval95"] = "none: the variance is infinite";
@@ -23,6 +23,8 @@ Json mean_json(const MeanWithError& mean, bool infinite_variance) {
     json["stderr"] = number(mean.standard_error);
     json["degrees_of_freedom"] = number(mean.degrees_of_freedom);
     json["interval95"] = number(mean.interval());
+    if (unmet) json["unmet"] = "no sample met it: interval95 is an upper bound";
+    if (rare_large_samples) json["rare_large_samples"] = true;
     return json;
 }
 
@@ -36,6 +38,10 @@ const char* name(Outcome outcome) {
             return "error reached";
         case Outcome::interrupted:
             return "interrupted";
+        case Outcome::memory_reached:
+            return "memory reached";
+        case Outcome::does_not_pay:
+            return "more does not pay";
     }
     return "";
 }
@@ -60,7 +66,7 @@ Json rest_json(const Scene& scene, const RenderResult& result) {
     Json json;
     switch (report.rest_verdict) {
         case RestVerdict::measured:
-            json = mean_json(report.rest, report.rest_infinite_variance);
+            json = mean_json(report.rest, report.rest_infinite_variance, false, report.rest_unmet);
             json["verdict"] = "measured";
             json["fraction_of_sum_with_interval"] = number(report.tail_fraction());
             break;
@@ -95,7 +101,7 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
 
 Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, const std::string& folder,
               double seconds_total) {
-    const auto& [request, scene, pilot, plan, progress] = job;
+    const auto& [request, scene, pilot, plan, progress, chosen] = job;
     const BounceSeries& series = result.series;
     const SeriesReport& report = series.report;
     Json json;
@@ -114,13 +120,13 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
     json["timing"] = {
         {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
-    json["sum"] = mean_json(report.sum, report.infinite_variance());
+    json["sum"] = mean_json(report.sum, report.infinite_variance(), report.rare_large_samples());
     add_discretisation(json["sum"], report.sum_discretisation);
     json["bounces"] = Json::array();
     for (const BounceReport& b : report.bounces) {
-        Json bounce = mean_json(b.mean, b.infinite_variance);
+        Json bounce = mean_json(b.mean, b.infinite_variance, b.rare_large_samples, b.unmet);
         add_discretisation(bounce, b.discretisation);
-        if (b.missing) bounce["missing"] = mean_json(*b.missing, b.infinite_variance);
+        if (b.missing) bounce["missing"] = mean_json(*b.missing, b.infinite_variance, b.rare_large_samples);
         if (b.ratio) bounce["ratio_estimate"] = *b.ratio;
         bounce["tail_bound"] = number(b.bound);
         if (b.tail) bounce["tail_index"] = {{"estimate", b.tail->alpha}, {"upper_99.9", b.tail->upper}};

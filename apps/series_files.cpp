@@ -2,7 +2,9 @@
 
 #include "apps/contact_sheet.h"
 #include "apps/flip_book.h"
+#include "apps/rendered_picture.h"
 #include "apps/strips.h"
+#include "core/base/error.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
@@ -13,34 +15,79 @@ namespace neumann {
 std::string bounce_file(std::size_t i) { return fmt::format("bounce_{:03}.exr", i); }
 std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
 
+namespace {
+
+Attributes attributes_of(const BounceSeries& series, const std::string& quantity, std::size_t bounce, const PixelEstimate& picture,
+                         const PictureMeans& means, bool infinite_variance) {
+    Attributes all{{"neumann:quantity", quantity},
+                   {"neumann:bounce", static_cast<std::int64_t>(bounce)},
+                   {"neumann:samples", static_cast<std::int64_t>(series.samples)},
+                   {"neumann:degrees_of_freedom", series.degrees_of_freedom},
+                   {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
+    if (series.paths != Paths::all) all["neumann:paths"] = std::string("a subset");
+    if (!picture.least_error.pixels.empty())
+        all["neumann:stderr"] = std::string("not below what few samples leave open; spread, where it differs, is for means");
+    if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
+    all.merge(mean_attributes(means));
+    return all;
+}
+
+std::string power(const BounceSeries& series, const std::string& n) {
+    return series.report.importance ? "K*^" + n + " We" : "K^" + n + " Le";
+}
+
+std::string term_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& term) {
+    return encode_exr(term, attributes_of(series, power(series, "i"), i, term, series.means_of_term(i),
+                                          series.report.bounces[i].infinite_variance));
+}
+
+std::string rest_exr(const BounceSeries& series) {
+    return encode_exr(*series.rest, attributes_of(series, "sum of " + power(series, "k") + " for k > i",
+                                                  series.report.bounces.size() - 1, *series.rest, *series.means_of_rest,
+                                                  series.report.rest_infinite_variance));
+}
+
+}  // namespace
+
+double estimated_bytes(const Film& film, int bounces, bool has_discretisation) {
+    const double pixels = static_cast<double>(film.crop_width) * film.crop_height, pictures = 2.0 * bounces + 3.0;
+    const double exr = pictures * pixels * sizeof(float) * (has_discretisation ? 9.0 : 6.0);
+    // The page holds half floats in base 64; the slides and what pages are made of do not grow with the film.
+    return 1.25 * exr + 0x1p20;
+}
+
+std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series) {
+    std::vector<std::string> missing;
+    const auto write = [&](const std::string& name, const std::string& bytes) {
+        try {
+            folder.write(name, bytes);
+        } catch (const RunError&) {
+            missing.push_back(name);
+        }
+    };
+    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) write(bounce_file(i), term_exr(series, i, series.term(i)));
+    if (series.rest) write("rest.exr", rest_exr(series));
+    write("series.csv", series_table(series.report));
+    return missing;
+}
+
 WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed) {
     const SeriesReport& report = series.report;
     const std::size_t N = report.bounces.size() - 1;
-    const auto attributes = [&](const std::string& quantity, std::size_t bounce, const Estimate& picture, bool infinite_variance) {
-        Attributes all{{"neumann:quantity", quantity},
-                       {"neumann:bounce", static_cast<std::int64_t>(bounce)},
-                       {"neumann:samples", static_cast<std::int64_t>(series.samples)},
-                       {"neumann:degrees_of_freedom", series.degrees_of_freedom},
-                       {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
-        if (series.paths != Paths::all) all["neumann:paths"] = std::string("a subset");
-        if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
-        return all;
-    };
-    const auto power = [&](const std::string& n) { return report.importance ? "K*^" + n + " We" : "K^" + n + " Le"; };
     std::vector<Image> terms, sums;
     bool any_infinite = false;
     for (std::size_t i = 0; i <= N; ++i) {
-        Estimate term = series.term(i), sum = series.sum(i);
+        PixelEstimate term = series.term(i), sum = series.sum(i);
         any_infinite = any_infinite || report.bounces[i].infinite_variance;
-        folder.write(bounce_file(i), encode_exr(term, attributes(power("i"), i, term, report.bounces[i].infinite_variance)));
-        folder.write(sum_file(i), encode_exr(sum, attributes("sum of " + power("k") + " for k <= i", i, sum, any_infinite)));
+        folder.write(bounce_file(i), term_exr(series, i, term));
+        folder.write(sum_file(i), encode_exr(sum, attributes_of(series, "sum of " + power(series, "k") + " for k <= i", i, sum,
+                                                                series.means_of_sum(i), any_infinite)));
         packed.add(term, &sum);
         terms.push_back(std::move(term.mean));
         sums.push_back(std::move(sum.mean));
     }
     if (series.rest) {
-        folder.write("rest.exr", encode_exr(*series.rest, attributes("sum of " + power("k") + " for k > i", N, *series.rest,
-                                                                     report.rest_infinite_variance)));
+        folder.write("rest.exr", rest_exr(series));
         packed.add(*series.rest, nullptr);
         terms.push_back(series.rest->mean);
     }

@@ -8,6 +8,8 @@ namespace neumann {
 struct SpectrumRequest {
     PatchOptions patches;
     int eigenvalues = 4;
+    double seconds = 60.0;
+    int most = 10000;  // applications of K, of a search
     bool csv = false;
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int label_width = 30, cell_width = 20;
 
-std::string complex_text(const std::complex<double>& z) {
-    if (z.imag() == 0.0) return fmt::format("{:.6f}", z.real());
-    return fmt::format("{:.6f}{}{:.6f}i", z.real(), z.imag() < 0.0 ? "-" : "+", std::abs(z.imag()));
+std::string complex_text(const std::complex<double>& z, int digits = 6) {
+    if (z.imag() == 0.0) return fmt::format("{:.{}f}", z.real(), digits);
+    return fmt::format("{:.{}f}{}{:.{}f}i", z.real(), digits, z.imag() < 0.0 ? "-" : "+", std::abs(z.imag()), digits);
 }
 
 void print_row(const std::string& label, const SpectrumReport& report,
@@ -38,16 +38,21 @@ void print_norms(const SpectrumReport& report) {
     const auto fixed = [](double x) { return std::isfinite(x) ? fmt::format("{:.6f}", x) : "not found"; };
     print_row("K", report, [](const ChannelSpectrum& s) { return s.name; });
     print_row("  largest albedo", report, [&](const ChannelSpectrum& s) { return fixed(s.largest_albedo); });
-    print_row("  ‖K‖∞", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.sup); });
-    print_row("  ‖K‖₁", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.one); });
+    print_row("  ‖K‖∞, of radiance", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.sup); });
+    print_row("  ‖K‖₁, of power", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.one); });
+    print_row("    standard error by the rays", report,
+              [](const ChannelSpectrum& s) { return fmt::format("{:.2g}", s.one_error); });
+    print_row("    there, part of the measure", report, [](const ChannelSpectrum& s) { return fmt::format("{:.1e}", s.one_part); });
     print_row("  ‖K‖₂", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.two); });
     print_row("  spectral radius", report, [&](const ChannelSpectrum& s) { return fixed(s.radius); });
     print_row("    moves on refinement by", report,
               [](const ChannelSpectrum& s) { return std::isfinite(s.shift) ? fmt::format("{:.1e}", s.shift) : "unknown"; });
     print_row("  the series", report, [](const ChannelSpectrum& s) { return std::string(name(s.convergence)); });
     fmt::print(
-        "The largest albedo bounds every norm of K. Those of this matrix but ‖K‖∞ can exceed it, by the rays'\n"
-        "noise.\n");
+        "‖L‖∞ = max |L|, ‖L‖₁ = Σ m |L|, ‖L‖₂ = (Σ m L²)^½, with m = n² · area · projected solid angle, the\n"
+        "measure of an unknown: ‖K‖₁ is the largest part of an unknown's power that a bounce leaves. The\n"
+        "largest albedo bounds all three of K itself. Of this matrix ‖K‖₁ and ‖K‖₂ can exceed it, by noise of\n"
+        "the rays: few meet a small patch, and ‖K‖₁ is that of the patch that had the most luck.\n");
     for (const ChannelSpectrum& s : report.channels) {
         if (s.convergence == Convergence::diverges)
             fmt::print("{}: diverges, the spectral radius is {:.6f}: K^i Le grows without end.\n", s.name, s.radius);
@@ -67,13 +72,23 @@ void print_eigenvalues(const SpectrumReport& report) {
         const auto cell = [&](const auto& text) {
             return [&, i](const ChannelSpectrum& s) { return i < s.leading.pairs.size() ? text(s.leading.pairs[i]) : ""; };
         };
-        print_row(fmt::format("  {}", i + 1), report, cell([](const Eigenpair& pair) { return complex_text(pair.value); }));
+        print_row(fmt::format("  {}", i + 1), report, cell([](const Eigenpair& pair) {
+                      const bool found = pair.residual <= 1e-8 * std::max(std::abs(pair.value), 1e-8);
+                      return found ? complex_text(pair.value) : "≈ " + complex_text(pair.value, 3);
+                  }));
     }
     print_row("  largest residual", report, [](const ChannelSpectrum& s) {
         double largest = 0.0;
         for (const Eigenpair& pair : s.leading.pairs) largest = std::max(largest, pair.residual);
-        return s.leading.converged ? fmt::format("{:.1e}", largest) : "not all found";
+        return s.leading.converged ? fmt::format("{:.1e}", largest) : fmt::format("not found: {:.0e}", largest);
     });
+    for (const ChannelSpectrum& s : report.channels) {
+        if (!s.leading.converged) fmt::print("{}: {}.\n", s.name, s.leading.why);
+        if (s.bounds && s.bounds->meet())
+            fmt::print("{}: the radius is known without them: some light is kept for good, {:.6f} of it each time.\n", s.name, s.radius);
+        else if (s.bounds)
+            fmt::print("{}: the radius is between {:.6f} and {:.6f}.\n", s.name, s.bounds->low, s.bounds->high);
+    }
 }
 
 void print_refinement(const PatchScene& scene, const SpectrumReport& report) {
@@ -91,7 +106,8 @@ void print_refinement(const PatchScene& scene, const SpectrumReport& report) {
     };
     for (const RefinementRow& r : report.coarser)
         row(fmt::format("  {}", r.what).c_str(), r.patches, r.unknowns, r.settings.rays, [&](std::size_t c, std::size_t i) {
-            return i < r.leading[c].size() ? fmt::format("{:.5f}", std::abs(r.leading[c][i])) : "";
+            if (i < r.leading[c].size()) return fmt::format("{:.5f}", std::abs(r.leading[c][i]));
+            return std::string(r.leading[c].empty() ? "not found" : "");
         });
     row("  as above", scene.system().space().patches().size(), scene.system().space().size(), scene.system().settings().rays,
         [&](std::size_t c, std::size_t i) {
@@ -110,6 +126,7 @@ void print_bounces(const SpectrumReport& report) {
                   [&, i](const ChannelSpectrum& s) {
                       if (!report.emits) return std::string("no light");
                       if (s.convergence != Convergence::converges) return std::string("none");
+                      if (s.bounces_stopped) return std::string("out of time");
                       return s.bounces[i] ? fmt::format("{}", *s.bounces[i]) : fmt::format("> {}", SpectrumReport::most_bounces);
                   });
     const auto known = [](const ChannelSpectrum& s) { return s.convergence == Convergence::converges && s.radius > 0.0; };
@@ -165,17 +182,27 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumRepo
                          {"rays_that_see_nothing", report.rays_without_hit},
                          {"reciprocity_defect", report.reciprocity_defect},
                          {"reciprocity_note", "statistical: a traced T is reciprocal only on average"}};
+    json["norms_of"] = {{"inf", "radiance: max |L|"},
+                        {"1", "power: sum of m |L|, m = n^2 * area * projected solid angle of an unknown"},
+                        {"2", "root of the sum of m L^2"}};
     json["channels"] = Json::array();
     for (std::size_t c = 0; c < report.channels.size(); ++c) {
         const ChannelSpectrum& s = report.channels[c];
         Json channel = {{"name", s.name},
                         {"largest_albedo", s.largest_albedo},
                         {"norms", {{"inf", number(s.norms.sup)}, {"1", number(s.norms.one)}, {"2", number(s.norms.two)}}},
+                        {"norm_1_standard_error", number(s.one_error)},
+                        {"norm_1_part_of_measure", number(s.one_part)},
                         {"spectral_radius", number(s.radius)},
                         {"spectral_radius_shift", number(s.shift)},
                         {"series", name(s.convergence)},
                         {"eigenvalues", Json::array()},
-                        {"eigenvalues_converged", s.leading.converged}};
+                        {"eigenvalues_converged", s.leading.converged},
+                        {"eigenvalues_search", {{"applications", s.leading.applications}, {"why", s.leading.why}}}};
+        if (s.bounds) channel["spectral_radius_bounds"] = {s.bounds->low, number(s.bounds->high)};
+        Json& history = channel["eigenvalues_search"]["history"] = Json::array();
+        for (const EigenStep& step : s.leading.history)
+            history.push_back({{"applications", step.applications}, {"residual", number(step.residual)}});
         for (const Eigenpair& pair : s.leading.pairs) {
             Json value = complex_json(pair.value);
             value["residual"] = pair.residual;

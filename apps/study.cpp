@@ -119,6 +119,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     if (request.resume) {
         data.plan = study_plan(journal.plan, !request.samples.empty());
     } else {
+        status("short runs that measure how fast the methods are", 0.0);
         auto plan = plan_study(request, methods, scene, pilot, data.bounces);
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);

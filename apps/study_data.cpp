@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace neumann {
 
@@ -41,6 +42,12 @@ std::string StudyData::picture_name(std::size_t picture) const {
     return picture + 1 == pictures() ? "sum" : std::to_string(picture);
 }
 
+std::optional<double> StudyData::missed_budget(const StudyPoint& point) const {
+    if (plan.budgets_are_samples) return std::nullopt;
+    const double budget = plan.budgets[point.budget()];
+    return misses(median_with_error(point.costs().seconds).value, budget) ? std::optional(budget) : std::nullopt;
+}
+
 std::vector<std::string> StudyData::warnings() const {
     std::vector<std::string> all;
     for (const auto& [text, count] : scene.warnings.counts()) all.push_back(text);
@@ -52,6 +59,14 @@ std::vector<std::string> StudyData::warnings() const {
                 if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
             }
     for (std::size_t m = 0; m < methods.size(); ++m) {
+        std::string missed;
+        for (const StudyPoint* point : points_of(m))
+            if (const auto budget = missed_budget(*point))
+                missed += fmt::format("{}{:.3g} s and was given {:g}", missed.empty() ? "" : ", ",
+                                      median_with_error(point->costs().seconds).value, *budget);
+        if (!missed.empty())
+            all.push_back(fmt::format("{}: a run took {}; efficiencies, ranks, slopes and times to an error are of what it took",
+                                      methods[m].name, missed));
         std::string bounces;
         for (std::size_t i = 0; i + 1 < pictures(); ++i) {
             const auto found = points_of(m);

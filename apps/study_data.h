@@ -54,6 +54,8 @@ struct StudyData {
     std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
     std::vector<const StudyPoint*> points_of(std::size_t method) const;
     std::string picture_name(std::size_t picture) const;
+    // The seconds that were to be, where a run took more than a tenth more or less than these; nothing of budgets in samples.
+    std::optional<double> missed_budget(const StudyPoint& point) const;
     std::vector<std::string> warnings() const;
 };
 

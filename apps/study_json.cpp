@@ -24,7 +24,7 @@ Json as_json(const std::optional<ErrorSlope>& slope) {
     return {{"value", slope->slope}, {"interval95", number(slope->half_width)}, {"points", slope->points}};
 }
 
-Json as_json(const StudyPoint& point, std::size_t q, const PointSummary& summary) {
+Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, const PointSummary& summary) {
     const StudyRun& run = point.runs.front();
     double rays = 0.0, memory = 0.0, discretisation = 0.0;
     for (const StudyRun& r : point.runs) {
@@ -36,7 +36,9 @@ Json as_json(const StudyPoint& point, std::size_t q, const PointSummary& summary
         if (!r.discretisation.empty()) discretisation += r.discretisation[q];
     }
     const auto repeats = static_cast<double>(point.runs.size());
-    Json json = {{"samples", run.samples}};
+    Json json = {{"budget", data.plan.budgets[point.budget()]},
+                 {"missed_budget", data.missed_budget(point).has_value()},
+                 {"samples", run.samples}};
     if (run.patches) json["patches"] = run.patches;
     if (run.directions) json["directions"] = run.directions;
     json["setup_seconds"] = as_json(summary.setup_seconds);
@@ -68,7 +70,7 @@ Json as_json(const StudyData& data, std::size_t q, const StudiedMethod& method) 
         json["seconds_to_error"] = {{"seconds", s.seconds_to_error->work}, {"or_less", s.seconds_to_error->below}};
     json["points"] = Json::array();
     const auto points = data.points_of(method.method);
-    for (std::size_t b = 0; b < points.size(); ++b) json["points"].push_back(as_json(*points[b], q, s.points[b]));
+    for (std::size_t b = 0; b < points.size(); ++b) json["points"].push_back(as_json(data, *points[b], q, s.points[b]));
     return json;
 }
 
@@ -126,7 +128,8 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
         {"variance", "of a picture, over the repeats"},
         {"bias_squared",
          "mse - variance, signed; the interval is that of the repeats and of the reference; significant: above 0 at 99.9%"},
-        {"seconds", "medians over the repeats, of a whole run with all its bounces; setup is what comes before the first sample"},
+        {"seconds",
+         "medians over the repeats, of a whole run with all its bounces, as measured; setup is what comes before the first sample"},
         {"efficiency",
          "1 / (variance * seconds); with bias 1 / (mse * seconds), by which methods are ranked at their largest budget"},
         {"slope", "of log RMSE against log seconds, by weighted least squares"}};

@@ -8,13 +8,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace neumann {
 
 namespace {
 
-// Of the runs that measure speed: shorter ones are too uncertain.
-constexpr double shortest_measurement = 0.05;
+// Of the runs that measure speed, seconds: shorter ones are too uncertain, and those of this part of the largest budget too unlike
+// it; longer ones, of methods whose time grows with their samples alone, tell no more.
+constexpr double shortest_measurement = 0.05, part_of_budget = 0.25, longest_measurement = 2.0;
 // Without --budgets: so many, each twice the one before; the first one, seconds, at least, and what gives every method 4 samples.
 constexpr int default_budgets = 4;
 constexpr double least_default_budget = 0.1;
@@ -29,26 +31,25 @@ Effort effort_of(const StudyMethod& method, int level) {
 struct Measurement {
     std::vector<double> seconds;
     double setup = 0.0;
+    bool fields = false;
+
+    double level(double budget) const {
+        return affordable_level(seconds, fields ? field_growth(seconds) : 2.0, std::max(budget - setup, seconds.front()));
+    }
 };
 
 // Until the seconds are `enough`. What fields set up grows with their patches.
 std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
                                    const Pilot& pilot) {
-    Measurement result;
-    auto& [seconds, setup] = result;
+    Measurement result{{}, 0.0, is_field_method(method.request.method)};
+    auto& [seconds, setup, fields] = result;
     do {
         const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot);
         if (!run) return std::nullopt;
-        setup = is_field_method(method.request.method) ? 0.0 : run->series.setup_seconds;
+        setup = fields ? 0.0 : run->series.setup_seconds;
         seconds.push_back(run->series.seconds - setup);
     } while (seconds.back() < enough && static_cast<int>(seconds.size()) < largest_effort);
     return result;
-}
-
-// For each budget the level that a run of it can afford.
-std::vector<int> affordable_levels(const Measurement& measured, std::vector<double> budgets) {
-    for (double& budget : budgets) budget = std::max(budget - measured.setup, measured.seconds.front());
-    return choose_levels(measured.seconds, budgets);
 }
 
 }  // namespace
@@ -108,30 +109,39 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         }
         most_samples = request.samples.back();
     } else {
-        const double largest = request.budgets.empty() ? 0.0 : request.budgets.back();
+        const double largest =
+            request.budgets.empty() ? std::ldexp(least_default_budget, default_budgets - 1) : request.budgets.back();
         std::vector<Measurement> measured;
         double least = least_default_budget;
         for (const StudyMethod& method : methods) {
-            // Levels of fields do not double exactly, so that more of them are measured.
-            const double enough =
-                is_field_method(method.request.method) ? std::max(shortest_measurement, 0.25 * largest) : shortest_measurement;
-            auto run = measure(method, enough, bounces, request.seed, scene, pilot);
+            const bool fields = is_field_method(method.request.method);
+            const double part = part_of_budget * largest;
+            auto run = measure(method, std::max(shortest_measurement, fields ? part : std::min(part, longest_measurement)), bounces,
+                               request.seed, scene, pilot);
             if (!run) return std::nullopt;
             const double first = run->seconds.front();
-            least = std::max(least, is_field_method(method.request.method) ? first : run->setup + 4.0 * first);
+            least = std::max(least, fields ? first : run->setup + 4.0 * first);
             measured.push_back(std::move(*run));
         }
         plan.budgets = request.budgets;
         if (plan.budgets.empty())
             for (int b = 0; b < default_budgets; ++b) plan.budgets.push_back(std::ldexp(least, b));
         for (std::size_t m = 0; m < methods.size(); ++m) {
-            std::vector<Effort>& efforts = plan.efforts.emplace_back();
-            for (const int level : affordable_levels(measured[m], plan.budgets)) efforts.push_back(effort_of(methods[m], level));
+            const bool patches_given = methods[m].request.patches.has_value();
+            std::vector<double> levels;
+            for (const double budget : plan.budgets) {
+                levels.push_back(measured[m].level(budget));
+                if (!measured[m].fields || patches_given || levels.back() == 0.0) continue;
+                const auto run = run_method(methods[m], field_effort(levels.back()), bounces, request.seed, scene, pilot);
+                if (!run) return std::nullopt;
+                levels.back() = corrected_level(levels.back(), run->series.seconds, budget);
+            }
+            plan.efforts.push_back(measured[m].fields ? field_efforts(levels, patches_given) : sampling_efforts(levels));
         }
         const StudyMethod walk{"walk", {}};
         const auto measured_walk = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
         if (!measured_walk) return std::nullopt;
-        most_samples = sampling_effort(affordable_levels(*measured_walk, {plan.budgets.back()}).back()).samples;
+        most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;
     }
     plan.reference_samples =
         request.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));

@@ -25,6 +25,13 @@ std::string bias_text(const PointSummary& p) {
                        p.biased ? " *" : "");
 }
 
+// Beside what it was to be, where that is something else.
+std::string taken_text(const StudyData& data, const StudiedMethod& method) {
+    const auto missed = data.missed_budget(*data.points_of(method.method).back());
+    const double seconds = method.summary.points.back().seconds.value;
+    return missed ? fmt::format("{:.3g} for {:g}", seconds, *missed) : fmt::format("{:.3g}", seconds);
+}
+
 void print_method(const StudyData& data, const StudiedMethod& method) {
     const PictureSummary& s = method.summary;
     const PointSummary& last = s.points.back();
@@ -34,8 +41,8 @@ void print_method(const StudyData& data, const StudiedMethod& method) {
     std::string name = data.methods[method.method].name;
     if (name.size() > 30) name = name.substr(0, 29) + "…";
     const std::string efficiency = s.infinite_variance ? "infinite V" : fmt::format("{:.3g}", last.efficiency);
-    fmt::print("{:>3} {:<30} {:>9} {:>8.2g} {:>8.3g} {:>10} {:>8} {:>14} {:>14}\n", s.rank, name, rmse, last.rel_mse.value,
-               last.seconds.value, efficiency, seconds_text(s.seconds_to_error), slope_text(s), bias_text(last));
+    fmt::print("{:>3} {:<30} {:>9} {:>8.2g} {:>13} {:>10} {:>8} {:>14} {:>14}\n", s.rank, name, rmse, last.rel_mse.value,
+               taken_text(data, method), efficiency, seconds_text(s.seconds_to_error), slope_text(s), bias_text(last));
 }
 
 }  // namespace
@@ -47,7 +54,7 @@ void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictu
             q + 1 == data.pictures() ? fmt::format("sum of bounces 0 to {}", data.bounces) : "bounce " + data.picture_name(q);
         fmt::print("{}   (rms of the reference {:.4g}, its noise {:.2g}; the given error {:.3g})\n", title, p.reference_size,
                    p.reference_noise, p.error);
-        fmt::print("{:>3} {:<30} {:>9} {:>8} {:>8} {:>10} {:>8} {:>14} {:>14}\n", "", "method", "RMSE", "relMSE", "seconds",
+        fmt::print("{:>3} {:<30} {:>9} {:>8} {:>13} {:>10} {:>8} {:>14} {:>14}\n", "", "method", "RMSE", "relMSE", "seconds",
                    "1/(V T)", "s to it", "slope", "bias²/MSE");
         for (const StudiedMethod& m : p.methods) print_method(data, m);
         fmt::print("\n");

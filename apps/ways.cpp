@@ -1,7 +1,7 @@
 #include "apps/ways.h"
 
 #include "apps/contact_sheet.h"
-#include "core/image/image_io.h"
+#include "apps/rendered_picture.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@ std::string file_of(const Way& way, bool weighted) {
 }
 
 std::string with_interval(const WayPicture& p) {
-    return fmt::format("{:>12.6g}  {:<18}", p.mean.mean,
-                       p.infinite_variance ? "infinite variance" : fmt::format("± {:.2g}", p.mean.interval()));
+    return fmt::format("{:>12.6g}  {:<18}", p.means.all.mean,
+                       p.infinite_variance ? "infinite variance" : fmt::format("± {:.2g}", p.means.all.interval()));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ Ways render_ways(const Scene& scene, SamplingSettings settings, int bounce, std:
     const auto result = series.moments.result();
     const auto picture = [&](std::size_t q) {
         const auto tail = tail_index(series.tally.largest[q]);
-        return WayPicture{result.term(q), result.mean_of_term(q), tail && tail->variance_is_infinite()};
+        return WayPicture{result.term(q), result.means_of_term(q), tail && tail->variance_is_infinite()};
     };
     Ways out{bounce, {}};
     for (int s = 0; s <= bounce + 1; ++s) {
@@ -43,16 +43,16 @@ void write_ways(OutputFolder& folder, const Ways& ways) {
     for (const Way& way : ways.ways)
         for (const bool is_weighted : {true, false}) {
             const WayPicture& p = is_weighted ? way.weighted : way.unweighted;
-            folder.write(
-                file_of(way, is_weighted),
-                encode_exr(p.picture, {{"neumann:quantity", std::string(is_weighted ? "weighted" : "unweighted")},
-                                       {"neumann:bounce", static_cast<std::int64_t>(ways.bounce)},
-                                       {"neumann:light_vertices", static_cast<std::int64_t>(way.s)},
-                                       {"neumann:camera_vertices", static_cast<std::int64_t>(way.t)},
-                                       {"neumann:degrees_of_freedom", p.picture.degrees_of_freedom},
-                                       {"neumann:variance",
-                                        std::string(p.infinite_variance ? "infinite: stderr gives no interval" : "finite")},
-                                       {"neumann:pixels", std::string("correlated: their errors go together")}}));
+            Attributes attributes{
+                {"neumann:quantity", std::string(is_weighted ? "weighted" : "unweighted")},
+                {"neumann:bounce", static_cast<std::int64_t>(ways.bounce)},
+                {"neumann:light_vertices", static_cast<std::int64_t>(way.s)},
+                {"neumann:camera_vertices", static_cast<std::int64_t>(way.t)},
+                {"neumann:degrees_of_freedom", p.picture.degrees_of_freedom},
+                {"neumann:variance", std::string(p.infinite_variance ? "infinite: stderr gives no interval" : "finite")},
+                {"neumann:pixels", std::string("correlated: their errors go together")}};
+            attributes.merge(mean_attributes(p.means));
+            folder.write(file_of(way, is_weighted), encode_exr(p.picture, attributes));
             (is_weighted ? weighted : unweighted).push_back({fmt::format("s = {}, t = {}", way.s, way.t), &p.picture.mean});
         }
     Image sum = ways.ways.front().weighted.picture.mean;
@@ -75,11 +75,11 @@ std::string ways_table(const Ways& ways) {
 nlohmann::ordered_json as_json(const Ways& ways) {
     nlohmann::ordered_json json{{"bounce", ways.bounce}, {"ways", nlohmann::ordered_json::array()}};
     const auto figures = [](const WayPicture& p) {
-        nlohmann::ordered_json j{{"mean", p.mean.mean}};
+        nlohmann::ordered_json j{{"mean", p.means.all.mean}};
         if (p.infinite_variance)
             j["interval95"] = "none: the variance is infinite";
         else
-            j["interval95"] = p.mean.interval();
+            j["interval95"] = p.means.all.interval();
         return j;
     };
     for (const Way& way : ways.ways)

@@ -15,7 +15,7 @@ namespace neumann {
 
 struct WayPicture {
     Estimate picture;
-    MeanWithError mean;
+    PictureMeans means;
     bool infinite_variance = false;
 };
 struct Way {

@@ -38,6 +38,7 @@ py::dict as_dict(const Patched& patched) {
     d["patches"] = patches_table(system.space());
     d["channel"] = patched.scene->channel_name(c);
     d["radius"] = patched.chosen.radius;
+    d["no_radius"] = patched.chosen.no_radius;
     d["title"] = patched.scene->title();
     d["warnings"] = patched.scene->warnings();
     return d;
@@ -51,6 +52,7 @@ std::unique_ptr<Job> start_matrices(const std::shared_ptr<LoadedScene>& loaded, 
         auto patched = std::make_shared<Patched>();
         patched->scene = patch_scene(*loaded, request.patches);
         check_matrix_memory(request.patches, patched->scene->system());
+        job.tell("looking for the spectral radius");
         patched->chosen = choose_channel(*patched->scene, request.channel);
         return [patched] { return py::cast(patched); };
     });
@@ -73,7 +75,8 @@ std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, 
     return std::make_unique<Job>(request.patches.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("tracing T and looking for eigenvalues");
         const auto scene = patch_scene(*loaded, request.patches);
-        const auto report = std::make_shared<const SpectrumReport>(spectrum_report(*scene, request.eigenvalues));
+        const auto tell = [&](const std::function<std::string()>& text) { job.tell(text()); };
+        const auto report = std::make_shared<const SpectrumReport>(spectrum_report(*scene, request, tell));
         return [report, json = spectrum_json(*scene, *report).dump()]() -> py::object {
             py::list vectors;
             for (const ChannelSpectrum& channel : report->channels) {

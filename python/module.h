@@ -1,8 +1,9 @@
 // The parts of the compiled module _neumann, and what they share. The package `neumann` is made of it.
 #pragma once
 
-#include "core/image/image.h"
+#include "core/image/pixel_estimate.h"
 #include "core/scene/scene.h"
+#include "operators/statistics/picture_statistics.h"
 #include "python/job.h"
 
 #include <pybind11/numpy.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,9 @@ void bind_study(py::module_& m);
 py::array_t<float> as_array(const Image& image);
 // The same, or None where it is empty.
 py::object as_array_or_none(const Image& image);
+// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of red, green, blue and all; None for what
+// there is not.
+py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMeans>& means);
 // Of any numbers of this shape. Throws InputError.
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array);
 

@@ -9,6 +9,9 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+#include <vector>
+
 namespace neumann {
 
 py::array_t<float> as_array(const Image& image) {
@@ -22,6 +25,16 @@ py::array_t<float> as_array(const Image& image) {
 py::object as_array_or_none(const Image& image) {
     if (image.pixels.empty()) return py::none();
     return as_array(image);
+}
+
+py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMeans>& means) {
+    py::object figures = py::none();
+    if (means) {
+        const auto row = [](const MeanWithError& m) { return py::make_tuple(m.mean, m.standard_error, m.degrees_of_freedom); };
+        figures = py::make_tuple(row(means->channel[0]), row(means->channel[1]), row(means->channel[2]), row(means->all));
+    }
+    return py::make_tuple(as_array(picture.mean), as_array_or_none(picture.pixel_errors()), as_array_or_none(picture.discretisation),
+                          as_array_or_none(picture.standard_error), figures);
 }
 
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array) {
@@ -47,8 +60,7 @@ py::tuple read(const std::string& path) {
         const py::gil_scoped_release release;
         rendered = read_rendered_picture(path);
     }
-    const Estimate& p = rendered.picture;
-    return py::make_tuple(as_array(p.mean), as_array_or_none(p.standard_error), as_array_or_none(p.discretisation));
+    return as_tuple(rendered.picture, rendered.infinite_variance ? std::nullopt : rendered.means);
 }
 
 Estimate estimate(const Array& mean, const py::object& standard_error) {
@@ -57,7 +69,18 @@ Estimate estimate(const Array& mean, const py::object& standard_error) {
     return picture;
 }
 
-py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stderr, const py::object& b_stderr) {
+PictureMeans picture_means(const py::object& figures) {
+    PictureMeans means;
+    if (figures.is_none()) return means;
+    const auto rows = figures.cast<std::vector<std::array<double, 3>>>();
+    const auto of = [&](std::size_t i) { return MeanWithError{rows.at(i)[0], rows.at(i)[1], rows.at(i)[2]}; };
+    for (std::size_t c = 0; c < 3; ++c) means.channel[c] = of(c);
+    means.all = of(3);
+    return means;
+}
+
+py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stderr, const py::object& b_stderr,
+                        const py::object& a_means, const py::object& b_means) {
     const Estimate test = estimate(a, a_stderr), reference = estimate(b, b_stderr);
     const Metrics m = compare(test.mean, reference.mean);
     py::dict d;
@@ -71,6 +94,14 @@ py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stde
     d["mean"] = m.mean;
     d["reference_mean"] = m.reference_mean;
     d["mean_difference"] = m.mean_difference;
+    d["mean_difference_interval95"] = py::none();
+    // Which errors go together a picture alone does not tell.
+    const bool known = (a_stderr.is_none() || !a_means.is_none()) && (b_stderr.is_none() || !b_means.is_none());
+    if (known && m.not_finite == 0 && !(a_stderr.is_none() && b_stderr.is_none())) {
+        const PictureMeans of_a = picture_means(a_means), of_b = picture_means(b_means);
+        d["mean_difference_interval95"] =
+            compare_means({test, exact_degrees_of_freedom, &of_a}, {reference, exact_degrees_of_freedom, &of_b}).all.half_width;
+    }
     d["pixels"] = m.pixels;
     d["not_finite"] = m.not_finite;
     return d;
@@ -89,7 +120,7 @@ py::bytes png(const Array& array, double exposure, int height) {
 void bind_pictures(py::module_& m) {
     m.def("read", &read, py::arg("path"));
     m.def("compare", &compare_arrays, py::arg("a"), py::arg("b"), py::arg("a_stderr") = py::none(),
-          py::arg("b_stderr") = py::none());
+          py::arg("b_stderr") = py::none(), py::arg("a_means") = py::none(), py::arg("b_means") = py::none());
     m.attr("metrics_epsilon") = metrics_epsilon;
     m.def("png", &png, py::arg("picture"), py::arg("exposure"), py::arg("height"));
     m.def(

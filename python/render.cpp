@@ -8,14 +8,11 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 namespace neumann {
 
 namespace {
-
-py::tuple as_tuple(const Estimate& picture) {
-    return py::make_tuple(as_array(picture.mean), as_array_or_none(picture.standard_error),
-                          as_array_or_none(picture.discretisation));
-}
 
 std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
     RenderRequest request = parse<RenderRequest>("render", add_render, *loaded, arguments);
@@ -53,11 +50,21 @@ py::object ways(const Rendering& rendering) {
 void bind_render(py::module_& m) {
     py::class_<Rendering, std::shared_ptr<Rendering>>(m, "Rendering", "A finished render.")
         .def_property_readonly("bounces", [](const Rendering& r) { return r.result.series.report.bounces.size() - 1; })
-        .def("term", [](const Rendering& r, std::size_t i) { return as_tuple(r.result.series.term(i)); })
-        .def("sum", [](const Rendering& r, std::size_t i) { return as_tuple(r.result.series.sum(i)); })
+        .def("term", [](const Rendering& r, std::size_t i) {
+                 const BounceSeries& s = r.result.series;
+                 return as_tuple(s.term(i), s.report.bounces.at(i).infinite_variance ? std::nullopt : std::optional(s.means_of_term(i)));
+             })
+        .def("sum", [](const Rendering& r, std::size_t i) {
+                 const BounceSeries& s = r.result.series;
+                 const auto end = s.report.bounces.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+                 const bool infinite = std::any_of(s.report.bounces.begin(), end, [](const BounceReport& b) { return b.infinite_variance; });
+                 return as_tuple(s.sum(i), infinite ? std::nullopt : std::optional(s.means_of_sum(i)));
+             })
         .def("rest",
              [](const Rendering& r) {
-                 return r.result.series.rest ? py::object(as_tuple(*r.result.series.rest)) : py::object(py::none());
+                 const BounceSeries& s = r.result.series;
+                 if (!s.rest) return py::object(py::none());
+                 return py::object(as_tuple(*s.rest, s.report.rest_infinite_variance ? std::nullopt : s.means_of_rest));
              })
         .def("ways", &ways)
         .def("table", [](const Rendering& r) { return series_table(r.result.series.report); })

@@ -134,11 +134,18 @@ std::unique_ptr<Job> start_solver(const std::string& name, const Operator& K, co
     });
 }
 
-std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoint) {
+std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoint, double most) {
     return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
         job.tell("looking for eigenvalues");
-        const auto norms = operator_norms(*K);
-        const auto leading = std::make_shared<const Eigenpairs>(leading_eigenpairs(*K, count, adjoint));
+        EigenLimits limits;
+        limits.most = most;
+        limits.go_on = [&](const EigenStep& step) {
+            job.tell(fmt::format("looking for eigenvalues   {:.0f} applications of K   largest residual {:.1e}", step.applications,
+                                 step.residual));
+            return true;
+        };
+        const auto norms = operator_norms(*K, limits);
+        const auto leading = std::make_shared<const Eigenpairs>(leading_eigenpairs(*K, count, adjoint, limits));
         return [norms, leading]() -> py::object {
             const auto n = static_cast<Eigen::Index>(leading->pairs.size());
             Eigen::VectorXcd values(n);
@@ -150,7 +157,7 @@ std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoin
                 residuals[i] = pair.residual;
                 vectors.col(i) = pair.vector;
             }
-            const double radius = n > 0 ? std::abs(values[0]) : std::numeric_limits<double>::quiet_NaN();
+            const double radius = leading->radius();
             py::dict d, sizes;
             sizes["1"] = norms.one;
             sizes["2"] = norms.two;
@@ -163,6 +170,12 @@ std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoin
             d["residuals"] = residuals;
             d["eigenvalues_converged"] = leading->converged;
             d["applications"] = leading->applications;
+            d["why"] = leading->why;
+            py::array_t<double> history({leading->history.size(), std::size_t{2}});
+            double* to = history.mutable_data();
+            for (const EigenStep& step : leading->history)
+                for (const double x : {step.applications, step.residual}) *to++ = x;
+            d["history"] = history;
             return d;
         };
     });
@@ -187,7 +200,8 @@ void bind_solvers(py::module_& m) {
     m.def("series", &start_series, py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"), py::arg("norm"));
     m.def("solve_one", &start_solver, py::arg("name"), py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"),
           py::arg("radius"), py::arg("lowest"), py::arg("reflectance"), py::arg("exact"));
-    m.def("spectrum_of", &start_spectrum_of, py::arg("K"), py::arg("count"), py::arg("adjoint"));
+    m.def("spectrum_of", &start_spectrum_of, py::arg("K"), py::arg("count"), py::arg("adjoint"),
+          py::arg("most"));
     m.def("cube", &start_cube, py::arg("n"));
     py::list names;
     for (const NamedSolver& solver : solvers()) names.append(py::make_tuple(solver.name, solver.title));

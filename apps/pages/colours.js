@@ -51,11 +51,13 @@ const shownAs = {
       return e === 0 ? 0 : e === Infinity ? NaN : e / Math.hypot(...channels.map(c => mean[p + c]));
     };
     return { ...scaled(viridis, 1e-3, 1, true, relative), relative,
-             quantity: "standard error of a pixel / its value" + (errors ? "; grey where it is not known, black where all samples agree" : ": not in the files") };
+             quantity: "standard error of a pixel / its value" + (errors ? "; grey where it is not known or no sample met anything, black where all samples agree" : ": not in the files") };
   },
   difference(series, ref, exposure, other, otherRef) {
-    return { ...scaled(signed, -1 / exposure, 1 / exposure, false, difference(series, ref, other, otherRef).value),
-             quantity: `A − B, luminance, ${series.unit}` };
+    const { value } = difference(series, ref, other, otherRef), most = largestOfMost(series.pixels, value);
+    if (!most) return { ...scaled(signed, -1, 1, false, value), quantity: `A − B, luminance, ${series.unit}: they agree in every pixel` };
+    return { ...scaled(signed, -most, most, false, value),
+             quantity: `A − B, luminance, ${series.unit}; 95% of the pixels that differ do so by at most ${number(most, 2)}, and beyond that have the colours of the ends` };
   },
   z(series, ref, exposure, other, otherRef) {
     const { value, error } = difference(series, ref, other, otherRef);
@@ -69,6 +71,11 @@ const difference = (a, refA, b, refB) => {
   const of = (f, p) => luminance(f(p), f(p + n), f(p + 2 * n));
   return { value: p => of(k => meanA[k] - meanB[k], p),
            error: p => Math.hypot(errorA ? of(errorA, p) : 0, errorB ? of(errorB, p) : 0) };
+};
+// Of the n values that are not 0, what 95% are at most, whatever their sign; 0 where all are 0.
+const largestOfMost = (n, value) => {
+  const sizes = Float32Array.from({ length: n }, (_, p) => Math.abs(value(p))).filter(v => v > 0 && v < Infinity).sort();
+  return sizes.length ? sizes[Math.floor(.95 * (sizes.length - 1))] : 0;
 };
 const scaled = (ramp, low, high, log, value) => {
   const at = v => log ? Math.log10(v / low) / Math.log10(high / low) : (v - low) / (high - low);

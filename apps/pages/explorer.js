@@ -59,7 +59,7 @@ const drawText = () => {
   for (const id of ["stops", "edge"]) $(id).value = state[id];
   $("wipe").disabled = comparing();
   $("curve").disabled = state.view !== "colour";
-  $("stops").disabled = $("fit").disabled = state.view === "noise" || state.view === "z";
+  $("stops").disabled = $("fit").disabled = state.view === "noise" || comparing();
   $("edge").disabled = !state.wipe || comparing();
   $("other").disabled = !state.wipe && !comparing();
   $("stops-text").textContent = `${state.stops > 0 ? "+" : state.stops < 0 ? "−" : ""}${Math.abs(state.stops)} stops` + (missing({ series: s, ref }) ? "" : ` (×${number(exposure(s, ref))})`);

@@ -92,7 +92,8 @@ const pixelAt = event => {
 };
 
 // Figures of a pixel.
-const withInterval = (value, half) => !half ? number(value) : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
+// Zero with an interval is what no sample met.
+const withInterval = (value, half) => !half ? number(value) : value === 0 && Number.isFinite(half) ? `0, at most ${number(half, 2)}` : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
 const drawReadout = () => {
   const at = state.hover ?? state.pixel, s = series(), ref = shown();
   if (!at || missing({ series: s, ref })) {
@@ -105,7 +106,7 @@ const drawReadout = () => {
     const size = Math.hypot(...values), relative = errors && Math.hypot(...[0, 1, 2].map(c => errors(p + c * n))) / size;
     const text = [["", runName(s) + s.title(ref)], ...["red", "green", "blue"].map((name, c) => [name, withInterval(values[c], s.halfInterval(ref, p + c * n))])];
     if (errors && size > 0) text.push(["relative standard error", Number.isFinite(relative) ? `${number(100 * relative, 2)}%` : "unknown"]);
-    if (errors && values.some((v, c) => v === 0 && errors(p + c * n) === 0)) text.push(["", "0: no light in any sample"]);
+    if (errors && values.some((v, c) => v === 0 && errors(p + c * n) === 0)) text.push(["", patches ? "0: no light in any sample" : "0: known to be dark"]);
     if (patches) text.push(["discretisation", [0, 1, 2].map(c => number(patches(p + c * n), 2)).join(", ")]);
     const line = element("div", undefined, "values");
     text.forEach(([name, value]) => { const part = element("span"); part.append(element("span", name && name + " ", "dim"), value); line.append(part); });

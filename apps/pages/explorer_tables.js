@@ -8,7 +8,7 @@ all.forEach(s => (s.run.health?.complaints ?? []).forEach(c => $("warnings").app
 all.forEach(s => s.run.warnings.forEach(w => $("warnings").append(element("p", runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : ""), "warning"))));
 
 // Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
-const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95"].includes(k));
+const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95", "unmet", "rare_large_samples"].includes(k));
 const isFlat = v => v === null || typeof v !== "object" || isMean(v) || (Array.isArray(v) && v.every(x => x === null || typeof x !== "object"));
 const flatText = v => v === null ? "–" : Array.isArray(v) ? v.map(flatText).join(", ") || "none" : isMean(v) ? withInterval(v.mean, typeof v.interval95 === "number" ? v.interval95 : Infinity)
   : typeof v === "number" ? (Number.isInteger(v) ? whole(v) : number(v, 4)) : typeof v === "boolean" ? (v ? "yes" : "no") : String(v);
@@ -40,7 +40,7 @@ const folded = (title, isOpen, ...parts) => {
 };
 const wide = t => { const w = element("div", undefined, "wide"); w.append(t); return w; };
 const bouncesTable = s => {
-  const b = s.run.bounces, rest = s.run.rest, row = (name, x) => [name, number(x.mean), typeof x.interval95 === "string" ? "none: infinite variance" : number(x.interval95, 2),
+  const b = s.run.bounces, rest = s.run.rest, row = (name, x) => [name, number(x.mean), typeof x.interval95 === "string" ? "none: infinite variance" : (x.unmet && x.interval95 !== null ? "< " : "") + number(x.interval95, 2) + (x.rare_large_samples ? " at least" : ""),
     x.ratio_estimate === undefined ? "" : number(x.ratio_estimate), x.tail_bound === undefined ? "" : x.tail_bound === null ? "none" : number(x.tail_bound),
     x.rays === undefined ? "" : whole(x.rays), ...(discretised ? [x.discretisation ? number(x.discretisation.mean, 2) : ""] : []),
     ...(subset ? [x.missing ? number(x.missing.mean) : ""] : [])];
@@ -53,7 +53,7 @@ if (data.comparison) {
     data.comparison.pictures.map(p => [p.name, ...["rmse", "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
       p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
     element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
-      (all.every(s => s.independent) ? "" : " Errors of the pixels of one picture may go together here: the intervals are upper bounds."), "note"));
+      (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where pixels err together and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));
 }
 all.forEach(s => {
   const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;

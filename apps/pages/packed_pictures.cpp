@@ -113,18 +113,18 @@ PackedSeries::PackedSeries(int width, int height, std::size_t pictures) : full_w
     while (pixels() > page_pixels && factor_ < std::max(width, height)) ++factor_;
 }
 
-void PackedSeries::add(const Estimate& term, const Estimate* sum) {
-    const auto small = [&](const Estimate& e) { return reduced(e, factor_); };
-    const Estimate small_term = small(term);
+void PackedSeries::add(const PixelEstimate& term, const PixelEstimate* sum) {
+    const auto small = [&](const PixelEstimate& e) { return reduced(e, factor_); };
+    const PixelEstimate small_term = small(term);
     PackedPicture& picture = pictures_.emplace_back();
     const int exponent = exponent_of(small_term.mean);
     picture.head = {{"exponent", exponent}, {"errors", nlohmann::ordered_json::array()}};
     add_halves(small_term.mean, exponent, picture.bytes);
-    add_errors("term", small_term.standard_error, picture);
+    add_errors("term", small_term.pixel_errors(), picture);
     add_errors("term_discretisation", small_term.discretisation, picture);
     if (sum != nullptr) {
-        const Estimate small_sum = small(*sum);
-        add_errors("sum", small_sum.standard_error, picture);
+        const PixelEstimate small_sum = small(*sum);
+        add_errors("sum", small_sum.pixel_errors(), picture);
         add_errors("sum_discretisation", small_sum.discretisation, picture);
     }
     degrees_of_freedom_ = term.degrees_of_freedom;

@@ -1,7 +1,7 @@
 // The pictures of a series as a page holds them: small enough to be part of it, exact enough for what is read from a screen.
 #pragma once
 
-#include "core/image/image.h"
+#include "core/image/pixel_estimate.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -29,7 +29,7 @@ public:
     PackedSeries(int width, int height, std::size_t pictures);
 
     // The next bounce: its term, with the errors of its sum; or the rest, which has none.
-    void add(const Estimate& term, const Estimate* sum);
+    void add(const PixelEstimate& term, const PixelEstimate* sum);
     // Deflates what was added.
     void pack();
 

@@ -2,6 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/frame.h"
+#include "core/geometry/giants.h"
+#include "core/geometry/neighbours.h"
+#include "core/geometry/rounding.h"
 #include "core/sampling/warp.h"
 
 #include <algorithm>
@@ -13,24 +16,6 @@
 namespace neumann {
 
 namespace {
-
-// Half the spacing of floats at 1: what rounding a coordinate of unit size to float can move it by.
-constexpr double float_epsilon = 0x1p-24;
-
-// The distance that clears rounding, in a scene of about unit size: of the ends and the direction of a ray, which may come from
-// anywhere in the scene, and of Embree's distance along the normal of a triangle, which is computed from its vertices relative to
-// the origin.
-double hit_error(double size) { return float_epsilon * 8.0 * (1.0 + size); }
-
-double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-struct Bounds {
-    Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-    void add(const Vec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-};
 
 double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::length(glm::cross(b - a, c - a)); }
 
@@ -61,6 +46,17 @@ void validate(const TriangleMesh& mesh) {
                                  std::to_string(mesh.vertices.size()) + " vertices");
 }
 
+void validate_round(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        if (!is_finite(sphere->center) || !std::isfinite(sphere->radius)) throw InputError("sphere is not finite");
+    } else if (const auto* disk = std::get_if<Disk>(&shape)) {
+        if (!is_finite(disk->center) || !is_finite(disk->u) || !is_finite(disk->v)) throw InputError("disk is not finite");
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        if (!is_finite(cylinder->base) || !is_finite(cylinder->axis) || !is_finite({cylinder->length, cylinder->radius, 0.0}))
+            throw InputError("cylinder is not finite");
+    }
+}
+
 }  // namespace
 
 Geometry::Geometry(Geometry&&) noexcept = default;
@@ -72,66 +68,55 @@ Geometry::Geometry(std::vector<Shape> shapes) {
         if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
             validate(*mesh);
             degenerate_count_ += erase_degenerate_triangles(*mesh);
-            for (const auto& t : mesh->triangles)
-                for (const std::uint32_t index : t) bounds.add(mesh->vertices[index]);
-        } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            if (!is_finite(sphere->center) || !std::isfinite(sphere->radius)) throw InputError("sphere is not finite");
-            if (!(sphere->radius > 0.0)) {
-                ++degenerate_count_;
-                continue;
-            }
-            bounds.add(sphere->center - sphere->radius);
-            bounds.add(sphere->center + sphere->radius);
-        } else if (const auto* disk = std::get_if<Disk>(&shape)) {
-            if (!is_finite(disk->center) || !is_finite(disk->u) || !is_finite(disk->v)) throw InputError("disk is not finite");
-            if (!(glm::length(glm::cross(disk->u, disk->v)) > 0.0)) {
-                ++degenerate_count_;
-                continue;
-            }
-            const Vec3 extent(std::hypot(disk->u.x, disk->v.x), std::hypot(disk->u.y, disk->v.y), std::hypot(disk->u.z, disk->v.z));
-            bounds.add(disk->center - extent);
-            bounds.add(disk->center + extent);
-        } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-            if (!is_finite(cylinder->base) || !is_finite(cylinder->axis) || !is_finite({cylinder->length, cylinder->radius, 0.0}))
-                throw InputError("cylinder is not finite");
-            if (!cylinder->has_extent()) {
-                ++degenerate_count_;
-                continue;
-            }
-            bounds.add(cylinder->center() - cylinder->extent());
-            bounds.add(cylinder->center() + cylinder->extent());
+        } else {
+            validate_round(shape);
+            degenerate_count_ += !has_extent(shape);
         }
+        if (has_extent(shape)) bounds.add(bounds_of(shape));
     }
+    if (!bounds.is_empty()) {
+        center_ = bounds.center();
+        radius_ = bounds.radius();
+    }
+    shapes_ = std::make_shared<const std::vector<Shape>>(std::move(shapes));
+    const Giants giants = find_giants(*shapes_);
+    giants_ = giants.faces;
+
+    // What Embree sees is about as large as 1.
+    const Bounds& seen = giants.rest.is_empty() ? bounds : giants.rest;
     double scale = 1.0;
-    if (bounds.low.x <= bounds.high.x) {
-        center_ = 0.5 * (bounds.low + bounds.high);
-        radius_ = 0.5 * glm::length(bounds.high - bounds.low);
+    if (!seen.is_empty()) {
         int exponent = 0;
-        std::frexp(0.5 * largest_component(bounds.high - bounds.low), &exponent);
+        std::frexp(0.5 * largest_component(seen.high - seen.low), &exponent);
         scale = std::ldexp(1.0, -exponent);
     }
-
-    shapes_ = std::make_shared<const std::vector<Shape>>(std::move(shapes));
-    caster_ = std::make_unique<RayCaster>(*shapes_, center_, scale);
+    caster_ = std::make_unique<RayCaster>(*shapes_, giants_, seen.is_empty() ? Vec3(0.0) : seen.center(), scale);
     triangles_.resize(shapes_->size());
     error_.resize(shapes_->size());
-    oneapi::tbb::parallel_for(std::size_t{0}, shapes_->size(), [&](std::size_t i) {
-        if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[i])) {
-            triangles_[i].reserve(mesh->triangles.size());
-            for (const auto& t : mesh->triangles) {
+    // Far from the origin doubles are coarser than the floats of what is small there.
+    const double least_error = seen.is_empty() ? 0.0 : 4.0 * double_rounding(seen.low, largest_component(seen.high));
+    const auto error = [&](const Face& face, double size) {
+        const bool is_giant = std::binary_search(giants_.begin(), giants_.end(), face);
+        return std::max(float_rounding(is_giant ? 0.0 : size * scale) / scale, least_error);
+    };
+    oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(shapes_->size()), [&](std::uint32_t shape) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape])) {
+            triangles_[shape].reserve(mesh->triangles.size());
+            for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+                const auto& t = mesh->triangles[i];
                 const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
                 const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
-                triangles_[i].emplace_back(a, Triangle::Edges{b - a, c - a}, hit_error(longest * scale) / scale);
+                triangles_[shape].emplace_back(a, b, c, error({shape, i}, longest));
             }
-        } else if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[i])) {
-            error_[i] = hit_error(sphere->radius * scale) / scale;
-        } else if (const auto* disk = std::get_if<Disk>(&(*shapes_)[i])) {
-            const double size = (glm::length(disk->u) + glm::length(disk->v)) * scale;
-            error_[i] = hit_error(size) / scale;
-        } else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[i])) {
-            error_[i] = hit_error((cylinder->radius + cylinder->length) * scale) / scale;
+        } else if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
+            error_[shape] = error({shape, 0}, sphere->radius);
+        } else if (const auto* disk = std::get_if<Disk>(&(*shapes_)[shape])) {
+            error_[shape] = error({shape, 0}, glm::length(disk->u) + glm::length(disk->v));
+        } else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape])) {
+            error_[shape] = error({shape, 0}, cylinder->radius + cylinder->length);
         }
     });
+    neighbours_ = std::make_unique<Neighbours>(DoubleFaces(*shapes_, triangles_, error_), giants, *caster_);
 }
 
 namespace {
@@ -203,6 +188,7 @@ void hit_cylinder(const Cylinder& c, const Vec3& origin, const Vec3& direction, 
 }  // namespace
 
 void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    const Vec3 from = origin;
     if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[hit.shape]))
         hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
     else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[hit.shape]))
@@ -211,27 +197,139 @@ void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, c
         hit_disk(std::get<Disk>((*shapes_)[hit.shape]), origin, direction, error_[hit.shape], p);
     p.shape = hit.shape;
     p.primitive = hit.primitive;
+    look_around(p);
+    if (p.close) settle(from, direction, p);
+}
+
+void Geometry::put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, const Triangle::Meeting& m,
+                                SurfacePoint& p) const {
+    const Vec3 from = origin;
+    const Triangle& t = triangles_[hit.shape][hit.primitive];
+    p = {t.is_hit(m) ? m.position : t.near(m, hit.u, hit.v, edges(hit.shape, hit.primitive)), t.normal(), t.error(), hit.shape,
+         hit.primitive};
+    look_around(p);
+    if (p.close) settle(from, direction, p);
+}
+
+void Geometry::look_around(SurfacePoint& p) const { p.close = neighbours_->is_close(p); }
+
+void Geometry::settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const {
+    const std::vector<Face> faces = neighbours_->around(p);
+    const double seen = glm::dot(p.position - origin, direction);
+    const auto first = neighbours_->first(faces, origin, direction);
+    if (!first || first->face == Face{p.shape, p.primitive}) return;
+    // What Embree hit and doubles miss, as rays by the edge of something do, was hit, unless another face is in the same place.
+    const double rounding = p.error + neighbours_->faces().error(first->face);
+    const double cosine = std::abs(glm::dot(direction, p.normal));
+    if (first->distance >= seen) {
+        double own[2];
+        const bool is_hit = neighbours_->faces().meet({p.shape, p.primitive}, origin, direction, own) > 0;
+        if (is_hit || (first->distance - seen) * cosine > rounding) return;
+    }
+    p = point_on(first->face, origin + direction * first->distance);
+}
+
+SurfacePoint Geometry::point_on(const Face& face, const Vec3& position) const {
+    if (!triangles_[face.shape].empty()) return point_on_triangle(face.shape, face.primitive, position);
+    SurfacePoint p;
+    const double error = error_[face.shape];
+    const Shape& shape = (*shapes_)[face.shape];
+    if (const auto* sphere = std::get_if<Sphere>(&shape))
+        put_on_sphere(*sphere, position, error, p);
+    else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        const double along = glm::dot(position - cylinder->base, cylinder->axis);
+        put_on_cylinder(*cylinder, along, position - cylinder->base - cylinder->axis * along, error, p);
+    } else
+        put_on_disk(std::get<Disk>(shape), position, error, p);
+    p.shape = face.shape;
+    p.primitive = face.primitive;
+    look_around(p);
+    return p;
+}
+
+namespace {
+
+// Embree is asked where the ray is near what it holds.
+bool cast_near_rest(const Giants& giants, const RayCaster& caster, const Vec3& origin, const Vec3& direction, double distance,
+                    std::span<const Face> without, RayCaster::Hit& hit) {
+    const auto part = giants.near_rest(origin, direction, distance);
+    if (!part || !caster.intersect(origin + direction * part->begin, direction, part->end - part->begin, without, hit)) return false;
+    hit.distance += part->begin;
+    return true;
+}
+
+}  // namespace
+
+bool Geometry::meet_giants(const Vec3& origin, const Vec3& direction, double distance, bool found, SurfacePoint& p) const {
+    if (giants_.empty()) return found;
+    const auto first = neighbours_->first(giants_, origin, direction);
+    if (!first || first->distance >= (found ? glm::dot(p.position - origin, direction) : distance)) return found;
+    p = point_on(first->face, origin + direction * first->distance);
+    if (p.close) settle(origin, direction, p);
+    return true;
 }
 
 bool Geometry::first_hit(const Vec3& origin, const Vec3& direction, double distance, SurfacePoint& p) const {
     RayCaster::Hit hit;
-    if (!caster_->intersect(origin, direction, distance, hit)) return false;
-    put_on_surface(origin, direction, hit, p);
-    return true;
+    const bool found = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, distance, {}, hit);
+    if (found) put_on_surface(origin, direction, hit, p);
+    return meet_giants(origin, direction, distance, found, p);
 }
 
 bool Geometry::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
+    if (from.close) return first_hit_in_double(from, direction, hit);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Vec3 origin = from.position;
     RayCaster::Hit found;
-    if (!caster_->intersect(leave(from, glm::dot(from.normal, direction)), direction, std::numeric_limits<double>::infinity(),
-                            found))
-        return false;
-    put_on_surface(from.position, direction, found, hit);
-    return true;
+    const bool is_found = cast_near_rest(neighbours_->giants(), *caster_, leave(from, glm::dot(from.normal, direction)), direction,
+                                         infinity, {}, found);
+    if (is_found) put_on_surface(origin, direction, found, hit);
+    return meet_giants(origin, direction, infinity, is_found, hit);
+}
+
+bool Geometry::first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Vec3 origin = from.position;
+    const std::vector<Face> faces = neighbours_->around(from);
+    const auto first = neighbours_->first(faces, from, direction);
+    RayCaster::Hit found;
+    SurfacePoint beyond;
+    const bool any_beyond = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, infinity, faces, found);
+    if (any_beyond) put_on_surface(origin, direction, found, beyond);
+    if (first && !(any_beyond && glm::dot(beyond.position - origin, direction) < first->distance)) {
+        hit = point_on(first->face, origin + direction * first->distance);
+        if (hit.close) settle(origin, direction, hit);
+    } else if (any_beyond) {
+        hit = beyond;
+    }
+    return meet_giants(origin, direction, infinity, first || any_beyond, hit);
 }
 
 bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
+    if (x.close || y.close || !giants_.empty()) return visible_in_double(x, y);
     const Vec3 d = y.position - x.position;
     return !caster_->occluded(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
+}
+
+bool Geometry::visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const {
+    const Vec3 d = y.position - x.position;
+    std::vector<Face> faces = giants_;
+    for (const SurfacePoint* end : {&x, &y}) {
+        if (!end->close) continue;
+        const std::vector<Face> around = neighbours_->around(*end);
+        faces.insert(faces.end(), around.begin(), around.end());
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    if (neighbours_->any_between(faces, x, y)) return false;
+    const Vec3 begin = x.close ? x.position : leave(x, glm::dot(x.normal, d)),
+               end = y.close ? y.position : leave(y, -glm::dot(y.normal, d));
+    const double length = glm::length(end - begin);
+    const Vec3 direction = (end - begin) / length;
+    const auto part = neighbours_->giants().near_rest(begin, direction, length);
+    if (!part) return true;
+    return !caster_->occluded(part->begin > 0.0 ? begin + direction * part->begin : begin,
+                              part->end < length ? begin + direction * part->end : end, faces);
 }
 
 std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
@@ -268,6 +366,7 @@ SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& u
         put_on_disk(disk, disk.center + disk.u * d.x + disk.v * d.y, error_[shape], p);
     }
     p.shape = shape;
+    look_around(p);
     return p;
 }
 

@@ -4,7 +4,8 @@
 // Embree sees the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything outside stays
 // in scene units and double. Embree tells which primitive is hit, by a ray that leaves a surface from a point moved along its
 // normal by the rounding error of floats; where the hit is, the ray from the point itself tells, in double. So scale and place of
-// the scene do not matter.
+// the scene do not matter. Where surfaces are nearer to each other than floats tell, all of it is done in double (Neighbours), and
+// so is what would make floats coarse for all else (Giants).
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -22,6 +23,8 @@
 #include <vector>
 
 namespace neumann {
+
+class Neighbours;
 
 class Geometry {
 public:
@@ -46,6 +49,10 @@ public:
     // references to the point and direction of departure, to the two points, and to where a hit goes.
     template <class HitAt>
     std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
+        if (!giants_.empty())
+            return one_by_one(rays.size(), [&](std::size_t i) {
+                return first_hit(rays[i].origin, rays[i].direction, rays[i].length, hit(i));
+            });
         RayCaster::Packet packet(*caster_);
         for (const Ray& ray : rays) packet.add(ray.origin, ray.direction, ray.length);
         RayCaster::Hit hits[RayCaster::packet_size];
@@ -56,29 +63,51 @@ public:
     }
     template <class FromAt, class HitAt>
     std::uint32_t first_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
+        if (!giants_.empty())
+            return one_by_one(n, [&](std::size_t i) {
+                const auto& [x, w] = from(i);
+                return first_hit(x, w, hit(i));
+            });
         RayCaster::Packet packet(*caster_);
+        std::uint32_t close = 0;
         for (std::size_t i = 0; i < n; ++i) {
             const auto& [x, w] = from(i);
             packet.add(leave(x, glm::dot(x.normal, w)), w);
+            close |= static_cast<std::uint32_t>(x.close) << i;
         }
         RayCaster::Hit hits[RayCaster::packet_size];
-        const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::any);
-        for (std::size_t i = 0; i < n; ++i)
-            if (found >> i & 1u) {
-                const auto& [x, w] = from(i);
+        std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::any) & ~close;
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto& [x, w] = from(i);
+            if (close >> i & 1u)
+                found |= static_cast<std::uint32_t>(first_hit_in_double(x, w, hit(i))) << i;
+            else if (found >> i & 1u)
                 put_on_surface(x.position, w, hits[i], hit(i));
-            }
+        }
         return found;
     }
     template <class PairAt>
     std::uint32_t visible(std::size_t n, const PairAt& pair, RayCaster::Rays kind) const {
+        if (!giants_.empty())
+            return one_by_one(n, [&](std::size_t i) {
+                const auto& [x, y] = pair(i);
+                return visible(x, y);
+            });
         RayCaster::Packet packet(*caster_);
+        std::uint32_t close = 0;
         for (std::size_t i = 0; i < n; ++i) {
             const auto& [x, y] = pair(i);
             const Vec3 d = y.position - x.position;
             packet.add_segment(leave(x, glm::dot(x.normal, d)), leave(y, -glm::dot(y.normal, d)));
+            close |= static_cast<std::uint32_t>(x.close || y.close) << i;
         }
-        return ~caster_->occluded(packet, kind) & ((1u << n) - 1u);
+        std::uint32_t seen = ~caster_->occluded(packet, kind) & ((1u << n) - 1u);
+        for (std::size_t i = 0; close >> i != 0; ++i)
+            if (close >> i & 1u) {
+                const auto& [x, y] = pair(i);
+                seen = (seen & ~(1u << i)) | static_cast<std::uint32_t>(visible_in_double(x, y)) << i;
+            }
+        return seen;
     }
 
     // Where a ray starts that leaves p to the side of its normal (side > 0) or to the other: clear of the hit's rounding error.
@@ -92,13 +121,17 @@ public:
         if (triangles_[shape].empty()) return point_on_round_surface(shape, uv);
         const Triangle& t = triangles_[shape][primitive];
         const Vec2 weights = uniform_triangle(uv);
-        return {t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
+        SurfacePoint p{t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
+        if (!t.is_clear(weights)) look_around(p);
+        return p;
     }
 
     // A point near the plane of a triangle as one on the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         const Triangle& t = triangles_[shape][primitive];
-        return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
+        SurfacePoint p{t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
+        if (!t.is_clear(t.weights(p.position))) look_around(p);
+        return p;
     }
     // The inverse of point() on a sphere or a disc: the (u, v) of a point there.
     Vec2 round_coordinates(std::uint32_t shape, const Vec3& position) const;
@@ -108,6 +141,8 @@ public:
     double radius() const { return radius_; }
 
     const RayCaster& caster() const { return *caster_; }
+    // The faces that the caster does not hold, in order.
+    const std::vector<Face>& giants() const { return giants_; }
 
 private:
     Triangle::Edges edges(std::uint32_t shape, std::uint32_t primitive) const {
@@ -121,12 +156,33 @@ private:
     void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
         if (!triangles_[hit.shape].empty()) {
             const Triangle& t = triangles_[hit.shape][hit.primitive];
-            const Vec3 position = t.hit(origin, direction, hit.u, hit.v, [&] { return edges(hit.shape, hit.primitive); });
-            p = {position, t.normal(), t.error(), hit.shape, hit.primitive};
+            const Triangle::Meeting m = t.meet(origin, direction);
+            if (t.is_hit(m) && t.is_clear(m.weights))
+                p = {m.position, t.normal(), t.error(), hit.shape, hit.primitive};
+            else
+                put_among_others(origin, direction, hit, m, p);
         } else
             put_on_round_surface(origin, direction, hit, p);
     }
+    void put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, const Triangle::Meeting& m,
+                          SurfacePoint& p) const;
     void put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    // Sets p.close.
+    void look_around(SurfacePoint& p) const;
+    // Of what is close to a hit, another face may come first.
+    void settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const;
+    SurfacePoint point_on(const Face& face, const Vec3& position) const;
+    // The faces around close points, and giants, in double, and all others by Embree.
+    bool first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
+    bool visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const;
+    // A giant may come before what Embree found, which is in p.
+    bool meet_giants(const Vec3& origin, const Vec3& direction, double distance, bool found, SurfacePoint& p) const;
+    template <class Ask>
+    static std::uint32_t one_by_one(std::size_t n, const Ask& ask) {
+        std::uint32_t found = 0;
+        for (std::size_t i = 0; i < n; ++i) found |= static_cast<std::uint32_t>(ask(i)) << i;
+        return found;
+    }
     SurfacePoint point_on_round_surface(std::uint32_t shape, const Vec2& uv) const;
 
     std::shared_ptr<const std::vector<Shape>> shapes_;
@@ -136,6 +192,8 @@ private:
     std::unique_ptr<RayCaster> caster_;
     std::vector<std::vector<Triangle>> triangles_;  // by shape; empty where the shape is no mesh
     std::vector<double> error_;                     // by shape: spheres, discs and cylinders
+    std::vector<Face> giants_;
+    std::unique_ptr<Neighbours> neighbours_;
 };
 
 }  // namespace neumann

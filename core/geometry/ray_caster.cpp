@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace neumann {
 
@@ -20,6 +21,30 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 Vec3 origin(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
 Vec3 direction(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
+
+// What a query brings along, behind Embree's own part: the faces that it does not look for, in order.
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
+#else
+using EmbreeContext = RTCIntersectContext;
+void init(EmbreeContext& context) { rtcInitIntersectContext(&context); }
+#endif
+struct Query : EmbreeContext {
+    std::span<const Face> without;
+
+    explicit Query(std::span<const Face> faces = {}) : without(faces) { init(*this); }
+    bool leaves_out(std::uint32_t shape, std::uint32_t primitive) const {
+        return !without.empty() && std::binary_search(without.begin(), without.end(), Face{shape, primitive});
+    }
+};
+
+void filter(const RTCFilterFunctionNArguments* args) {
+    const auto* query = static_cast<const Query*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i)
+        if (args->valid[i] && query->leaves_out(RTCHitN_geomID(args->hit, args->N, i), RTCHitN_primID(args->hit, args->N, i)))
+            args->valid[i] = 0;
+}
 
 struct SphereData {
     Vec3 center;
@@ -93,6 +118,7 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
 
 template <class Data>
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
+    if (static_cast<const Query*>(args->context)->leaves_out(args->geomID, args->primID)) return;
     const unsigned N = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
@@ -109,6 +135,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 
 template <class Data>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+    if (static_cast<const Query*>(args->context)->leaves_out(args->geomID, args->primID)) return;
     const unsigned N = args->N;
     for (unsigned i = 0; i < N; ++i)
         if (args->valid[i] &&
@@ -117,45 +144,61 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 }
 
 #if RTC_VERSION_MAJOR >= 4
-RTCRayQueryFlags flags(RayCaster::Rays kind) {
-    return kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+template <class Arguments>
+void ask(Query& query, RayCaster::Rays kind, Arguments& arguments) {
+    arguments.context = &query;
+    arguments.flags = kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    if (query.without.empty()) return;
+    arguments.filter = filter;
+    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
 }
-void trace(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query, nullptr); }
-void trace(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
-void trace(const int* valid, RTCScene scene, RTCRayHit8& queries, RayCaster::Rays kind) {
+RTCIntersectArguments to_intersect(Query& query, RayCaster::Rays kind) {
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.flags = flags(kind);
-    rtcIntersect8(valid, scene, &queries, &arguments);
+    ask(query, kind, arguments);
+    return arguments;
 }
-void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
+RTCOccludedArguments to_occlude(Query& query, RayCaster::Rays kind) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.flags = flags(kind);
+    ask(query, kind, arguments);
+    return arguments;
+}
+void trace(RTCScene scene, RTCRayHit& ray, Query query) {
+    auto arguments = to_intersect(query, RayCaster::Rays::any);
+    rtcIntersect1(scene, &ray, &arguments);
+}
+void trace(RTCScene scene, RTCRay& ray, Query query) {
+    auto arguments = to_occlude(query, RayCaster::Rays::any);
+    rtcOccluded1(scene, &ray, &arguments);
+}
+void trace(const int* valid, RTCScene scene, RTCRayHit8& rays, RayCaster::Rays kind) {
+    Query query;
+    auto arguments = to_intersect(query, kind);
+    rtcIntersect8(valid, scene, &rays, &arguments);
+}
+void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
+    Query query;
+    auto arguments = to_occlude(query, kind);
     rtcOccluded8(valid, scene, &rays, &arguments);
 }
 #else
-RTCIntersectContext make_context(RayCaster::Rays kind = RayCaster::Rays::any) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    if (kind == RayCaster::Rays::alike) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
+constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+Query& prepared(Query& query, RayCaster::Rays kind = RayCaster::Rays::any) {
+    if (kind == RayCaster::Rays::alike) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    if (!query.without.empty()) query.filter = filter;
+    return query;
 }
-void trace(RTCScene scene, RTCRayHit& query) {
-    RTCIntersectContext context = make_context();
-    rtcIntersect1(scene, &context, &query);
-}
-void trace(RTCScene scene, RTCRay& ray) {
-    RTCIntersectContext context = make_context();
-    rtcOccluded1(scene, &context, &ray);
-}
-void trace(const int* valid, RTCScene scene, RTCRayHit8& queries, RayCaster::Rays kind) {
-    RTCIntersectContext context = make_context(kind);
-    rtcIntersect8(valid, scene, &context, &queries);
+void trace(RTCScene scene, RTCRayHit& ray, Query query) { rtcIntersect1(scene, &prepared(query), &ray); }
+void trace(RTCScene scene, RTCRay& ray, Query query) { rtcOccluded1(scene, &prepared(query), &ray); }
+void trace(const int* valid, RTCScene scene, RTCRayHit8& rays, RayCaster::Rays kind) {
+    Query query;
+    rtcIntersect8(valid, scene, &prepared(query, kind), &rays);
 }
 void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
-    RTCIntersectContext context = make_context(kind);
-    rtcOccluded8(valid, scene, &context, &rays);
+    Query query;
+    rtcOccluded8(valid, scene, &prepared(query, kind), &rays);
 }
 #endif
 
@@ -223,13 +266,26 @@ struct RayCaster::Impl {
         rtcReleaseGeometry(geometry);
     }
 
-    void attach_mesh(const TriangleMesh& mesh, std::uint32_t id, const RayCaster& caster) {
-        if (mesh.triangles.empty()) return;
+    void attach_mesh(const TriangleMesh& mesh, std::uint32_t id, std::span<const Face> without, const RayCaster& caster) {
+        if (mesh.triangles.empty() || without.size() == mesh.triangles.size()) return;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                      3 * sizeof(float), mesh.vertices.size()));
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
-                                   sizeof(mesh.triangles.front()), mesh.triangles.size());
+        constexpr std::size_t triangle_size = sizeof(mesh.triangles.front());
+        if (without.empty()) {
+            rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                                       triangle_size, mesh.triangles.size());
+        } else {
+            // The numbers of the others stay.
+            auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+                geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangle_size, mesh.triangles.size()));
+            std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+            const auto kept = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+                const auto number = static_cast<std::uint32_t>(&t - mesh.triangles.data());
+                return !std::binary_search(without.begin(), without.end(), Face{id, number});
+            });
+            for (const Face& face : without) triangles[face.primitive].fill((*kept)[0]);
+        }
         check("building the scene");
         for (const Vec3& world : mesh.vertices) {
             const Vec3 p = caster.to_embree(world);
@@ -263,21 +319,24 @@ struct RayCaster::Impl {
     }
 };
 
-RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, double scale)
+RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> without, const Vec3& center, double scale)
     : center_(center), scale_(scale), impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) throw RunError("Embree could not be started");
     impl_->scene = rtcNewScene(impl_->device);
     // Robust: no ray slips through the edge that two triangles share.
-    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filters_allowed));
     for (std::uint32_t id = 0; id < shapes.size(); ++id) {
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[id])) impl_->attach_mesh(*mesh, id, *this);
-        if (const auto* sphere = std::get_if<Sphere>(&shapes[id]); sphere && sphere->radius > 0.0)
-            impl_->attach_sphere(*sphere, id, *this);
-        if (const auto* disk = std::get_if<Disk>(&shapes[id]); disk && glm::length(glm::cross(disk->u, disk->v)) > 0.0)
-            impl_->attach_disk(*disk, id, *this);
-        if (const auto* cylinder = std::get_if<Cylinder>(&shapes[id]); cylinder && cylinder->has_extent())
-            impl_->attach_cylinder(*cylinder, id, *this);
+        const auto begin = std::lower_bound(without.begin(), without.end(), Face{id, 0});
+        const std::span<const Face> of_shape(begin, std::lower_bound(begin, without.end(), Face{id + 1, 0}));
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[id])) {
+            impl_->attach_mesh(*mesh, id, of_shape, *this);
+            continue;
+        }
+        if (!has_extent(shapes[id]) || !of_shape.empty()) continue;
+        if (const auto* sphere = std::get_if<Sphere>(&shapes[id])) impl_->attach_sphere(*sphere, id, *this);
+        if (const auto* disk = std::get_if<Disk>(&shapes[id])) impl_->attach_disk(*disk, id, *this);
+        if (const auto* cylinder = std::get_if<Cylinder>(&shapes[id])) impl_->attach_cylinder(*cylinder, id, *this);
     }
     rtcCommitScene(impl_->scene);
     impl_->check("building the scene");
@@ -286,21 +345,28 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, const Vec3& center, doubl
 RayCaster::~RayCaster() = default;
 
 bool RayCaster::intersect(const Vec3& origin, const Vec3& direction, double distance, Hit& hit) const {
+    return intersect(origin, direction, distance, {}, hit);
+}
+
+bool RayCaster::intersect(const Vec3& origin, const Vec3& direction, double distance, std::span<const Face> without,
+                          Hit& hit) const {
     RTCRayHit query;
     set_ray(query.ray, to_embree(origin), direction, static_cast<float>(distance * scale_));
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    trace(impl_->scene, query);
+    trace(impl_->scene, query, Query(without));
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     hit = {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / scale_};
     return true;
 }
 
-bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
+bool RayCaster::occluded(const Vec3& from, const Vec3& to) const { return occluded(from, to, {}); }
+
+bool RayCaster::occluded(const Vec3& from, const Vec3& to, std::span<const Face> without) const {
     const Vec3 org = to_embree(from);
     RTCRay ray;
     set_ray(ray, org, to_embree(to) - org, 1.0f);
-    trace(impl_->scene, ray);
+    trace(impl_->scene, ray, Query(without));
     return ray.tfar < 0.0f;
 }
 
@@ -340,6 +406,23 @@ std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
     std::uint32_t found = 0;
     for (std::size_t i = 0; i < packet.size_; ++i) found |= static_cast<std::uint32_t>(rays.tfar[i] < 0.0f) << i;
     return found;
+}
+
+void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) const {
+    const Vec3 at = to_embree(p);
+    // Boxes of floats around what was rounded to float, and p rounded likewise.
+    const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_);
+    RTCPointQuery query{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z), 0.0f,
+                        std::nextafter(static_cast<float>(radius), infinity)};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(
+        impl_->scene, &query, &context,
+        [](RTCPointQueryFunctionArguments* args) {
+            static_cast<std::vector<Face>*>(args->userPtr)->push_back({args->geomID, args->primID});
+            return false;
+        },
+        &found);
 }
 
 RTCSceneTy* RayCaster::embree_scene() const { return impl_->scene; }

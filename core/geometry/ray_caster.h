@@ -2,11 +2,13 @@
 // unit size. Spheres, discs and cylinders are intersected in double, so they are as exact as the ray.
 #pragma once
 
+#include "core/geometry/face.h"
 #include "core/geometry/ray.h"
 #include "core/geometry/shape.h"
 
 #include <memory>
 #include <span>
+#include <vector>
 
 struct RTCSceneTy;
 struct RTCRay8;
@@ -16,8 +18,9 @@ namespace neumann {
 class RayCaster {
 public:
     // Coordinates are moved by −center and multiplied by scale before Embree sees them. Triangles without extent must have been
-    // taken out; other shapes without extent are left out here. The shapes have to outlive the caster.
-    RayCaster(const std::vector<Shape>& shapes, const Vec3& center, double scale);
+    // taken out; other shapes without extent are left out here, and so are the faces `without`, which are in order. The shapes have
+    // to outlive the caster.
+    RayCaster(const std::vector<Shape>& shapes, std::span<const Face> without, const Vec3& center, double scale);
     ~RayCaster();
 
     struct Hit {
@@ -37,6 +40,13 @@ public:
     class Packet;
     std::uint32_t intersect(const Packet& rays, std::span<Hit> hits, Rays kind) const;
     std::uint32_t occluded(const Packet& rays, Rays kind) const;
+
+    // The same without some faces, which are in order.
+    bool intersect(const Vec3& origin, const Vec3& direction, double distance, std::span<const Face> without, Hit& hit) const;
+    bool occluded(const Vec3& from, const Vec3& to, std::span<const Face> without) const;
+
+    // Appends the faces that come nearer to p than this, and some others.
+    void near(const Vec3& p, double distance, std::vector<Face>& found) const;
 
     // For benchmarks that cast the same rays without anything around them.
     RTCSceneTy* embree_scene() const;

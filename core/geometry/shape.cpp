@@ -1,6 +1,7 @@
 #include "core/geometry/shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace neumann {
@@ -21,6 +22,36 @@ void orient(TriangleMesh& mesh, const Mat4& to_world, bool flip_normals) {
 const MeshAttribute* TriangleMesh::attribute(const std::string& name) const {
     const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const MeshAttribute& a) { return a.name == name; });
     return found == attributes.end() ? nullptr : &*found;
+}
+
+bool has_extent(const Shape& shape) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return !mesh->triangles.empty();
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius > 0.0;
+    if (const auto* disk = std::get_if<Disk>(&shape)) return glm::length(glm::cross(disk->u, disk->v)) > 0.0;
+    return std::get<Cylinder>(shape).has_extent();
+}
+
+Bounds bounds_of(const Shape& shape) {
+    Bounds bounds;
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+        for (const auto& t : mesh->triangles)
+            for (const std::uint32_t index : t) bounds.add(mesh->vertices[index]);
+        return bounds;
+    }
+    Vec3 center, extent;
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        center = sphere->center;
+        extent = Vec3(sphere->radius);
+    } else if (const auto* disk = std::get_if<Disk>(&shape)) {
+        center = disk->center;
+        extent = {std::hypot(disk->u.x, disk->v.x), std::hypot(disk->u.y, disk->v.y), std::hypot(disk->u.z, disk->v.z)};
+    } else {
+        center = std::get<Cylinder>(shape).center();
+        extent = std::get<Cylinder>(shape).extent();
+    }
+    bounds.add(center - extent);
+    bounds.add(center + extent);
+    return bounds;
 }
 
 TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals) {

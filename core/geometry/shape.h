@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/frame.h"
+#include "core/geometry/bounds.h"
 
 #include <array>
 #include <cstdint>
@@ -60,6 +61,10 @@ struct Cylinder {
 };
 
 using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder>;
+
+// A mesh has one if it has triangles: those without area have to be taken out before.
+bool has_extent(const Shape& shape);
+Bounds bounds_of(const Shape& shape);
 
 // Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed. Texture coordinates [0,1]² on each face.
 TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals = false);

@@ -1,20 +1,34 @@
 #include "core/geometry/triangle.h"
 
+#include "core/geometry/rounding.h"
+
 #include <algorithm>
 
 namespace neumann {
 
-Triangle::Triangle(const Vec3& vertex, const Edges& edges, double error) : vertex_(vertex), error_(error) {
-    const Vec3 across = glm::cross(edges.first, edges.second);
-    const double twice = glm::length(across);
-    const double longest = std::max({glm::length(edges.first), glm::length(edges.second), glm::length(edges.second - edges.first)});
+Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : vertex_(a), error_(error) {
+    const Edges edges{b - a, c - a};
+    Vec3 across = glm::cross(edges.first, edges.second);
+    double twice = glm::length(across);
+    const Vec3 third = c - b;
+    const double lengths[] = {glm::length(edges.first), glm::length(edges.second), glm::length(third)};
+    const double longest = std::max({lengths[0], lengths[1], lengths[2]});
+    // Of a thin triangle, two long edges are nearly parallel.
+    constexpr double thin = 1.0 / 256.0;
+    if (twice < thin * longest * longest) {
+        across = longest == lengths[2]   ? across
+                 : longest == lengths[0] ? glm::cross(third, -edges.second)
+                                         : glm::cross(edges.first, third);
+        twice = glm::length(across);
+    }
     normal_ = across / twice;
     area_ = 0.5 * twice;
     dual1_ = glm::cross(edges.second, normal_) / twice;
     dual2_ = glm::cross(normal_, edges.first) / twice;
     const double rounding = 4.0 * error * longest / twice;
     rounding_ = rounding < 0.05 ? static_cast<float>(rounding) : 1.0f;
-    margin_ = rounding < 1e-3 ? static_cast<float>(rounding) : 0.0f;
+    const double margin = 64.0 * double_rounding(a, longest) * longest / twice;
+    margin_ = margin < 1e-3 ? static_cast<float>(margin) : 0.0f;
 }
 
 Vec3 Triangle::at_edge(double u, double v, const Edges& edges) const {
@@ -25,10 +39,10 @@ Vec3 Triangle::at_edge(double u, double v, const Edges& edges) const {
     return vertex_ + edges.first * (u / sum) + edges.second * (v / sum);
 }
 
-Vec3 Triangle::hit_at_edge(const Vec2& weights, double distance, float embree_u, float embree_v, const Edges& edges) const {
-    const double u = weights.x, v = weights.y;
+Vec3 Triangle::near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const {
+    const double u = m.weights.x, v = m.weights.y;
     // Near an edge doubles may find the hit a little outside; along a grazing ray, anywhere.
-    if (std::min({u, v, 1.0 - u - v}) >= -rounding_ && distance > 0.0 && rounding_ < 1.0f) return at_edge(u, v, edges);
+    if (std::min({u, v, 1.0 - u - v}) >= -rounding_ && m.distance > 0.0 && rounding_ < 1.0f) return at_edge(u, v, edges);
     return at(embree_u, embree_v, edges);
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/vec.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace neumann {
 
@@ -15,47 +16,63 @@ public:
     };
 
     // `error`: how far rounding to float moves a hit. The triangle must have an area.
-    Triangle(const Vec3& vertex, const Edges& edges, double error);
+    Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error);
 
-    // The point with barycentric weights u of the second vertex and v of the third, or beside it where that is too near an edge.
+    // The point with barycentric weights u of the second vertex and v of the third, or beside it where doubles cannot tell it from
+    // an edge.
     Vec3 at(double u, double v, const Edges& edges) const {
-        return std::min({u, v, 1.0 - u - v}) >= margin_ ? vertex_ + edges.first * u + edges.second * v : at_edge(u, v, edges);
+        return is_inside({u, v}) ? vertex_ + edges.first * u + edges.second * v : at_edge(u, v, edges);
     }
-    // The point of the triangle's plane nearest to p, or one beside it where that is too near an edge. `edges()` is called only then.
+    // The point of the triangle's plane nearest to p, or one beside it likewise. `edges()` is called only then.
     template <class EdgesOf>
     Vec3 at(const Vec3& p, const EdgesOf& edges) const {
         const Vec2 w = weights(p);
-        const bool inside = std::min({w.x, w.y, 1.0 - w.x - w.y}) >= margin_;
-        return inside ? p - normal_ * glm::dot(p - vertex_, normal_) : at_edge(w.x, w.y, edges());
+        return is_inside(w) ? p - normal_ * glm::dot(p - vertex_, normal_) : at_edge(w.x, w.y, edges());
     }
     // The barycentric weights of the second and third vertex for a point in the triangle's plane.
     Vec2 weights(const Vec3& p) const { return {glm::dot(p - vertex_, dual1_), glm::dot(p - vertex_, dual2_)}; }
+    const Vec3& vertex() const { return vertex_; }
     const Vec3& normal() const { return normal_; }
+    // Gradients of the weights of the second and of the third vertex.
+    const Vec3& dual1() const { return dual1_; }
+    const Vec3& dual2() const { return dual2_; }
     double error() const { return error_; }
     double area() const { return area_; }
 
-    // Where a ray hits that Embree says hits at (u, v): in double, unless the two do not agree on the triangle. `edges()` is called
-    // only then.
-    template <class EdgesOf>
-    Vec3 hit(const Vec3& origin, const Vec3& direction, float u, float v, const EdgesOf& edges) const {
+    // Where a ray meets the triangle's plane, in double.
+    struct Meeting {
+        double distance;
+        Vec3 position;
+        Vec2 weights;
+    };
+    Meeting meet(const Vec3& origin, const Vec3& direction) const {
         const double distance = glm::dot(vertex_ - origin, normal_) / glm::dot(direction, normal_);
-        const Vec3 p = origin + direction * distance;
-        const Vec2 w = weights(p);
-        const bool inside = std::min({w.x, w.y, 1.0 - w.x - w.y}) >= margin_ && distance > 0.0 && rounding_ < 1.0f;
-        return inside ? p : hit_at_edge(w, distance, u, v, edges());
+        const Vec3 position = origin + direction * distance;
+        return {distance, position, weights(position)};
     }
+    // Whether that is where a ray hits of which Embree says that it hits the triangle. Otherwise the hit is near(…).
+    bool is_hit(const Meeting& m) const { return is_inside(m.weights) && m.distance > 0.0 && rounding_ < 1.0f; }
+    Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
+
+    // Neighbours tells and asks how far from the edges no other surface is within rounding, as a barycentric weight. Above 1 it is
+    // Neighbours' own: not known yet, or other surfaces are close in the middle, too.
+    bool is_clear(const Vec2& w) const { return std::min({w.x, w.y, 1.0 - w.x - w.y}) >= clear(); }
+    float clear() const { return std::atomic_ref(clear_).load(std::memory_order_acquire); }
+    void set_clear(float clear) const { std::atomic_ref(clear_).store(clear, std::memory_order_release); }
+    static constexpr float unknown = 2.0f;
 
 private:
+    bool is_inside(const Vec2& w) const { return std::min({w.x, w.y, 1.0 - w.x - w.y}) >= margin_; }
     Vec3 at_edge(double u, double v, const Edges& edges) const;
-    Vec3 hit_at_edge(const Vec2& weights, double distance, float embree_u, float embree_v, const Edges& edges) const;
 
     // A scene has millions of these: what the mesh tells is not kept.
     Vec3 vertex_, normal_;
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
     double area_, error_;
     float rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
-    float margin_;    // hits keep this barycentric distance from the edges, so that rounding cannot push them through a wall that
-                      // meets the triangle there; 0 where the triangle is too thin for that
+    float margin_;    // hits keep this barycentric distance from the edges, so that doubles tell on which side they are of a wall
+                      // that meets the triangle there; 0 where the triangle is too thin for that
+    alignas(std::atomic_ref<float>::required_alignment) mutable float clear_ = unknown;
 };
 
 }  // namespace neumann

@@ -30,6 +30,7 @@ namespace {
 
 constexpr std::array<const char*, 3> mean_channels = {"R", "G", "B"};
 constexpr std::array<const char*, 3> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
+constexpr std::array<const char*, 3> spread_channels = {"spread.R", "spread.G", "spread.B"};
 constexpr std::array<const char*, 3> discretisation_channels = {"discretisation.R", "discretisation.G", "discretisation.B"};
 
 std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
@@ -193,13 +194,15 @@ std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path)
 
 }  // namespace
 
-std::string encode_exr(const Estimate& picture, const Attributes& attributes) {
+std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
     struct Layer {
         const Image* image;
         const std::array<const char*, 3>* channels;
     };
     std::vector<Layer> layers{{&picture.mean, &mean_channels}};
-    if (!picture.standard_error.pixels.empty()) layers.push_back({&picture.standard_error, &error_channels});
+    const Image errors = picture.pixel_errors();
+    if (!errors.pixels.empty()) layers.push_back({&errors, &error_channels});
+    if (errors.pixels != picture.standard_error.pixels) layers.push_back({&picture.standard_error, &spread_channels});
     if (!picture.discretisation.pixels.empty()) layers.push_back({&picture.discretisation, &discretisation_channels});
     const int width = picture.mean.width, height = picture.mean.height;
     OIIO::ImageSpec spec(width, height, 3 * static_cast<int>(layers.size()), OIIO::TypeDesc::FLOAT);
@@ -231,7 +234,7 @@ std::string encode_gif(const DisplayImage& picture) {
     return encode("gif", display_spec(picture), OIIO::TypeDesc::UINT8, picture.bytes.data());
 }
 
-Estimate read_exr(const std::string& path, Attributes* attributes) {
+PixelEstimate read_exr(const std::string& path, Attributes* attributes) {
     const auto input = open_picture(path);
     const OIIO::ImageSpec spec = input->spec();
     const auto mean_places = find_channels(spec, mean_channels);
@@ -240,8 +243,13 @@ Estimate read_exr(const std::string& path, Attributes* attributes) {
     }
     const std::vector<float> values = read_values(*input, path);
     if (attributes != nullptr) get_attributes(spec, *attributes);
-    Estimate picture{pick_channels(spec, values, *mean_places), {}};
+    PixelEstimate picture;
+    picture.mean = pick_channels(spec, values, *mean_places);
     if (const auto places = find_channels(spec, error_channels)) picture.standard_error = pick_channels(spec, values, *places);
+    if (const auto places = find_channels(spec, spread_channels)) {
+        picture.least_error = std::move(picture.standard_error);
+        picture.standard_error = pick_channels(spec, values, *places);
+    }
     if (const auto places = find_channels(spec, discretisation_channels))
         picture.discretisation = pick_channels(spec, values, *places);
     return picture;

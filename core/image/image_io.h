@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/image/display.h"
-#include "core/image/image.h"
+#include "core/image/pixel_estimate.h"
 #include "core/image/texels.h"
 
 #include <cstdint>
@@ -20,9 +20,10 @@ namespace neumann {
 using Attribute = std::variant<std::int64_t, double, std::string>;
 using Attributes = std::map<std::string, Attribute>;
 
-// An OpenEXR file: float32 channels R, G, B (`mean`), stderr.R, stderr.G, stderr.B (`standard_error`) and discretisation.R, …;
-// those of an empty picture are left out. The pictures have one size, at least 1×1; otherwise throws std::invalid_argument.
-std::string encode_exr(const Estimate& picture, const Attributes& attributes = {});
+// An OpenEXR file: float32 channels R, G, B (`mean`), stderr.R, stderr.G, stderr.B (pixel_errors()), where that differs spread.R, …
+// (`standard_error`), and discretisation.R, …; those of an empty picture are left out. The pictures have one size, at least 1×1;
+// otherwise throws std::invalid_argument.
+std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes = {});
 
 // A PNG file with 8 bits a channel.
 std::string encode_png(const DisplayImage& picture);
@@ -32,9 +33,9 @@ std::string encode_gif(const DisplayImage& picture);
 
 // A picture (OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP, TGA), values as they are in the file (8-bit ones scaled to
 // 0..1, not linearised; NaN and infinity kept), and `attributes`, if asked for, with the numbers and texts of its header. Without
-// stderr channels `standard_error` is empty (0×0), and so is `discretisation`. Throws InputError, beginning with the path: no such
-// file, not a picture, damaged, no channels R, G, B.
-Estimate read_exr(const std::string& path, Attributes* attributes = nullptr);
+// stderr channels `standard_error` is empty (0×0), and so is `discretisation`; where there is a spread, `least_error` is the
+// stderr. Throws InputError, beginning with the path: no such file, not a picture, damaged, no channels R, G, B.
+PixelEstimate read_exr(const std::string& path, Attributes* attributes = nullptr);
 
 // The same as a texture: channels R, G, B where there are any of these names, otherwise the first three, or the first where there
 // are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value that is not finite.

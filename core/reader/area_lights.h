@@ -10,13 +10,14 @@ class AreaLights {
 public:
     explicit AreaLights(const Context& context) : context_(context) {}
 
-    // Index of the light; each element is stored once.
+    // Index of the light; each element is stored once. In place of one that is wrong stands darkness.
     int index(const Element& e);
 
     bool has(const Element& e) const { return index_.count(&e) > 0; }
     std::vector<AreaLight> take() { return std::move(lights_); }
 
 private:
+    AreaLight read(const Element& e) const;
     const Context& context_;
     std::vector<AreaLight> lights_;
     std::map<const Element*, int> index_;

@@ -33,14 +33,15 @@ ConductorFresnel read_fresnel(Properties& p, const Context& context) {
     if (material == "none") return {read("eta", eta, 0.0), read("k", k, 1.0)};
     if (eta || k) {
         const std::string given = eta ? "eta" : "k";
-        p.fail(given, fmt::format("both material and {} are given, expected one of them", given));
+        p.complain(given, fmt::format("both material and {} are given, expected one of them", given));
     }
     std::vector<std::string> names = {"none"};
     for (const Metal& metal : metals()) {
         if (metal.name == material) return {metal.eta, metal.k};
         names.emplace_back(metal.name);
     }
-    p.fail("material", fmt::format("material '{}' of {} is unknown; allowed: {}", material, p.title(), join(names)));
+    p.complain("material", fmt::format("material '{}' of {} is unknown; allowed: {}", material, p.title(), join(names)));
+    return {Rgb(0.0), Rgb(1.0)};
 }
 
 Conductor read_conductor(const Element& e, const Context& context) {
@@ -71,9 +72,9 @@ Materials::Sides Bsdfs::sides(const Element& e) {
     if (known != sides_.end()) return known->second;
     if (!open_.insert(&e).second)
         throw InputError(e.place, fmt::format("bsdf '{}' stands inside itself", e.attribute("type").value));
-    const Materials::Sides sides = read(e);
+    const auto sides = context_.problems().attempt(e.place, [&] { return read(e); });
     open_.erase(&e);
-    return sides_[&e] = sides;
+    return sides_[&e] = sides ? *sides : default_sides(false);
 }
 
 Materials::Sides Bsdfs::read(const Element& e) {
@@ -105,16 +106,16 @@ Materials::Sides Bsdfs::read(const Element& e) {
     if (type == "roughdielectric") return both(read_rough_dielectric(e, context_));
     if (type == "thindielectric") return both(read_thin_dielectric(e, context_));
     if (type == "twosided") return read_two_sided(e);
-    fail_type(e, {"blendbsdf", "bumpmap", "conductor", "dielectric", "diffuse", "mask", "normalmap", "null", "plastic", "principled",
-                  "principledthin", "retroreflector", "roughconductor", "roughdielectric", "roughplastic", "thindielectric",
-                  "twosided"});
+    fail_type(
+        e, {"blendbsdf", "bumpmap", "conductor", "dielectric", "diffuse", "mask", "normalmap", "null", "plastic", "principled",
+            "principledthin", "retroreflector", "roughconductor", "roughdielectric", "roughplastic", "thindielectric", "twosided"});
 }
 
 Materials::Sides Bsdfs::read_two_sided(const Element& e) {
     Properties p(e, context_.objects);
     const std::vector<const Element*> nested = p.nested("bsdf", 2);
     p.finish();
-    if (nested.empty()) throw InputError(e.place, "bsdf 'twosided' has no <bsdf> inside, expected one or two");
+    if (nested.empty()) p.fail_empty("bsdf 'twosided' has no <bsdf> inside, expected one or two");
     for (const Element* inner : nested) {
         const std::string& type = inner->attribute("type").value;
         if (type == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");

@@ -1,4 +1,5 @@
-// <bsdf>: what reflects, what lets light through, and what stands around them: `twosided`, `mask`, `blendbsdf`, `normalmap`, `bumpmap`.
+// <bsdf>: what reflects, what lets light through, and what stands around them: `twosided`, `mask`, `blendbsdf`, `normalmap`,
+// `bumpmap`.
 #pragma once
 
 #include "core/material/materials.h"
@@ -14,7 +15,7 @@ class Bsdfs {
 public:
     explicit Bsdfs(const Context& context) : context_(context) {}
 
-    // Each element is stored once, however many shapes it stands on.
+    // Each element is stored once, however many shapes it stands on. In place of one that is wrong stands the default.
     Materials::Sides sides(const Element& e);
     // What stands on a shape that names no material: Mitsuba's diffuse of reflectance 0.5, or nothing where it emits.
     Materials::Sides default_sides(bool emits);

@@ -62,18 +62,19 @@ Rgb table_to_rgb(const SpectrumTable& s, Illuminant illuminant, double largest, 
     return inside;
 }
 
-Rgb parse(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, double largest, Warnings& warnings) {
+Rgb parse(const std::string& name, const Element& e, Illuminant illuminant, double largest, Warnings& warnings) {
     const Attribute& value = e.attribute("value");
     if (e.tag == "spectrum" && value.value.find(':') != std::string::npos) {
         if (illuminant == Illuminant::d65 && e.find("type"))
             throw InputError(e.place, fmt::format("{} is a spectrum 'blackbody', which is for what gives off light", name));
         const SpectrumTable s = parse_table(value);
         for (std::size_t i = 0; i < s.values.size(); ++i)
-            if (s.values[i] < 0.0) p.fail(name, fmt::format("{} is negative at {} nm: {}", name, s.wavelengths[i], s.values[i]));
+            if (s.values[i] < 0.0)
+                throw InputError(value.place, fmt::format("{} is negative at {} nm: {}", name, s.wavelengths[i], s.values[i]));
         return table_to_rgb(s, illuminant, largest, warnings);
     }
     const Rgb c = e.tag == "rgb" ? parse_rgb(value) : Rgb(parse_number(value));
-    if (std::min({c.r, c.g, c.b}) < 0.0) p.fail(name, fmt::format("{} is negative: '{}'", name, value.value));
+    if (std::min({c.r, c.g, c.b}) < 0.0) throw InputError(value.place, fmt::format("{} is negative: '{}'", name, value.value));
     // The same power at all wavelengths is not white.
     return e.tag == "spectrum" && illuminant == Illuminant::equal_energy ? c * (rgb_from_xyz() * Vec3(1.0)) : c;
 }
@@ -81,11 +82,12 @@ Rgb parse(Properties& p, const std::string& name, const Element& e, Illuminant i
 }  // namespace
 
 Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings) {
-    return parse(p, name, e, illuminant, illuminant == Illuminant::d65 ? 1.0 : INFINITY, warnings);
+    const double largest = illuminant == Illuminant::d65 ? 1.0 : INFINITY;
+    return p.attempt(name, [&] { return parse(name, e, illuminant, largest, warnings); }).value_or(Rgb(0.0));
 }
 
 Rgb parse_metal_index(Properties& p, const std::string& name, const Element& e, Warnings& warnings) {
-    return parse(p, name, e, Illuminant::d65, INFINITY, warnings);
+    return p.attempt(name, [&] { return parse(name, e, Illuminant::d65, INFINITY, warnings); }).value_or(Rgb(0.0));
 }
 
 }  // namespace neumann::reader

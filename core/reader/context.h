@@ -33,6 +33,8 @@ struct Context {
     Warnings& warnings;
     std::vector<std::string>& mesh_files;  // and pictures, that were read, in their order
     TextureStore& textures;
+
+    Problems& problems() const { return objects.problems(); }
 };
 
 }  // namespace neumann::reader

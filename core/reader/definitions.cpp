@@ -1,5 +1,7 @@
 #include "core/reader/definitions.h"
 
+#include "core/reader/problems.h"
+
 #include <fmt/format.h>
 
 namespace neumann::reader {
@@ -19,6 +21,13 @@ Definitions::Definitions(const std::map<std::string, std::string>& from_command_
 
 void Definitions::add_default(const std::string& name, const std::string& value) { values_.try_emplace(name, Value{value}); }
 
+void Definitions::lose_default(const std::string& name) {
+    if (name.empty())
+        lost_ = true;
+    else
+        values_.try_emplace(name, Value{"", false, false, true});
+}
+
 std::map<std::string, Definitions::Value>::iterator Definitions::longest(std::string_view text) {
     auto best = values_.end();
     for (auto i = values_.begin(); i != values_.end(); ++i)
@@ -37,10 +46,12 @@ void Definitions::substitute(Attribute& a) {
         } else if (text[i] != '$') {
             result += text[i++];
         } else if (const auto found = longest(text.substr(i + 1)); found != values_.end()) {
+            if (found->second.lost) throw Told();
             found->second.used = true;
             result += found->second.text;
             i += 1 + found->first.size();
         } else {
+            if (lost_) throw Told();
             std::size_t end = i + 1;
             while (end < text.size() && is_name_character(text[end])) ++end;
             throw InputError(a.place, fmt::format("{} is not defined; {}", text.substr(i, end - i), names()));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/warnings.h"
-#include "core/reader/element.h"
+#include "core/reader/objects.h"
 
 #include <map>
 
@@ -12,15 +12,18 @@ struct Document {
     Element root;                      // <scene>
     std::vector<std::string> files;    // the XML files and spectra that were read, in their order
     std::vector<std::string> folders;  // where files are looked for: those of <path>, the last first, and the main scene's
+    bool lost_folder = false;          // there are others, which are not known
+    LostIds lost;
 
     // The file that an attribute names: in the folders, or beside the file that the attribute stands in. Throws InputError if there
     // is none.
     std::string find_file(const Attribute& name) const;
 };
 
-// What was upgraded in files of older versions is noted in `warnings`. Definitions that nothing uses are an error, unless they are
-// `optional`.
+// What was upgraded in files of older versions is noted in `warnings`. Definitions that nothing uses are a problem, unless they are
+// `optional`. What is wrong is added to `problems`, and marked as broken in the document; throws InputError where the main file
+// cannot be read as a scene at all.
 Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-                       bool optional = false);
+                       Problems& problems, bool optional = false);
 
 }  // namespace neumann::reader

@@ -1,5 +1,7 @@
 #include "core/reader/element.h"
 
+#include "core/reader/problems.h"
+
 #include <algorithm>
 
 namespace neumann::reader {
@@ -11,6 +13,7 @@ const Attribute* Element::find(std::string_view name) const {
 
 const Attribute& Element::attribute(std::string_view name) const {
     if (const Attribute* a = find(name)) return *a;
+    if (broken) throw Told();
     throw InputError(place, "<" + tag + "> lacks the attribute '" + std::string(name) + "'");
 }
 

@@ -19,6 +19,8 @@ struct Element {
     std::vector<Attribute> attributes;
     std::vector<Element> children;
     Location place;
+    // Its problem has been told; nothing is made of it.
+    bool broken = false;
 
     const Attribute* find(std::string_view name) const;
     // Attributes that grammar.h requires are there in every element of a document.

@@ -25,10 +25,10 @@ const std::vector<std::string> path_types = {"path", "ptracer", "volpath", "volp
 Integrator read_path(Properties& p) {
     const std::int64_t depth = p.integer("max_depth").value_or(-1);
     if (depth == 0 || depth < -1 || depth > std::numeric_limits<int>::max())
-        p.fail("max_depth", fmt::format("max_depth is {}, expected -1 or at least 1", depth));
+        p.complain("max_depth", fmt::format("max_depth is {}, expected -1 or at least 1", depth));
     // Here roulette begins only after the last bounce that is asked for.
     const std::int64_t roulette = p.integer("rr_depth").value_or(5);
-    if (roulette < 1) p.fail("rr_depth", fmt::format("rr_depth is {}, expected at least 1", roulette));
+    if (roulette < 1) p.complain("rr_depth", fmt::format("rr_depth is {}, expected at least 1", roulette));
     Integrator result;
     if (depth != -1) result.bounces = static_cast<int>(depth) - 1;  // Mitsuba counts the vertices after the camera's
     result.hide_emitters = p.boolean("hide_emitters").value_or(false);
@@ -39,16 +39,17 @@ Integrator read_path(Properties& p) {
 Integrator read_direct(Properties& p) {
     const auto count = [&](const std::string& name) {
         const std::optional<std::int64_t> value = p.integer(name);
-        if (value && *value < 0) p.fail(name, fmt::format("{} is {}, expected at least 0", name, *value));
+        if (value && *value < 0) p.complain(name, fmt::format("{} is {}, expected at least 0", name, *value));
         return value;
     };
     const auto both = count("shading_samples"), emitter = count("emitter_samples"), bsdf = count("bsdf_samples");
     if (both && (emitter || bsdf))
-        p.fail("shading_samples", fmt::format("both shading_samples and {} are given, expected one of them",
-                                              emitter ? "emitter_samples" : "bsdf_samples"));
+        p.complain("shading_samples", fmt::format("both shading_samples and {} are given, expected one of them",
+                                                  emitter ? "emitter_samples" : "bsdf_samples"));
     if (emitter.value_or(both.value_or(1)) + bsdf.value_or(both.value_or(1)) == 0)
-        p.fail(both ? "shading_samples" : "emitter_samples",
-               "integrator 'direct' takes no samples of emitters nor of bsdfs, expected at least 1");
+        p.complain(both ? "shading_samples" : "emitter_samples",
+                   "integrator 'direct' takes no samples of emitters nor of bsdfs, expected at least 1",
+                   {"emitter_samples", "bsdf_samples"});
     return {1, p.boolean("hide_emitters").value_or(false)};
 }
 
@@ -67,7 +68,7 @@ Integrator read_integrator(const Element& e, const Context& context) {
     const Element* nested = nullptr;
     if (type == "moment") {
         const std::vector<const Element*> integrators = p.nested("integrator");
-        if (integrators.empty()) throw InputError(e.place, "integrator 'moment' has no <integrator> inside, expected one");
+        if (integrators.empty()) p.fail_empty("integrator 'moment' has no <integrator> inside, expected one");
         nested = integrators.front();
         if (nested->attribute("type").value == "moment") throw InputError(e.place, "integrator 'moment' stands inside another one");
     } else {

@@ -42,11 +42,12 @@ double read_ior(Properties& p, const std::string& name, const std::string& missi
         if (const Named* known = find(value.value)) return known->ior;
         std::vector<std::string> names;
         for (const Named& n : table) names.push_back(n.name);
-        p.fail(name, fmt::format("{} is '{}'; allowed: {}, or a number", name, value.value, join(names)));
+        p.complain(name, fmt::format("{} is '{}'; allowed: {}, or a number", name, value.value, join(names)));
+        return find(missing)->ior;
     }
-    const double ior = parse_number(value);
-    if (!(ior > 0.0)) p.fail(name, fmt::format("{} is {}, expected more than 0", name, ior));
-    return ior;
+    const auto ior = p.attempt(name, [&] { return parse_number(value); });
+    if (ior && !(*ior > 0.0)) p.complain(name, fmt::format("{} is {}, expected more than 0", name, *ior));
+    return ior.value_or(find(missing)->ior);
 }
 
 }  // namespace neumann::reader

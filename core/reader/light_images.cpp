@@ -25,9 +25,9 @@ Image read_light_image(const Attribute& filename, const Context& context) {
 std::optional<Slide> read_slide(Properties& p, const std::string& name, const Context& context) {
     for (const Element& child : p.element().children) {
         if (child.tag != "texture" && child.tag != "ref") continue;
-        const Element& object = child.tag == "ref" ? context.objects.find(child.attribute("id")) : child;
+        const Element* object = child.tag == "ref" ? context.objects.known(child) : &child;
         const Attribute* given = child.find("name");
-        if (object.tag == "texture" && (!given || given->value != name))
+        if (object && object->tag == "texture" && (!given || given->value != name))
             throw InputError(given ? given->place : child.place,
                              fmt::format("a <texture> of {} {}, expected the name '{}'", p.title(),
                                          given ? "is named '" + given->value + "'" : "has no name", name));
@@ -36,7 +36,9 @@ std::optional<Slide> read_slide(Properties& p, const std::string& name, const Co
     if (!e) return std::nullopt;
     for (const auto& [attribute, place] : mesh_attributes_of(*e, context.objects))
         throw InputError(place->place, fmt::format("the mesh attribute '{}' is thrown by a light, which has no mesh", attribute));
-    const Texture texture = read_not_negative(*e, name, Illuminant::equal_energy, context);
+    const auto read = p.attempt(name, [&] { return read_not_negative(*e, name, Illuminant::equal_energy, context); });
+    if (!read) return std::nullopt;
+    const Texture& texture = *read;
     const auto at = [f = texture.value](const Vec2& uv) { return f(point_with_coordinates(uv)); };
     return Slide(at, texture.width, texture.height, texture.value.is_grey());
 }

@@ -13,7 +13,7 @@ namespace neumann::reader {
 // Linear. Throws InputError where a pixel is negative.
 Image read_light_image(const Attribute& filename, const Context& context);
 
-// The <texture> of this name inside an emitter, if there is one.
+// The <texture> of this name inside an emitter, if there is one that is right.
 std::optional<Slide> read_slide(Properties& p, const std::string& name, const Context& context);
 
 }  // namespace neumann::reader

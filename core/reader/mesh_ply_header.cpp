@@ -29,18 +29,6 @@ PlyType read_type(MeshText& text) {
 
 bool is_integer(PlyType type) { return type != PlyType::f32 && type != PlyType::f64; }
 
-// The properties that may make up an attribute, by what follows "vertex_" or "face_" in its name.
-std::vector<std::array<std::string, 3>> attribute_properties(const std::string& name) {
-    if (name == "color") return {{"r", "g", "b"}, {"red", "green", "blue"}};
-    constexpr std::string_view color = "_color";
-    if (name.ends_with(color)) {
-        const std::string prefix = name.substr(0, name.size() - color.size());
-        return {{prefix + "_r", prefix + "_g", prefix + "_b"}};
-    }
-    return {
-        {name + "_x", name + "_y", name + "_z"}, {name + "_0", name + "_1", name + "_2"}, {name + "_1", name + "_2", name + "_3"}};
-}
-
 int find_slot(const PlyElement& element, std::string_view property) {
     if (element.name == "vertex") {
         for (std::size_t i = 0; i < vertex_slots.size(); ++i) {
@@ -213,16 +201,44 @@ private:
         }
     }
 
-    static void find_attribute(PlyElement& element, const std::string& name) {
-        for (const auto& names : attribute_properties(name.substr(element.name.size() + 1))) {
-            PlyProperty* found[3] = {number(element, names[0]), number(element, names[1]), number(element, names[2])};
-            const bool is_grey = found[0] && !found[1] && !found[2] && name != "face_color" && name != "vertex_color";
-            if (!is_grey && !(found[0] && found[1] && found[2])) continue;
-            for (int c = 0; c < (is_grey ? 1 : 3); ++c)
-                found[c]->slot = PlyProperty::first_attribute + 3 * static_cast<int>(element.attributes.size()) + c;
-            element.attributes.push_back({name, is_grey});
-            return;
+    // "p_0", "p_1", and so on for the characters of `ends`; nothing if there is not the first.
+    std::vector<PlyProperty*> series(PlyElement& element, const std::string& prefix, std::string_view ends) const {
+        std::vector<PlyProperty*> found;
+        for (std::size_t i = 0; i < ends.size() && (i == 0 || !found.empty()); ++i) {
+            PlyProperty* p = number(element, prefix + ends[i]);
+            if (!p) continue;
+            if (found.size() < i)
+                text_.fail(element.place, fmt::format("element '{}' has the property '{}' without '{}'", element.name, p->name,
+                                                      prefix + ends[found.size()]));
+            found.push_back(p);
         }
+        return found;
+    }
+
+    // What makes up an attribute, called as after "vertex_" or "face_".
+    std::vector<PlyProperty*> channels(PlyElement& element, const std::string& name) const {
+        constexpr std::string_view color = "color";
+        if (name == color)
+            for (const std::array names : {std::array{"r", "g", "b"}, std::array{"red", "green", "blue"}}) {
+                const std::vector found = {number(element, names[0]), number(element, names[1]), number(element, names[2])};
+                if (found[0] && found[1] && found[2]) return found;
+            }
+        if (name.ends_with("_color"))
+            if (auto found = series(element, name.substr(0, name.size() - color.size()), "rgb"); !found.empty()) return found;
+        for (const std::string_view ends : {"xyzw", "0123456789", "123456789"})
+            if (auto found = series(element, name + "_", ends); !found.empty()) return found;
+        return {};
+    }
+
+    void find_attribute(PlyElement& element, const std::string& name) const {
+        const std::vector<PlyProperty*> found = channels(element, name.substr(element.name.size() + 1));
+        if (found.empty()) return;
+        if (found.size() != 1 && found.size() != 3)
+            text_.fail(element.place, fmt::format("mesh attribute '{}' has {} channels, from '{}' to '{}', expected 1 or 3", name,
+                                                  found.size(), found.front()->name, found.back()->name));
+        for (std::size_t c = 0; c < found.size(); ++c)
+            found[c]->slot = PlyProperty::first_attribute + 3 * static_cast<int>(element.attributes.size()) + static_cast<int>(c);
+        element.attributes.push_back({name, found.size() == 1});
     }
 
     MeshText& text_;

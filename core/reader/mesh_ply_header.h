@@ -47,7 +47,7 @@ struct PlyHeader {
 
 // Leaves the cursor at the body. The attributes are named as by Mitsuba: of properties r, g, b or red, green, blue of a vertex
 // "vertex_color", of p_r, p_g, p_b "vertex_p_color", and of p_x, p_y, p_z, or p_0, p_1, p_2, or p_1, p_2, p_3, or the first of them
-// alone "vertex_p"; likewise "face_…".
+// alone "vertex_p"; likewise "face_…". One that is asked for and has another number of channels is refused; alpha is left out.
 PlyHeader read_ply_header(MeshText& text, const std::vector<std::string>& attributes);
 
 }  // namespace neumann

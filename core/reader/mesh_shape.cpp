@@ -64,10 +64,12 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
     const bool flip_normals = p.boolean("flip_normals").value_or(false);
     bool face_normals = p.boolean("face_normals").value_or(false);
     const std::int64_t index = type == "serialized" ? p.integer("shape_index").value_or(0) : 0;
-    if (index < 0) p.fail("shape_index", fmt::format("shape_index is {}, expected 0 or more", index));
+    if (index < 0) p.complain("shape_index", fmt::format("shape_index is {}, expected 0 or more", index));
 
     const bool flip_coordinates = p.boolean("flip_tex_coords").value_or(type == "obj");
 
+    p.refuse_rest();
+    if (index < 0) throw Told();
     const std::string path = context.document.find_file(filename);
     context.mesh_files.push_back(path);
     MeshFile file;

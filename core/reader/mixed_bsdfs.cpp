@@ -13,7 +13,7 @@ SurfaceFunction read_share(Properties& p, const std::string& name, const Context
     const SurfaceFunction share = read_number_texture(p, name, 0.5, context);
     const double largest = share.upper_bound().r;
     if (!(largest >= 0.0 && largest <= 1.0))
-        p.fail(name, fmt::format("{} of {} is {}, expected from 0 to 1", name, p.title(), largest));
+        p.complain(name, fmt::format("{} of {} is {}, expected from 0 to 1", name, p.title(), largest));
     return share;
 }
 
@@ -28,7 +28,7 @@ Materials::Sides Bsdfs::read_mask(const Element& e) {
     const SurfaceFunction opacity = read_share(p, "opacity", context_);
     const std::vector<const Element*> nested = p.nested("bsdf");
     p.finish();
-    if (nested.empty()) throw InputError(e.place, "bsdf 'mask' has no <bsdf> inside, expected one");
+    if (nested.empty()) p.fail_empty("bsdf 'mask' has no <bsdf> inside, expected one");
     const Materials::Sides inner = sides(*nested.front());
     const auto masked = [&](int index) { return store(Mask(shared(index), opacity)); };
     const int front = masked(inner.front);
@@ -41,8 +41,7 @@ Materials::Sides Bsdfs::read_blend(const Element& e) {
     const std::vector<const Element*> nested = p.nested("bsdf", 2);
     p.finish();
     if (nested.size() != 2)
-        throw InputError(e.place,
-                         fmt::format("bsdf 'blendbsdf' has {} <bsdf> inside, expected two", nested.empty() ? "no" : "one"));
+        p.fail_empty(fmt::format("bsdf 'blendbsdf' has {} <bsdf> inside, expected two", nested.empty() ? "no" : "one"));
     const Materials::Sides first = sides(*nested[0]), second = sides(*nested[1]);
     const auto blended = [&](int a, int b) {
         if (a == Materials::absorbing && b == Materials::absorbing) return Materials::absorbing;

@@ -6,14 +6,18 @@
 
 namespace neumann::reader {
 
-Objects::Objects(const Element& root) {
+Objects::Objects(const Element& root, Problems& problems, LostIds lost) : problems_(problems), lost_(std::move(lost)) {
     add(root);
-    for (const Element& e : root.children)
-        if (e.tag == "alias") add(e.attribute("as"), find(e.attribute("id"), "alias of"));
+    for (const Element& e : root.children) {
+        if (e.tag != "alias") continue;
+        const Attribute* as = e.find("as");
+        if (e.broken || !problems_.attempt(e.place, [&] { add(*as, find(e.attribute("id"), "alias of")); }))
+            if (as) lost_.ids.insert(as->value);
+    }
 }
 
 void Objects::add(const Element& e) {
-    if (const Attribute* id = is_object(e.tag) ? e.find("id") : nullptr) add(*id, e);
+    if (const Attribute* id = is_object(e.tag) ? e.find("id") : nullptr) problems_.attempt(e.place, [&] { add(*id, e); });
     for (const Element& child : e.children) add(child);
 }
 
@@ -23,9 +27,16 @@ void Objects::add(const Attribute& id, const Element& e) {
         throw InputError(id.place, fmt::format("the id '{}' is taken already, at {}", id.value, to_string(entry->second.place)));
 }
 
+const Element* Objects::known(const Element& reference) const {
+    const Attribute* id = reference.find("id");
+    const auto found = id ? entries_.find(id->value) : entries_.end();
+    return found != entries_.end() ? found->second.object : nullptr;
+}
+
 const Element& Objects::find(const Attribute& id, const std::string& what) const {
     const auto found = entries_.find(id.value);
     if (found != entries_.end()) return *found->second.object;
+    if (lost_.others || lost_.ids.count(id.value)) throw Told();
     std::vector<std::string> ids;
     for (const auto& [name, entry] : entries_) ids.push_back(name);
     throw InputError(id.place, fmt::format("{} '{}', which is not defined; {}", what, id.value,

@@ -2,18 +2,30 @@
 #pragma once
 
 #include "core/reader/element.h"
+#include "core/reader/problems.h"
 
 #include <map>
+#include <set>
 
 namespace neumann::reader {
 
+// Ids of what could not be read.
+struct LostIds {
+    std::set<std::string> ids;
+    bool others = false;  // there may be more
+};
+
 class Objects {
 public:
-    // Registers objects at any depth, and aliases. Throws InputError for an id given twice.
-    explicit Objects(const Element& root);
+    // Registers objects at any depth, and aliases. An id that is given twice is a problem.
+    Objects(const Element& root, Problems& problems, LostIds lost = {});
 
     // The object that <ref id=…> means; throws InputError if there is none.
     const Element& find(const Attribute& id, const std::string& what = "reference to") const;
+    // What a <ref> means, or null.
+    const Element* known(const Element& reference) const;
+
+    Problems& problems() const { return problems_; }
 
 private:
     void add(const Element& e);
@@ -22,6 +34,8 @@ private:
         const Element* object;
         Location place;
     };
+    Problems& problems_;
+    LostIds lost_;
     std::map<std::string, Entry> entries_;
 };
 

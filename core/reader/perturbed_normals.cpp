@@ -10,7 +10,7 @@ namespace {
 
 PerturbedNormal::Normal read_normal_map(Properties& p, const Context& context) {
     const Element* e = p.object("normalmap", "texture");
-    if (!e) throw InputError(p.element().place, fmt::format("{} lacks the parameter 'normalmap', expected a texture", p.title()));
+    if (!e) p.fail_empty(fmt::format("{} lacks the parameter 'normalmap', expected a texture", p.title()));
     const Texture texture = read_texture(*e, Illuminant::d65, context);
     return [f = texture.value](const ShadingPoint& at) { return 2.0 * f(at) - 1.0; };
 }
@@ -18,7 +18,7 @@ PerturbedNormal::Normal read_normal_map(Properties& p, const Context& context) {
 // The texture may have any name.
 PerturbedNormal::Normal read_bump_map(Properties& p, const Context& context) {
     const std::vector<const Element*> found = p.nested("texture");
-    if (found.empty()) throw InputError(p.element().place, fmt::format("{} has no <texture> inside, expected one", p.title()));
+    if (found.empty()) p.fail_empty(fmt::format("{} has no <texture> inside, expected one", p.title()));
     const double scale = p.number("scale").value_or(1.0);
     const Texture texture = read_texture(*found.front(), Illuminant::d65, context);
     if (!texture.slope)
@@ -38,7 +38,7 @@ Materials::Sides Bsdfs::read_perturbed_normal(const Element& e) {
     options.use_shadowing_function = p.boolean("use_shadowing_function").value_or(true);
     const std::vector<const Element*> nested = p.nested("bsdf");
     p.finish();
-    if (nested.empty()) throw InputError(e.place, fmt::format("{} has no <bsdf> inside, expected one", p.title()));
+    if (nested.empty()) p.fail_empty(fmt::format("{} has no <bsdf> inside, expected one", p.title()));
     const Materials::Sides inner = sides(*nested.front());
 
     const auto perturb = [&](int side, bool from_behind) {

@@ -12,7 +12,7 @@ SurfaceFunction read_number(Properties& p, const std::string& name, double missi
     const SurfaceFunction f = read_number_texture(p, name, missing, context);
     const double value = f.upper_bound().r;
     if (f.is_constant() && !(value >= 0.0 && value <= largest))
-        p.fail(name, fmt::format("{} is {}, expected 0 to {}", name, value, largest));
+        p.complain(name, fmt::format("{} is {}, expected 0 to {}", name, value, largest));
     return f;
 }
 
@@ -41,13 +41,13 @@ void read_sampling_rates(Properties& p, std::initializer_list<const char*> names
 // η, or Burley's `specular`: the reflection towards the normal is 0.08 times that. Glass has a surface, and so η ≠ 1.
 double read_eta(Properties& p, bool is_glass) {
     const auto eta = p.number("eta"), specular = p.number("specular");
-    if (eta && specular) p.fail("specular", "both eta and specular are given, expected one of them");
+    if (eta && specular) p.complain("specular", "both eta and specular are given, expected one of them");
     if (eta) {
-        if (!(*eta > 0.0)) p.fail("eta", fmt::format("eta is {}, expected more than 0", *eta));
+        if (!(*eta > 0.0)) p.complain("eta", fmt::format("eta is {}, expected more than 0", *eta));
         return is_glass && *eta == 1.0 ? 1.001 : *eta;
     }
     double value = specular.value_or(0.5);
-    if (!(value >= 0.0 && value <= 1.0)) p.fail("specular", fmt::format("specular is {}, expected 0 to 1", value));
+    if (!(value >= 0.0 && value <= 1.0)) p.complain("specular", fmt::format("specular is {}, expected 0 to 1", value));
     if (is_glass && value == 0.0) value = 1e-3;
     return 2.0 / (1.0 - std::sqrt(0.08 * value)) - 1.0;
 }
@@ -75,7 +75,7 @@ Bsdf read_principled_thin(const Element& e, const Context& context) {
     v->diff_trans = read_number(p, "diff_trans", 0.0, 2.0, context);
     v->eta = read_number_texture(p, "eta", 1.5, context);
     if (v->eta.is_constant() && !(v->eta.upper_bound().r > 0.0))
-        p.fail("eta", fmt::format("eta is {}, expected more than 0", v->eta.upper_bound().r));
+        p.complain("eta", fmt::format("eta is {}, expected more than 0", v->eta.upper_bound().r));
     read_sampling_rates(p, {"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
                             "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});
     p.finish();

@@ -1,6 +1,7 @@
 #include "core/reader/area_lights.h"
 #include "core/reader/bsdfs.h"
 #include "core/reader/file_hash.h"
+#include "core/reader/grammar.h"
 #include "core/reader/integrator.h"
 #include "core/reader/light_images.h"
 #include "core/reader/properties.h"
@@ -19,16 +20,26 @@ namespace reader {
 namespace {
 
 // The only <integrator> or <sensor>, or null.
-const Element* only(const Element& root, const std::string& tag) {
+const Element* only(const Element& root, const std::string& tag, Problems& problems) {
     const Element* first = nullptr;
     for (const Element& e : root.children) {
         if (e.tag != tag) continue;
         if (first)
-            throw InputError(e.place,
-                             fmt::format("a second <{}>, expected only one; the first is at {}", tag, to_string(first->place)));
-        first = &e;
+            problems.add(InputError(e.place, fmt::format("a second <{}>, expected only one; the first is at {}", tag,
+                                                         to_string(first->place))),
+                         e.place);
+        else
+            first = &e;
     }
     return first;
+}
+
+const Element& only_sensor(const Element& root, Problems& problems) {
+    if (const Element* e = only(root, "sensor", problems)) return *e;
+    // What could not be read may have been it.
+    for (const Element& e : root.children)
+        if (e.broken && !is_object(e.tag)) throw Told();
+    throw InputError(root.place, "the scene has no <sensor>, expected one");
 }
 
 Origin origin(const Element& shape, const Element* bsdf) {
@@ -36,25 +47,42 @@ Origin origin(const Element& shape, const Element* bsdf) {
     return {shape.place, title(shape), bsdf ? title(*bsdf) : "default bsdf"};
 }
 
-// What stands at the top level and nothing refers to is checked and dropped.
-void check_unused(const Element& root, const Context& context, const Bsdfs& bsdfs, const AreaLights& lights) {
-    Warnings dropped;
-    std::vector<std::string> dropped_files;
-    const Context aside{context.document, context.objects, dropped, dropped_files, context.textures};
-    Bsdfs other_bsdfs(aside);
-    AreaLights other_lights(aside);
-    for (const Element& e : root.children) {
-        if (e.tag == "bsdf" && !bsdfs.has(e)) other_bsdfs.sides(e);
-        if (e.tag == "emitter" && e.attribute("type").value == "area" && !lights.has(e)) other_lights.index(e);
-        if (e.tag == "texture" && !context.textures.known.count(&e)) read_texture(e, Illuminant::d65, aside);
-        if (e.tag == "film") read_film(e, aside);
-        if (e.tag == "rfilter") read_filter(e, aside);
-        if (e.tag == "sampler") read_sampler(e, aside);
-        for (const Element& shape : e.children)  // of a group
-            for (const Element& bsdf : shape.children)
-                if (shape.tag == "shape" && bsdf.tag == "bsdf" && !bsdfs.has(bsdf)) other_bsdfs.sides(bsdf);
+// What nothing refers to, and what is in shapes, is checked and dropped; and all that is in what could not be read.
+class Unused {
+public:
+    Unused(const Context& context, const Bsdfs& bsdfs, const AreaLights& lights)
+        : bsdfs_(bsdfs),
+          lights_(lights),
+          aside_{context.document, context.objects, dropped_, dropped_files_, context.textures},
+          other_bsdfs_(aside_),
+          other_lights_(aside_) {}
+
+    void check(const Element& parent) {
+        for (const Element& e : parent.children) {
+            aside_.problems().attempt(e.place, [&] { read(e, parent); });
+            if (e.tag == "shape" || aside_.problems().any()) check(e);
+        }
     }
-}
+
+private:
+    void read(const Element& e, const Element& parent) {
+        const bool is_on_shape = parent.tag == "shape";
+        if (e.tag == "bsdf" && !bsdfs_.has(e)) other_bsdfs_.sides(e);
+        if (e.tag == "emitter" && (is_on_shape || e.attribute("type").value == "area") && !lights_.has(e)) other_lights_.index(e);
+        if (e.tag == "texture" && !aside_.textures.known.count(&e)) read_texture(e, Illuminant::d65, aside_);
+        if (e.tag == "film") read_film(e, aside_);
+        if (e.tag == "rfilter") read_filter(e, aside_);
+        if (e.tag == "sampler") read_sampler(e, aside_);
+    }
+
+    const Bsdfs& bsdfs_;
+    const AreaLights& lights_;
+    Warnings dropped_;
+    std::vector<std::string> dropped_files_;
+    const Context aside_;
+    Bsdfs other_bsdfs_;
+    AreaLights other_lights_;
+};
 
 }  // namespace
 
@@ -63,29 +91,31 @@ void check_unused(const Element& root, const Context& context, const Bsdfs& bsdf
 SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional) {
     using namespace reader;
     SceneParts parts;
-    const Document document = read_document(path, definitions, parts.warnings, optional);
-    const Objects objects(document.root);
+    Problems problems;
+    const Document document = read_document(path, definitions, parts.warnings, problems, optional);
+    const Objects objects(document.root, problems, document.lost);
     std::vector<std::string> mesh_files;
     TextureStore textures;
     const Context context{document, objects, parts.warnings, mesh_files, textures};
 
-    if (const Element* e = only(document.root, "integrator")) {
-        const Integrator integrator = read_integrator(*e, context);
-        parts.bounces = integrator.bounces;
-        parts.hide_emitters = integrator.hide_emitters;
-    }
-    const Element* sensor = only(document.root, "sensor");
-    if (!sensor) throw InputError(document.root.place, "the scene has no <sensor>, expected one");
-    const ReadSensor s = read_sensor(*sensor, context);
-    parts.camera = s.camera;
-    parts.film = s.film;
-    parts.sampler = s.sampler;
+    if (const Element* e = only(document.root, "integrator", problems))
+        problems.attempt(e->place, [&] {
+            const Integrator integrator = read_integrator(*e, context);
+            parts.bounces = integrator.bounces;
+            parts.hide_emitters = integrator.hide_emitters;
+        });
+    problems.attempt(document.root.place, [&] {
+        const ReadSensor s = read_sensor(only_sensor(document.root, problems), context);
+        parts.camera = s.camera;
+        parts.film = s.film;
+        parts.sampler = s.sampler;
+    });
 
     Bsdfs bsdfs(context);
     AreaLights lights(context);
     SceneLights scene_lights(context);
     for (const Element& e : document.root.children)
-        if (e.tag == "emitter") scene_lights.add(e);
+        if (e.tag == "emitter") problems.attempt(e.place, [&] { scene_lights.add(e); });
     // All shapes before their materials: textures may hold what meshes bring along.
     std::vector<ReadShape> shapes;
     read_shapes(document.root, context, [&](ReadShape shape) { shapes.push_back(std::move(shape)); });
@@ -93,9 +123,10 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
         parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
-        parts.origins.push_back(origin(*shape.element, shape.bsdf));
     }
-    check_unused(document.root, context, bsdfs, lights);
+    Unused(context, bsdfs, lights).check(document.root);
+    problems.check(document.files);
+    for (const ReadShape& shape : shapes) parts.origins.push_back(origin(*shape.element, shape.bsdf));
     parts.bsdfs = bsdfs.take();
     parts.lights.area = lights.take();
     parts.lights.environment = scene_lights.take_environment();

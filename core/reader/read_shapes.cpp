@@ -5,9 +5,7 @@
 #include "core/reader/properties.h"
 
 #include <algorithm>
-#include <atomic>
 #include <deque>
-#include <exception>
 #include <limits>
 #include <memory>
 
@@ -29,7 +27,7 @@ struct Reading {
     Warnings warnings = {};
     std::vector<std::string> mesh_files = {};
     TextureStore textures = {};
-    std::exception_ptr error = nullptr;
+    bool is_right = false;
 };
 
 // What the file says at one place of the top level.
@@ -39,7 +37,6 @@ struct Item {
     const Element* group = nullptr;  // of a group or an instance
     Mat4 to_world{1.0};
     Location place_of_to_world = {};
-    std::exception_ptr error = nullptr;
 };
 
 const std::string& type_of(const Element& e) { return e.attribute("type").value; }
@@ -68,45 +65,33 @@ public:
     ShapesReader(const Element& root, const Context& context) : context_(context) {
         for (const Element& e : root.children) {
             if (e.tag != "shape") continue;
-            Item& item = items_.emplace_back(Item{&e});
-            try {
-                plan(item);
-            } catch (const InputError&) {
-                // What comes before it may be wrong too; what comes after it does not matter.
-                item.error = std::current_exception();
-                return;
-            }
+            Item item{&e};
+            if (context.problems().attempt(e.place, [&] { plan(item); })) items_.push_back(item);
         }
     }
 
     void read() {
-        std::atomic<std::size_t> first_error = std::numeric_limits<std::size_t>::max();
         oneapi::tbb::parallel_for(std::size_t{0}, readings_.size(), [&](std::size_t i) {
-            if (i > first_error) return;
             Reading& reading = readings_[i];
-            try {
-                read(reading);
-            } catch (...) {
-                reading.error = std::current_exception();
-                for (std::size_t known = first_error; i < known && !first_error.compare_exchange_weak(known, i);) continue;
-            }
+            reading.is_right = context_.problems().attempt(reading.element->place, [&] { read(reading); });
         });
     }
 
     void hand_out(const std::function<void(ReadShape)>& take) {
         add_up_instances();
         for (Item& item : items_) {
-            if (item.error) std::rethrow_exception(item.error);
             if (item.shape) {
+                if (!item.shape->is_right) continue;
                 finish(*item.shape);
                 take(std::move(item.shape->shape));
                 continue;
             }
             Group& group = groups_.at(item.group);
+            std::erase_if(group.shapes, [](const Reading* reading) { return !reading->is_right; });
             if (!group.is_finished)
                 for (Reading* reading : group.shapes) finish(*reading);
             group.is_finished = true;
-            if (item.group != item.element) expand(item, group, take);
+            if (item.group != item.element) context_.problems().attempt(item.element->place, [&] { expand(item, group, take); });
         }
     }
 
@@ -127,8 +112,8 @@ private:
             const Element* to_world = p.find("to_world", {"transform"});
             item.place_of_to_world = (to_world ? *to_world : e).place;
             const std::vector<const Element*> groups = p.nested("shape");
-            p.finish();
-            if (groups.empty()) throw InputError(e.place, "shape 'instance' has no shapegroup inside, expected one");
+            p.refuse_rest();
+            if (groups.empty()) p.fail_empty("shape 'instance' has no shapegroup inside, expected one");
             item.group = groups.front();
             if (type_of(*item.group) != "shapegroup")
                 throw InputError(e.place, fmt::format("instance of a shape '{}', expected a shapegroup", type_of(*item.group)));
@@ -144,11 +129,15 @@ private:
         if (!is_new) return;
         Properties p(e, context_.objects);
         const std::vector<const Element*> shapes = p.nested("shape", std::numeric_limits<std::size_t>::max());
-        p.finish();
-        if (shapes.empty()) throw InputError(e.place, "shape 'shapegroup' has no <shape> inside, expected at least one");
+        p.refuse_rest();
+        if (shapes.empty()) p.fail_empty("shape 'shapegroup' has no <shape> inside, expected at least one");
         for (const Element* shape : shapes) {
-            if (type_of(*shape) == "shapegroup" || type_of(*shape) == "instance")
-                throw InputError(shape->place, fmt::format("shape '{}' in a shapegroup: groups cannot be nested", type_of(*shape)));
+            if (const std::string& type = type_of(*shape); type == "shapegroup" || type == "instance") {
+                context_.problems().add(
+                    InputError(shape->place, fmt::format("shape '{}' in a shapegroup: groups cannot be nested", type)),
+                    shape->place);
+                continue;
+            }
             readings_.push_back({shape, true});
             group->second.shapes.push_back(&readings_.back());
         }
@@ -163,7 +152,6 @@ private:
     }
 
     void finish(const Reading& reading) {
-        if (reading.error) std::rethrow_exception(reading.error);
         for (const auto& [text, count] : reading.warnings.counts()) context_.warnings.add(text, count);
         for (const std::string& file : reading.mesh_files)
             if (known_files_.insert(file).second) context_.mesh_files.push_back(file);
@@ -173,7 +161,7 @@ private:
     // Up to the first instance that no longer fits, before there is any.
     void add_up_instances() {
         for (const Item& item : items_) {
-            if (!item.group || item.group == item.element || item.error) continue;
+            if (!item.group || item.group == item.element) continue;
             for (const Reading* reading : groups_.at(item.group).shapes) expanded_ += triangle_count(reading->shape.shape);
             if (expanded_ * bytes_of_triangle <= part_of_memory * physical_memory()) continue;
             too_many_ = &item;

@@ -10,7 +10,7 @@
 
 namespace neumann::reader {
 
-// Calls `take` for one shape after the other, in the order of the file; an error is thrown when its turn comes.
+// Calls `take` for one shape after the other, in the order of the file. What is wrong is left out.
 void read_shapes(const Element& root, const Context& context, const std::function<void(ReadShape)>& take);
 
 }  // namespace neumann::reader

@@ -8,10 +8,10 @@ namespace neumann::reader {
 
 namespace {
 
-void check_alpha(const Properties& p, const std::string& name, const SurfaceFunction& alpha) {
+void check_alpha(Properties& p, const std::string& name, const SurfaceFunction& alpha) {
     const double value = alpha.upper_bound().r;
     if (alpha.is_constant() && value < 1e-4)
-        p.fail(name, fmt::format("{} is {}, expected at least 0.0001; bsdf 'conductor' is smooth", name, value));
+        p.complain(name, fmt::format("{} is {}, expected at least 0.0001; bsdf 'conductor' is smooth", name, value));
 }
 
 bool read_distribution(Properties& p) { return p.choice("distribution", {"beckmann", "ggx"}, "beckmann") == "ggx"; }
@@ -24,9 +24,10 @@ RoughnessParameters read_roughness(Properties& p, const Context& context) {
     const auto given = [](const SurfaceFunction& f) { return !std::isnan(f.upper_bound().r); };
     const SurfaceFunction alpha = read("alpha"), u = read("alpha_u"), v = read("alpha_v");
     const std::string name = given(u) ? "alpha_u" : given(v) ? "alpha_v" : "alpha";
-    if (given(alpha) && name != "alpha") p.fail(name, fmt::format("both alpha and {} are given, expected one of them", name));
+    if (given(alpha) && name != "alpha") p.complain(name, fmt::format("both alpha and {} are given, expected one of them", name));
     if (given(u) != given(v))
-        p.fail(name, fmt::format("{} is given without {}, expected both, or alpha", name, given(u) ? "alpha_v" : "alpha_u"));
+        p.complain(name, fmt::format("{} is given without {}, expected both, or alpha", name, given(u) ? "alpha_v" : "alpha_u"),
+                   {"alpha_u", "alpha_v"});
     p.boolean("sample_visible");  // how Mitsuba draws directions; changes noise only
     if (given(u)) {
         check_alpha(p, "alpha_u", u);
@@ -42,10 +43,12 @@ RoughnessParameters read_constant_roughness(Properties& p, const Context& contex
     RoughnessParameters found = read_roughness(p, context);
     const double u = found.alpha_u.upper_bound().r, v = found.alpha_v.upper_bound().r;
     if (!found.alpha_u.is_constant() || !found.alpha_v.is_constant())
-        p.fail("alpha", fmt::format("the roughness of {} varies, expected a constant", p.title()));
+        p.complain("alpha", fmt::format("the roughness of {} varies, expected a constant", p.title()));
     if (u != v)
-        p.fail("alpha_v",
-               fmt::format("alpha_u is {} and alpha_v is {}, expected the same: {} is alike in all directions", u, v, p.title()));
+        p.complain(
+            "alpha_v",
+            fmt::format("alpha_u is {} and alpha_v is {}, expected the same: {} is alike in all directions", u, v, p.title()),
+            {"alpha", "alpha_u"});
     return found;
 }
 

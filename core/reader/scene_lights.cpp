@@ -17,21 +17,27 @@ Rgb read_light_color(Properties& p, const std::string& name, const Context& cont
 
 double read_scale(Properties& p) {
     const double scale = p.number("scale").value_or(1.0);
-    if (scale < 0.0) p.fail("scale", fmt::format("scale is {}, expected at least 0", scale));
+    if (scale < 0.0) p.complain("scale", fmt::format("scale is {}, expected at least 0", scale));
     return scale;
+}
+
+void finish(Properties& p) {
+    p.number("sampling_weight");  // how often Mitsuba chooses it; changes noise only
+    p.finish();
 }
 
 // One parameter or the other; `name` stands first in Mitsuba's manual.
 std::optional<Vec3> read_in_place_of_transform(Properties& p, const std::string& name) {
     const std::optional<Vec3> value = p.point(name);
     if (value && p.find("to_world", {"transform"}))
-        p.fail(name, fmt::format("both {} and to_world are given, expected one of them", name));
+        p.complain(name, fmt::format("both {} and to_world are given, expected one of them", name));
     return value;
 }
 
 ConstantEnvironment read_constant(Properties& p, const Context& context) {
     const Rgb radiance = read_light_color(p, "radiance", context);
     p.transform("to_world");  // it looks the same from all sides
+    finish(p);
     return ConstantEnvironment(radiance);
 }
 
@@ -40,7 +46,9 @@ EnvironmentMap read_envmap(Properties& p, const Context& context) {
     const double scale = read_scale(p);
     const Mat4 to_world = read_rigid_transform(p);
     p.boolean("mis_compensation");  // how Mitsuba draws directions; changes noise only
-    Image image = read_light_image(filename, context);
+    std::optional<Image> read = p.attempt("filename", [&] { return read_light_image(filename, context); });
+    finish(p);
+    Image& image = *read;
     if (image.width < 2 || image.height < 3)
         throw InputError(filename.place,
                          fmt::format("'{}' is {}×{} pixels, expected at least 2×3", filename.value, image.width, image.height));
@@ -50,7 +58,9 @@ EnvironmentMap read_envmap(Properties& p, const Context& context) {
 PointLight read_point(Properties& p, const Context& context) {
     const std::optional<Vec3> position = read_in_place_of_transform(p, "position");
     const Mat4 to_world = p.transform("to_world");
-    return PointLight(position ? *position : Vec3(to_world[3]), read_light_color(p, "intensity", context));
+    const Rgb intensity = read_light_color(p, "intensity", context);
+    finish(p);
+    return PointLight(position ? *position : Vec3(to_world[3]), intensity);
 }
 
 DirectionalLight read_directional(Properties& p, const Context& context) {
@@ -58,8 +68,10 @@ DirectionalLight read_directional(Properties& p, const Context& context) {
     const Mat4 to_world = p.transform("to_world");
     const Vec3 direction = given ? *given : Vec3(to_world[2]);
     const double largest = max_component(glm::abs(direction));
-    if (largest == 0.0) p.fail("direction", "the direction is zero");
-    return DirectionalLight(glm::normalize(direction / largest), read_light_color(p, "irradiance", context));
+    if (largest == 0.0) p.complain("direction", "the direction is zero");
+    const Rgb irradiance = read_light_color(p, "irradiance", context);
+    finish(p);
+    return DirectionalLight(glm::normalize(direction / largest), irradiance);
 }
 
 SpotLight read_spot(Properties& p, const Context& context) {
@@ -68,12 +80,14 @@ SpotLight read_spot(Properties& p, const Context& context) {
     std::optional<Slide> slide = read_slide(p, "texture", context);
     const double most = slide ? 90.0 : 180.0;
     if (!(cutoff > 0.0 && (cutoff < most || (cutoff == most && !slide))))
-        p.fail("cutoff_angle", fmt::format("cutoff_angle is {}, expected more than 0 and {} degrees", cutoff,
-                                           slide ? "with a texture less than 90" : "at most 180"));
+        p.complain("cutoff_angle", fmt::format("cutoff_angle is {}, expected more than 0 and {} degrees", cutoff,
+                                               slide ? "with a texture less than 90" : "at most 180"));
     if (!(beam_width >= 0.0 && beam_width <= cutoff))
-        p.fail("beam_width",
-               fmt::format("beam_width is {}, expected at least 0 and at most cutoff_angle, {} degrees", beam_width, cutoff));
+        p.complain("beam_width",
+                   fmt::format("beam_width is {}, expected at least 0 and at most cutoff_angle, {} degrees", beam_width, cutoff),
+                   {"cutoff_angle"});
     const Mat4 to_world = p.transform("to_world");
+    finish(p);
     return SpotLight(to_world, intensity, glm::radians(cutoff), glm::radians(beam_width), std::move(slide));
 }
 
@@ -86,7 +100,9 @@ ProjectorLight read_projector(Properties& p, const Context& context) {
     const double scale = read_scale(p);
     const FieldOfView field = read_field_of_view(p);
     const double half_width = tan_half_width(field.angle, field.axis, slide->aspect());
-    return ProjectorLight(read_rigid_transform(p), std::move(*slide), scale, half_width);
+    const Mat4 to_world = read_rigid_transform(p);
+    finish(p);
+    return ProjectorLight(to_world, std::move(*slide), scale, half_width);
 }
 
 }  // namespace
@@ -109,8 +125,6 @@ void SceneLights::add(const Element& e) {
         delta_.emplace_back(read_projector(p, context_));
     else
         fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot"});
-    p.number("sampling_weight");  // how often Mitsuba chooses it; changes noise only
-    p.finish();
 }
 
 void SceneLights::set_environment(const Element& e, Environment environment) {

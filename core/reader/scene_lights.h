@@ -11,7 +11,7 @@ class SceneLights {
 public:
     explicit SceneLights(const Context& context) : context_(context) {}
 
-    // Throws InputError for a second environment. An `area` light is left to its shape.
+    // Throws InputError for one that is wrong, or a second environment. An `area` light is left to its shape.
     void add(const Element& e);
 
     std::optional<Environment> take_environment() { return std::move(environment_); }

@@ -12,22 +12,23 @@ namespace neumann::reader {
 namespace {
 
 // "50mm" or "50".
-double parse_focal_length(const Properties& p, std::string text) {
+double parse_focal_length(Properties& p, std::string text) {
     const std::string whole = text;
     if (text.ends_with("mm")) text.resize(text.size() - 2);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value > 0.0) || !std::isfinite(value))
-        p.fail("focal_length", fmt::format("focal_length is '{}', expected a positive number and mm, such as 50mm", whole));
-    return value;
+    if (error == std::errc() && end == text.data() + text.size() && value > 0.0 && std::isfinite(value)) return value;
+    p.complain("focal_length", fmt::format("focal_length is '{}', expected a positive number and mm, such as 50mm", whole));
+    return 50.0;
 }
 
 void read_clipping(Properties& p, SensorOptions& camera) {
     camera.near_clip = p.number("near_clip").value_or(1e-2);
     camera.far_clip = p.number("far_clip").value_or(1e4);
-    if (camera.near_clip <= 0.0) p.fail("near_clip", fmt::format("near_clip is {}, expected more than 0", camera.near_clip));
+    if (camera.near_clip <= 0.0) p.complain("near_clip", fmt::format("near_clip is {}, expected more than 0", camera.near_clip));
     if (camera.far_clip <= camera.near_clip)
-        p.fail("far_clip", fmt::format("far_clip is {}, expected more than near_clip, {}", camera.far_clip, camera.near_clip));
+        p.complain("far_clip", fmt::format("far_clip is {}, expected more than near_clip, {}", camera.far_clip, camera.near_clip),
+                   {"near_clip"});
 }
 
 SensorOptions read_perspective(Properties& p) {
@@ -47,11 +48,12 @@ SensorOptions read_perspective(Properties& p) {
     camera.kind = SensorOptions::Kind::thin_lens;
     camera.focus_distance = focus_distance.value_or(camera.far_clip);
     if (camera.focus_distance <= 0.0)
-        p.fail("focus_distance", fmt::format("focus_distance is {}, expected more than 0", camera.focus_distance));
+        p.complain("focus_distance", fmt::format("focus_distance is {}, expected more than 0", camera.focus_distance),
+                   {"far_clip"});
     p.require("aperture_radius", {"float", "integer"});
-    camera.aperture_radius = *p.number("aperture_radius");
+    camera.aperture_radius = p.number("aperture_radius").value_or(0.0);
     if (camera.aperture_radius < 0.0)
-        p.fail("aperture_radius", fmt::format("aperture_radius is {}, expected at least 0", camera.aperture_radius));
+        p.complain("aperture_radius", fmt::format("aperture_radius is {}, expected at least 0", camera.aperture_radius));
     return camera;
 }
 
@@ -75,13 +77,13 @@ FieldOfView read_field_of_view(Properties& p) {
     const std::string axis = p.choice("fov_axis", {"x", "y", "diagonal", "smaller", "larger"}, "x");
     const std::optional<double> fov = p.number("fov");
     const std::optional<std::string> focal_length = p.text("focal_length");
-    if (fov && focal_length) p.fail("focal_length", "both fov and focal_length are given, expected one of them");
+    if (fov && focal_length) p.complain("focal_length", "both fov and focal_length are given, expected one of them");
     // Of 35 mm film, 36 mm × 24 mm.
     if (!fov)
         return {2.0 * std::atan(0.5 * std::hypot(36.0, 24.0) / parse_focal_length(p, focal_length.value_or("50mm"))),
                 FovAxis::diagonal};
     if (!(*fov > 0.0 && *fov < 180.0))
-        p.fail("fov", fmt::format("fov is {}, expected more than 0 and less than 180 degrees", *fov));
+        p.complain("fov", fmt::format("fov is {}, expected more than 0 and less than 180 degrees", *fov));
     return {glm::radians(*fov), axes.at(axis)};
 }
 
@@ -91,7 +93,8 @@ Mat4 read_rigid_transform(Properties& p) {
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j <= i; ++j)
             if (std::abs(glm::dot(Vec3(m[i]), Vec3(m[j])) - (i == j ? 1.0 : 0.0)) > tolerance)
-                p.fail("to_world", fmt::format("to_world of {} scales or shears, expected rotations and translations", p.title()));
+                p.complain("to_world",
+                           fmt::format("to_world of {} scales or shears, expected rotations and translations", p.title()));
     return m;
 }
 
@@ -103,9 +106,11 @@ ReadSensor read_sensor(const Element& e, const Context& context) {
     ReadSensor s;
     s.camera = type == "orthographic" ? read_orthographic(p) : read_perspective(p);
     const std::vector<const Element*> films = p.nested("film"), samplers = p.nested("sampler");
+    p.refuse_rest();
+    Problems& problems = context.problems();
+    if (!films.empty()) s.film = problems.attempt(e.place, [&] { return read_film(*films.front(), context); }).value_or(Film());
+    if (!samplers.empty()) s.sampler = problems.attempt(e.place, [&] { return read_sampler(*samplers.front(), context); });
     p.finish();
-    if (!films.empty()) s.film = read_film(*films.front(), context);
-    if (!samplers.empty()) s.sampler = read_sampler(*samplers.front(), context);
     return s;
 }
 
@@ -116,7 +121,7 @@ SamplerKind read_sampler(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     // Both are the command line's to decide.
     const std::int64_t count = p.integer("sample_count").value_or(1);
-    if (count < 1) p.fail("sample_count", fmt::format("sample_count is {}, expected at least 1", count));
+    if (count < 1) p.complain("sample_count", fmt::format("sample_count is {}, expected at least 1", count));
     p.integer("seed");
     if (type == "multijitter" || type == "stratified") p.boolean("jitter");
     if (type == "orthogonal") {

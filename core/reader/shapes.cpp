@@ -15,8 +15,9 @@ namespace {
 
 double read_radius(Properties& p) {
     const double radius = p.number("radius").value_or(1.0);
-    if (radius <= 0.0) p.fail("radius", fmt::format("radius is {}, expected more than 0", radius));
-    return radius;
+    if (radius > 0.0) return radius;
+    p.complain("radius", fmt::format("radius is {}, expected more than 0", radius));
+    return 1.0;
 }
 
 Sphere read_sphere(Properties& p, bool flip_normals) {
@@ -24,22 +25,26 @@ Sphere read_sphere(Properties& p, bool flip_normals) {
     const Vec3 center = p.point("center").value_or(Vec3(0.0));
     const std::optional<Sphere> sphere = transformed(Sphere{center, read_radius(p), flip_normals}, to_world);
     if (!sphere)
-        p.fail("to_world",
-               "to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
-    return *sphere;
+        p.complain("to_world",
+                   "to_world of shape 'sphere' makes it an ellipsoid, expected a uniform scale, rotations and translations");
+    return sphere.value_or(Sphere());
 }
 
 Cylinder read_cylinder(Properties& p, bool flip_normals) {
     const Mat4 to_world = p.transform("to_world");
     const Vec3 p0 = p.point("p0").value_or(Vec3(0.0)), p1 = p.point("p1").value_or(Vec3(0.0, 0.0, 1.0));
     const double radius = read_radius(p), length = length_of(p1 - p0);
-    if (p0 == p1) p.fail("p1", "p0 and p1 of shape 'cylinder' are the same point");
+    if (p0 == p1) {
+        p.complain("p1", "p0 and p1 of shape 'cylinder' are the same point", {"p0"});
+        return {};
+    }
     const std::optional<Cylinder> cylinder = transformed(Cylinder{p0, (p1 - p0) / length, length, radius, flip_normals}, to_world);
     if (!cylinder)
-        p.fail("to_world",
-               "to_world of shape 'cylinder' makes it elliptic or oblique, expected the same scale all around the axis, rotations "
-               "and translations");
-    return *cylinder;
+        p.complain("to_world",
+                   "to_world of shape 'cylinder' makes it elliptic or oblique, expected the same scale all around the axis, "
+                   "rotations and translations",
+                   {"p0", "p1"});
+    return cylinder.value_or(Cylinder());
 }
 
 Shape read_geometry(Properties& p, const Context& context) {
@@ -59,8 +64,10 @@ void check_attributes(const Properties& p, const Shape& shape, const Context& co
     const auto* mesh = std::get_if<TriangleMesh>(&shape);
     for (const auto& [name, e] : mesh_attributes_of(p.element(), context.objects))
         if (!mesh || !mesh->attribute(name))
-            throw InputError(e->attribute("value").place,
-                             fmt::format("{} at {} has no mesh attribute '{}'", p.title(), to_string(p.element().place), name));
+            context.problems().add(
+                InputError(e->attribute("value").place,
+                           fmt::format("{} at {} has no mesh attribute '{}'", p.title(), to_string(p.element().place), name)),
+                p.element().place);
     if (!mesh) return;
     for (const MeshAttribute& a : mesh->attributes)
         for (const auto& v : a.values) {
@@ -78,12 +85,12 @@ ReadShape read_shape(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     ReadShape result;
     result.element = &e;
-    result.shape = read_geometry(p, context);
-    check_attributes(p, result.shape, context);
     const std::vector<const Element*> bsdfs = p.nested("bsdf"), emitters = p.nested("emitter");
-    p.finish();
     if (!bsdfs.empty()) result.bsdf = bsdfs.front();
     if (!emitters.empty()) result.emitter = emitters.front();
+    result.shape = read_geometry(p, context);
+    p.finish();
+    check_attributes(p, result.shape, context);
     return result;
 }
 

@@ -64,8 +64,8 @@ Range read_range(Properties& p) {
 // By 1 nm: linear between, that is right to 1e-5.
 std::string read_blackbody(Properties& p) {
     p.require("temperature", {"float", "integer"});
-    const double temperature = *p.number("temperature");
-    if (temperature <= 0.0) p.fail("temperature", fmt::format("temperature is {}, expected more than 0", temperature));
+    const double temperature = p.number("temperature").value_or(1.0);
+    if (temperature <= 0.0) p.complain("temperature", fmt::format("temperature is {}, expected more than 0", temperature));
     const Range range = read_range(p);
     const double from = std::max(range.from, cie::first_wavelength), to = std::min(range.to, cie::last_wavelength);
     if (!(from < to)) p.fail("wavelength_min", "no wavelength from 360 to 830 is between wavelength_min and wavelength_max");
@@ -105,14 +105,14 @@ std::string read_number(Properties& p, const std::string& type) {
     if (type == "d65") return fmt::format("{}", p.number("scale").value_or(1.0));
     p.require("value", {"float", "integer"});
     read_range(p);
-    return fmt::format("{}", *p.number("value"));
+    return fmt::format("{}", p.number("value").value_or(0.0));
 }
 
-void write_out_object(Element& e, const std::string& type) {
+void write_out_object(Element& e, const std::string& type, Problems& problems) {
     for (const Attribute& a : e.attributes)
         if (a.name == "value" || a.name == "filename")
             throw InputError(a.place, fmt::format("<spectrum> has both 'type' and '{}', expected one of them", a.name));
-    const Objects none{Element{}};
+    const Objects none(Element{}, problems);
     Properties p(e, none);
     const bool is_number = type == "d65" || type == "uniform";
     const std::string text = is_number             ? read_number(p, type)
@@ -128,11 +128,11 @@ void write_out_object(Element& e, const std::string& type) {
 
 }  // namespace
 
-void write_out_spectrum(Element& e, Document& document) {
+void write_out_spectrum(Element& e, Document& document, Problems& problems) {
     if (const Attribute* type = e.find("type")) {
         static const std::vector<std::string> types = {"blackbody", "d65", "irregular", "regular", "uniform"};
         if (std::find(types.begin(), types.end(), type->value) == types.end()) fail_type(e, types);
-        write_out_object(e, std::string(type->value));
+        write_out_object(e, std::string(type->value), problems);
         return;
     }
     if (!e.children.empty())

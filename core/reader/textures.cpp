@@ -21,15 +21,16 @@ Texture read_bitmap(Properties& p, const Context& context) {
     // How Mitsuba stores texels and looks them up; changes rounding only.
     p.choice("format", {"auto", "variant", "fp16"}, "auto");
     p.boolean("accel");
+    p.refuse_rest();
+    const auto texels = p.attempt("filename", [&] { return read_texels(filename, context); });
     p.finish();
 
     using Wrap = Bitmap::Wrap;
-    const auto bitmap =
-        std::make_shared<const Bitmap>(read_texels(filename, context), nearest ? Bitmap::Filter::nearest : Bitmap::Filter::bilinear,
-                                       wrap == "repeat"   ? Wrap::repeat
-                                       : wrap == "mirror" ? Wrap::mirror
-                                                          : Wrap::clamp,
-                                       raw);
+    const auto bitmap = std::make_shared<const Bitmap>(*texels, nearest ? Bitmap::Filter::nearest : Bitmap::Filter::bilinear,
+                                                       wrap == "repeat"   ? Wrap::repeat
+                                                       : wrap == "mirror" ? Wrap::mirror
+                                                                          : Wrap::clamp,
+                                                       raw);
     return {{[bitmap, to_uv](const ShadingPoint& at) { return (*bitmap)(to_uv(texture_coordinates(at))); }, bitmap->largest(),
              bitmap->is_grey()},
             bitmap->smallest(),
@@ -38,9 +39,27 @@ Texture read_bitmap(Properties& p, const Context& context) {
             bitmap->height()};
 }
 
-Texture read_checkerboard(Properties& p, Illuminant illuminant, const Context& context) {
-    const SurfaceFunction color0 = read_color_texture(p, "color0", 0.4, illuminant, context),
-                          color1 = read_color_texture(p, "color1", 0.2, illuminant, context);
+// A number that is written as a colour.
+Rgb read_mean(Properties& p, const std::string& name, const Element& e, const Context& context) {
+    const Rgb c = parse_color(p, name, e, Illuminant::d65, context.warnings);
+    if (is_grey(c)) return c;
+    context.warnings.add("a colour where a number is expected, taken as the mean of its channels");
+    return Rgb((c.r + c.g + c.b) / 3.0);
+}
+
+SurfaceFunction read_square(Properties& p, const std::string& name, double missing, std::optional<Illuminant> illuminant,
+                            const Context& context) {
+    if (illuminant) return read_color_texture(p, name, missing, *illuminant, context);
+    if (p.object(name, "texture")) return read_number_texture(p, name, missing, context);
+    const Element* e = p.find(name, color_types);
+    return e ? read_mean(p, name, *e, context) : Rgb(missing);
+}
+
+Texture read_checkerboard(Properties& p, std::optional<Illuminant> illuminant, const Context& context) {
+    SurfaceFunction color0 = read_square(p, "color0", 0.4, illuminant, context),
+                    color1 = read_square(p, "color1", 0.2, illuminant, context);
+    // Mitsuba's checkerboard has the squares the other way round when it is asked for a number (eval_1 and not eval).
+    if (!illuminant) std::swap(color0, color1);
     const UvTransform to_uv(p.transform("to_uv"));
     p.finish();
     return {{[color0, color1, to_uv](const ShadingPoint& at) {
@@ -50,14 +69,29 @@ Texture read_checkerboard(Properties& p, Illuminant illuminant, const Context& c
              glm::max(color0.upper_bound(), color1.upper_bound()), color0.is_grey() && color1.is_grey()}};
 }
 
-const Attribute& attribute_name(Properties& p) { return p.require("name", {"string"}).attribute("value"); }
+// No colour is decoded, and none cut.
+Texture read_raw_constant(Properties& p, bool is_number) {
+    const Element& e = p.require("value", {"float", "integer", "vector"});
+    const bool is_vector = e.tag == "vector";
+    const Rgb value = is_vector ? p.point("value").value_or(Vec3(0.0)) : Rgb(p.number("value").value_or(0.0));
+    if (is_vector && is_number) p.complain("value", fmt::format("{} has three numbers, expected one", p.title()));
+    p.finish();
+    return {value, value};
+}
+
+std::string attribute_name(Properties& p) {
+    const Attribute& name = p.require("name", {"string"}).attribute("value");
+    if (!name.value.starts_with("vertex_") && !name.value.starts_with("face_"))
+        throw InputError(
+            name.place,
+            fmt::format("'{}' is not the name of a mesh attribute, expected vertex_ or face_ and what follows", name.value));
+    return name.value;
+}
 
 Texture read_mesh_attribute(Properties& p, const Context& context) {
-    const std::string name = attribute_name(p).value;
-    if (!name.starts_with("vertex_") && !name.starts_with("face_"))
-        p.fail("name", fmt::format("'{}' is not the name of a mesh attribute, expected vertex_ or face_ and what follows", name));
+    const std::string name = attribute_name(p);
     const double scale = p.number("scale").value_or(1.0);
-    if (scale < 0.0) p.fail("scale", fmt::format("scale is negative: {}", scale));
+    if (scale < 0.0) p.complain("scale", fmt::format("scale is negative: {}", scale));
     p.finish();
     const TextureStore::Range range = context.textures.attributes[name];
     return {{[name, scale](const ShadingPoint& at) {
@@ -76,12 +110,38 @@ Texture read_mesh_attribute(Properties& p, const Context& context) {
 void find_mesh_attributes(const Element& e, const Objects& objects, std::set<const Element*>& seen,
                           std::map<std::string, const Element*>& found) {
     if (!seen.insert(&e).second) return;
-    if (e.tag == "texture" && e.attribute("type").value == "mesh_attribute") {
-        Properties p(e, objects);
-        found.try_emplace(attribute_name(p).value, p.find("name", {"string"}));
-    }
+    const Attribute* type = e.find("type");
+    if (e.tag == "texture" && type && type->value == "mesh_attribute")
+        objects.problems().attempt(e.place, [&] {
+            Properties p(e, objects);
+            found.try_emplace(attribute_name(p), p.find("name", {"string"}));
+        });
     for (const Element& child : e.children)
-        find_mesh_attributes(child.tag == "ref" ? objects.find(child.attribute("id")) : child, objects, seen, found);
+        if (const Element* object = child.tag == "ref" ? objects.known(child) : &child)
+            find_mesh_attributes(*object, objects, seen, found);
+}
+
+// Being read, so that one inside itself is found.
+class Opened {
+public:
+    Opened(const Element& e, const Context& context) : e_(e), open_(context.textures.open) {
+        if (!open_.insert(&e).second) throw InputError(e.place, "the texture stands inside itself");
+        context.textures.known.insert(&e);
+    }
+    ~Opened() { open_.erase(&e_); }
+    Opened(const Opened&) = delete;
+    Opened& operator=(const Opened&) = delete;
+
+private:
+    const Element& e_;
+    std::set<const Element*>& open_;
+};
+
+std::optional<SurfaceFunction> find_texture(Properties& p, const std::string& name, std::optional<Illuminant> illuminant,
+                                            const Context& context) {
+    const Element* e = p.object(name, "texture");
+    if (!e) return std::nullopt;
+    return p.attempt(name, [&] { return read_not_negative(*e, name, illuminant, context).value; });
 }
 
 }  // namespace
@@ -96,25 +156,18 @@ std::shared_ptr<const Texels> read_texels(const Attribute& filename, const Conte
     return texels;
 }
 
-Texture read_texture(const Element& e, Illuminant illuminant, const Context& context) {
-    if (!context.textures.open.insert(&e).second) throw InputError(e.place, "the texture stands inside itself");
-    context.textures.known.insert(&e);
+Texture read_texture(const Element& e, std::optional<Illuminant> illuminant, const Context& context) {
+    const Opened opened(e, context);
     Properties p(e, context.objects);
     const std::string& type = e.attribute("type").value;
-    Texture texture{Rgb(0.0)};
-    if (type == "bitmap")
-        texture = read_bitmap(p, context);
-    else if (type == "checkerboard")
-        texture = read_checkerboard(p, illuminant, context);
-    else if (type == "mesh_attribute")
-        texture = read_mesh_attribute(p, context);
-    else
-        fail_type(e, {"bitmap", "checkerboard", "mesh_attribute"});
-    context.textures.open.erase(&e);
-    return texture;
+    if (type == "bitmap") return read_bitmap(p, context);
+    if (type == "checkerboard") return read_checkerboard(p, illuminant, context);
+    if (type == "mesh_attribute") return read_mesh_attribute(p, context);
+    if (type == "rawconstant") return read_raw_constant(p, !illuminant);
+    fail_type(e, {"bitmap", "checkerboard", "mesh_attribute", "rawconstant"});
 }
 
-Texture read_not_negative(const Element& e, const std::string& name, Illuminant illuminant, const Context& context) {
+Texture read_not_negative(const Element& e, const std::string& name, std::optional<Illuminant> illuminant, const Context& context) {
     Texture texture = read_texture(e, illuminant, context);
     if (const Rgb& s = texture.smallest; std::min({s.r, s.g, s.b}) < 0.0)
         throw InputError(e.place, fmt::format("the texture is negative somewhere, down to {}, expected a {} of at least 0",
@@ -124,8 +177,7 @@ Texture read_not_negative(const Element& e, const std::string& name, Illuminant 
 
 std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::string& name, Illuminant illuminant,
                                                   const Context& context) {
-    const Element* e = p.object(name, "texture");
-    return e ? std::optional(read_not_negative(*e, name, illuminant, context).value) : std::nullopt;
+    return find_texture(p, name, illuminant, context);
 }
 
 SurfaceFunction read_color_texture(Properties& p, const std::string& name, double missing, Illuminant illuminant,
@@ -136,9 +188,14 @@ SurfaceFunction read_color_texture(Properties& p, const std::string& name, doubl
 }
 
 SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context& context) {
-    const auto texture = find_color_texture(p, name, Illuminant::equal_energy, context);
-    if (!texture) return Rgb(p.number(name).value_or(missing));
+    const auto texture = find_texture(p, name, std::nullopt, context);
+    if (!texture) {
+        const Element* e = p.find(name, color_types);
+        const bool is_color = e && (e->tag == "rgb" || e->tag == "spectrum");
+        return is_color ? read_mean(p, name, *e, context) : Rgb(p.number(name).value_or(missing));
+    }
     const auto number = [](const Rgb& c) { return Rgb(is_grey(c) ? c.r : luminance(c)); };
+    if (texture->is_constant()) return number(texture->upper_bound());
     return {[f = *texture, number](const ShadingPoint& at) { return number(f(at)); }, number(texture->upper_bound()), true};
 }
 

@@ -50,7 +50,8 @@ BothSides read_rough_dielectric(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     const Boundary b = read_boundary(p, context);
     if (b.interior == b.exterior)
-        p.fail("int_ior", fmt::format("int_ior and ext_ior of {} are both {}, expected different ones", p.title(), b.interior));
+        p.complain("int_ior", fmt::format("int_ior and ext_ior of {} are both {}, expected different ones", p.title(), b.interior),
+                   {"ext_ior"});
     const RoughnessParameters roughness = read_roughness(p, context);
     p.finish();
     return roughness.ggx ? rough_sides<Ggx>(b, roughness) : rough_sides<Beckmann>(b, roughness);

@@ -1,9 +1,12 @@
 #include "core/reader/upgrade.h"
 
+#include "core/reader/numbers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace neumann::reader {
 
@@ -25,6 +28,15 @@ std::string snake_case(const std::string& name) {
     return result;
 }
 
+// A parameter by its name of today, or null.
+const Element* find(const Element& e, const std::string& parameter) {
+    const auto found = std::find_if(e.children.begin(), e.children.end(), [&](const Element& child) {
+        const Attribute* name = child.broken ? nullptr : child.find("name");
+        return name && name->value == parameter;
+    });
+    return found == e.children.end() ? nullptr : &*found;
+}
+
 Element make_operation(const std::string& tag, const Element* x, const Element* y, const Location& place) {
     Element e{tag, {}, {}, place};
     for (const auto& [axis, number] : {std::pair{"x", x}, std::pair{"y", y}})
@@ -34,12 +46,11 @@ Element make_operation(const std::string& tag, const Element* x, const Element* 
 
 // As Mitsuba 3 has it, to_uv moves first and scales then.
 void gather_uv_transform(Element& parent, Warnings& warnings) {
-    const auto find = [&](const std::string& name) -> const Element* {
-        const auto found = std::find_if(parent.children.begin(), parent.children.end(),
-                                        [&](const Element& e) { return e.tag == "float" && e.attribute("name").value == name; });
-        return found == parent.children.end() ? nullptr : &*found;
+    const auto number = [&](const std::string& name) {
+        const Element* e = find(parent, name);
+        return e && e->tag == "float" ? e : nullptr;
     };
-    const std::array<const Element*, 4> given = {find("uoffset"), find("voffset"), find("uscale"), find("vscale")};
+    const std::array<const Element*, 4> given = {number("uoffset"), number("voffset"), number("uscale"), number("vscale")};
     const auto first = std::find_if(given.begin(), given.end(), [](const Element* e) { return e != nullptr; });
     if (first == given.end()) return;
     const Element& at = **first;
@@ -95,10 +106,57 @@ void upgrade_sampler(Element& e, Warnings& warnings) {
     drop(e, {"scramble", "dimension"});
 }
 
+// An exponent of 2.2 is taken for the curve of sRGB, which it stands for, and -1 is its name.
+void upgrade_gamma(Element& e, Warnings& warnings) {
+    const Element* given = find(e, "gamma");
+    if (!given || (given->tag != "float" && given->tag != "integer")) return;
+    const Attribute value = given->attribute("value");
+    const double gamma = parse_number(value);
+    if (gamma != 1.0 && gamma != 2.2 && gamma != -1.0)
+        throw InputError(value.place, fmt::format("gamma of texture 'bitmap' is {}, expected 1, 2.2 or -1, which is sRGB", gamma));
+    drop(e, {"gamma"});
+    if (gamma == 1.0) {
+        drop(e, {"raw"});
+        e.children.push_back({"boolean", {{"name", "raw", value.place}, {"value", "true", value.place}}, {}, value.place});
+    }
+    warnings.add(fmt::format("old scene file: gamma {} of a bitmap taken as {}", gamma, gamma == 1.0 ? "raw" : "sRGB"));
+}
+
+// The index of refraction of what is outside, or inside. Metals stand in air, as Mitsuba 3 has it.
+void upgrade_indices(Element& e, Warnings& warnings) {
+    const std::string type = type_of(e);
+    if (type == "conductor" || type == "roughconductor") {
+        const Element* given = find(e, "ext_eta");
+        if (!given) return;
+        const Attribute value = given->attribute("value");
+        const bool is_air =
+            given->tag == "string" ? value.value == "air" || value.value == "vacuum" : std::abs(parse_number(value) - 1.0) < 1e-3;
+        if (!is_air)
+            throw InputError(value.place,
+                             fmt::format("extEta of bsdf '{}' is '{}', expected 1 or air; eta and k divided by it say the "
+                                         "same",
+                                         type, value.value));
+        drop(e, {"ext_eta"});
+        warnings.add("old scene file: extEta of a metal left out, which is air");
+        return;
+    }
+    if (type != "dielectric" && type != "thindielectric" && type != "roughdielectric" && type != "plastic" &&
+        type != "roughplastic")
+        return;
+    for (Element& child : e.children)
+        for (Attribute& a : child.attributes)
+            if (a.name == "name" && (a.value == "ext_eta" || a.value == "int_eta")) {
+                warnings.add(fmt::format("old scene file: {} of bsdf '{}' taken as {}", a.value == "ext_eta" ? "extEta" : "intEta",
+                                         type, a.value == "ext_eta" ? "ext_ior" : "int_ior"));
+                a.value = a.value == "ext_eta" ? "ext_ior" : "int_ior";
+            }
+}
+
 void upgrade_bitmap(Element& e, Warnings& warnings) {
+    upgrade_gamma(e, warnings);
     drop(e, {"cache", "max_anisotropy"});
     for (Element& child : e.children) {
-        if (child.tag != "string" || child.attribute("name").value != "filter_type") continue;
+        if (child.tag != "string" || child.broken || child.attribute("name").value != "filter_type") continue;
         for (Attribute& a : child.attributes)
             if (a.name == "value" && (a.value == "ewa" || a.value == "trilinear")) {
                 warnings.add(fmt::format("old scene file: the texture filter '{}' taken as 'bilinear'", a.value));
@@ -126,7 +184,9 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
         a.value = snake_case(a.value);
         warnings.add("old scene file: a name in camelCase taken in snake_case");
     }
-    if (e.tag == "bsdf" && e.attribute("type").value == "diffuse")
+    if (e.broken) return;
+    if (e.tag == "bsdf") upgrade_indices(e, warnings);
+    if (e.tag == "bsdf" && type_of(e) == "diffuse")
         for (Element& child : e.children)
             for (Attribute& a : child.attributes)
                 if (a.name == "name" && a.value == "diffuse_reflectance") {

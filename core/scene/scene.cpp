@@ -1,9 +1,11 @@
 #include "core/scene/scene.h"
 
 #include "core/scene/coincident_surfaces.h"
+#include "core/scene/lost_triangles.h"
 #include "core/scene/measured_laws.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace neumann {
 
@@ -16,13 +18,102 @@ std::string where(const std::vector<Origin>& origins, std::uint32_t shape) {
     return fmt::format(" ({} of {}, {})", origin.bsdf, origin.shape, to_string(origin.place));
 }
 
+// "shape 'obj' (room.xml:7:5)".
+std::string name(const std::vector<Origin>& origins, std::uint32_t shape) {
+    if (shape >= origins.size()) return fmt::format("shape {}", shape);
+    return fmt::format("{} ({})", origins[shape].shape, to_string(origins[shape].place));
+}
+
+InputError error_of(const std::vector<Origin>& origins, std::uint32_t shape, const std::string& what) {
+    if (shape >= origins.size()) return InputError(fmt::format("shape {}: {}", shape, what));
+    return InputError(origins[shape].place, fmt::format("{}: {}", origins[shape].shape, what));
+}
+
+// Squares of areas and of squared distances are still numbers, so that any unit of length will do.
+constexpr double largest_scene = 1e70, smallest_scene = 1e-70;
+// Embree takes no ray that starts farther away, in sizes of the scene.
+constexpr double farthest_camera = 1e15;
+
+// ", for shape 'obj' (room.xml:7:5) has a vertex at 0 1e+39 0".
+std::string blame(const Geometry& geometry, const std::vector<Origin>& origins, std::uint32_t shape) {
+    const std::optional<FarVertex> far = farthest_vertex(geometry, shape);
+    if (!far) return "";
+    const Vec3& p = far->position;
+    return fmt::format(", for {} has a vertex at {:g} {:g} {:g}", name(origins, far->shape), p.x, p.y, p.z);
+}
+
+void expect_size(const Geometry& geometry, const std::vector<Origin>& origins) {
+    const double size = 2.0 * geometry.radius();
+    if (size == 0.0 || (size >= smallest_scene && size <= largest_scene)) return;
+    std::uint32_t shape = 0;
+    while (shape + 1 < geometry.shapes().size() && !std::holds_alternative<TriangleMesh>(geometry.shapes()[shape])) ++shape;
+    throw error_of(origins, shape,
+                   fmt::format("the scene is {:.2g} across{}; expected from {:g} to {:g}", size, blame(geometry, origins, shape),
+                               smallest_scene, largest_scene));
+}
+
+void expect_visible(const Geometry& geometry, const std::vector<Origin>& origins, Warnings& warnings) {
+    const double size = 2.0 * geometry.radius();
+    const LostTriangles lost = lost_triangles(geometry);
+    if (lost.whole)
+        throw error_of(origins, *lost.whole,
+                       fmt::format("all of its triangles are too small or too thin for rays to meet them in a scene that is {:.2g} "
+                                   "across{}; expected at least 1e-7 of that",
+                                   size, blame(geometry, origins, *lost.whole)));
+    if (lost.count > 0)
+        warnings.add(fmt::format("triangle is too thin for rays to meet it in a scene that is {:.2g} across; the first is of {}",
+                                 size, name(origins, lost.first)),
+                     lost.count);
+}
+
+void expect_near(const Geometry& geometry, const SensorOptions& camera, const std::vector<Origin>& origins) {
+    const double away = glm::length(geometry.caster().to_embree(Vec3(camera.to_world[3]))),
+                 clip = camera.near_clip * geometry.caster().scale();
+    if (geometry.radius() == 0.0 || std::max(away, clip) <= farthest_camera) return;
+    const std::string what = fmt::format(
+        "the sensor looks from {:.2g} away, with a near_clip of {:.2g}, at a scene that is {:.2g} across; expected at "
+        "most {:g} times that",
+        away / geometry.caster().scale(), camera.near_clip, 2.0 * geometry.radius(), farthest_camera);
+    throw origins.empty() ? InputError(what) : InputError(Location{origins.front().place.file}, what);
+}
+
+// Three digits, and more where 1 would be read for what is above it.
+std::string albedo_text(double albedo) {
+    return albedo > 1.0 && albedo < 1.0005 ? fmt::format("1 + {:.1g}", albedo - 1.0) : fmt::format("{:.3f}", albedo);
+}
+
+// The brightest by name. What promises nothing has a bound that is measured, with 1% to spare: it need not be reached.
+void warn_of_gain(const Geometry& geometry, const Materials& materials, const std::vector<Origin>& origins, Warnings& warnings) {
+    double largest = 1.0;
+    std::uint32_t brightest = 0;
+    std::size_t shapes = 0;
+    bool is_certain = true;
+    for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
+        bool gains = false;
+        for (const bool front : {true, false}) {
+            const Bsdf* bsdf = materials.at(shape, front);
+            const double albedo = bsdf ? max_component(largest_basic_albedo(*bsdf)) : 0.0;
+            gains = gains || albedo > 1.0;
+            if (albedo <= largest) continue;
+            largest = albedo;
+            brightest = shape;
+            is_certain = is_lawful(*bsdf);
+        }
+        shapes += gains;
+    }
+    if (shapes == 0) return;
+    warnings.add(fmt::format("reflectance above 1: a surface{} {} up to {} times the light that it receives{}",
+                             where(origins, brightest), is_certain ? "gives back" : "may give back", albedo_text(largest),
+                             shapes > 1 ? fmt::format("; {} other{} above 1, too", shapes - 1, shapes > 2 ? "s are" : " is") : ""));
+}
+
 void warn_of_laws(const MeasuredLaws& laws, const std::vector<Origin>& origins, Warnings& warnings) {
     if (laws.materials == 0) return;
     warnings.add(
-        fmt::format("{} material{} neither energy conservation nor reciprocity; the largest albedo is {:.3f}{} and the largest "
+        fmt::format("{} material{} neither energy conservation nor reciprocity; the largest albedo is {}{} and the largest "
                     "reciprocity defect "
                     "{:.2g}{}",
-                    laws.materials, laws.materials == 1 ? " promises" : "s promise", laws.largest_albedo,
+                    laws.materials, laws.materials == 1 ? " promises" : "s promise", albedo_text(laws.largest_albedo),
                     where(origins, laws.brightest), laws.reciprocity_defect, where(origins, laws.least_reciprocal)));
 }
 
@@ -31,20 +122,20 @@ void warn_of_coincidence(const CoincidentSurfaces& found, const std::vector<Orig
         "part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
         found.lights);
     if (!found.first_unlike) return;
-    const auto name = [&](std::uint32_t shape) {
-        return shape < origins.size() ? fmt::format("{} ({})", origins[shape].shape, to_string(origins[shape].place))
-                                      : fmt::format("shape {}", shape);
-    };
-    warnings.add(fmt::format(
-        "{} and {} face the same way in the same place and are made of different materials: which one is seen "
-        "is chance{}",
-        name(found.first_unlike->first), name(found.first_unlike->second), found.unlike > 2 ? "; others do as well" : ""));
+    warnings.add(
+        fmt::format("{} and {} face the same way in the same place and are made of different materials: which one is seen "
+                    "is chance{}",
+                    name(origins, found.first_unlike->first), name(origins, found.first_unlike->second),
+                    found.unlike > 2 ? "; others do as well" : ""));
 }
 
 }  // namespace
 
 Scene make_scene(SceneParts parts) {
     Geometry geometry(std::move(parts.shapes));
+    expect_size(geometry, parts.origins);
+    expect_visible(geometry, parts.origins, parts.warnings);
+    expect_near(geometry, parts.camera, parts.origins);
     Materials materials(std::move(parts.bsdfs), std::move(parts.sides_of_shape), geometry.shared_shapes());
     Warnings warnings = std::move(parts.warnings);
     warn_of_coincidence(coincident_surfaces(geometry, materials, parts.lights.of_shape), parts.origins, warnings);
@@ -53,8 +144,7 @@ Scene make_scene(SceneParts parts) {
     warnings.add("light without area gives off nothing", emitters.without_area());
     if (geometry.shapes().empty()) warnings.add("the scene has no surfaces");
     if (emitters.empty()) warnings.add("the scene has no light");
-    if (max_component(materials.largest_basic_albedo()) > 1.0)
-        warnings.add("reflectance above 1: a surface gives back more light than it receives");
+    warn_of_gain(geometry, materials, parts.origins, warnings);
     warn_of_laws(measure_laws(geometry, materials), parts.origins, warnings);
     const Sensor camera(parts.camera, parts.film);
     return {std::move(geometry),

@@ -24,7 +24,8 @@ constexpr int most_terms = 16;
 void check_memory(const GuideSettings& settings, double unknowns, double facets) {
     check_patch_memory(settings.patches, settings.rays,
                        300.0 + unknowns * (32.0 + 15.0 * (most_terms + 2.0) + 4.0 * DirectionTables::most_tables) +
-                           facets * (4.0 * settings.field_rays + DirectionTables::most_tables * sizeof(CellDistribution)));
+                           facets * (4.0 * settings.field_rays + DirectionTables::most_tables * sizeof(CellDistribution)),
+                       settings.memory);
 }
 
 PatchSpace make_space(const Scene& scene, const GuideSettings& settings) {

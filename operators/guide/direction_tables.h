@@ -9,6 +9,7 @@
 // (1). Le is not among them, because walks find it by light sampling. Any density above 0 leaves walks unbiased.
 #pragma once
 
+#include "core/base/memory.h"
 #include "core/scene/scene.h"
 #include "operators/guide/cell_distribution.h"
 #include "operators/guide/facet_raster.h"
@@ -27,6 +28,7 @@ struct GuideSettings {
     double share_of_material = 0.4;  // α, above 0
     int bounces = 8;                 // N: the last that is wanted
     std::uint64_t seed = 0;          // the tables use other random numbers than walks of the same seed
+    double memory = default_memory();  // bytes that may be taken, about
 };
 
 class DirectionTables {

@@ -70,10 +70,9 @@ void wedge(Figures& figures, std::uint64_t seed, double degrees, Way way) {
 }
 
 // Le = d^(-1/2) on both walls of a right angle, d from their edge, is an eigenfunction: K Le = λ Le, λ = ρ/4 B(3/4, 3/4). Walls
-// that end at L lose L^(-3/2)/(3/4 B) of it, 7e-5. Hits keep clear of edges by some δ = 8e-6 L, where Le is largest: δ^(3/2)/(3 B),
-// 5e-5.
+// that end at L lose L^(-3/2)/(3/4 B) of it, 8e-7.
 void power_law(Figures& figures, std::uint64_t seed, Way way) {
-    const double rho = 0.8, eigenvalue = 0.25 * rho * std::beta(0.75, 0.75), brightest = 1e6, L = 500.0, lost = 1.2e-4;
+    const double rho = 0.8, eigenvalue = 0.25 * rho * std::beta(0.75, 0.75), brightest = 1e6, L = 1e4, lost = 1e-6;
     const auto radiance = [=](const SurfacePoint& p, const Vec3&) {
         return grey(std::min(1.0 / std::sqrt(std::hypot(p.position.x, p.position.z)), brightest));
     };

@@ -128,9 +128,4 @@ TriangleMesh flipped(TriangleMesh mesh) {
     return mesh;
 }
 
-TriangleMesh transformed(TriangleMesh mesh, const Mat4& to_world) {
-    for (Vec3& v : mesh.vertices) v = Vec3(to_world * glm::dvec4(v, 1.0));
-    return mesh;
-}
-
 }  // namespace neumann::known

@@ -1,6 +1,7 @@
 // Scenes put together by hand.
 #pragma once
 
+#include "core/geometry/transformed.h"
 #include "core/scene/scene.h"
 
 #include <array>
@@ -62,7 +63,6 @@ TriangleMesh icosphere(int level);
 TriangleMesh prism(int n);
 
 TriangleMesh flipped(TriangleMesh mesh);
-TriangleMesh transformed(TriangleMesh mesh, const Mat4& to_world);
 // The triangles of which `take` says so, by their centroid.
 template <class Predicate>
 TriangleMesh part(const TriangleMesh& mesh, Predicate take) {

@@ -87,8 +87,9 @@ Cases sphere_cases() {
             {z > 0.0 ? "sphere/albedo-above-1/bright-half" : "sphere/albedo-above-1/dark-half", "rho(p) 0.9^(i-1): exact",
              [z](Figures& figures, std::uint64_t seed) {
                  const Scene scene = sphere(two_halves(1.6, 0.2), grey(1.0));
-                 figures.holds("is warned of", scene.warnings.counts().count(
-                                                   "reflectance above 1: a surface gives back more light than it receives") > 0);
+                 figures.holds("is warned of",
+                               scene.warnings.counts().count(
+                                   "reflectance above 1: a surface gives back up to 1.600 times the light that it receives") > 0);
                  figures.terms(
                      sharp_probe(scene, at_pole(scene, pole(z)), Way::bsdf, {.samples = 1024, .bounces = 5, .seed = seed}),
                      geometric(z > 0.0 ? 1.6 : 0.2, 0.9, 5));

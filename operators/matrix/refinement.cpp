@@ -1,29 +1,40 @@
 #include "operators/matrix/refinement.h"
 
-#include "operators/spectrum/spectrum.h"
-
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 namespace neumann {
 
-std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings) {
+namespace {
+
+struct GivenUp {};
+
+}  // namespace
+
+std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits) {
     std::vector<RefinementRow> rows;
     const auto add = [&](const char* what, std::size_t patches, std::uint32_t rays) {
         if (patches == 0 || rays == 0) return;
-        const TracedSystem system(scene, {patches, rays, settings.seed});
+        const TracedSystem system(scene, {patches, rays, settings.seed, settings.memory}, [&] {
+            if (!limits.go_on({})) throw GivenUp();
+        });
         RefinementRow row{what, system.settings(), system.space().patches().size(), system.space().size(), {}};
         for (int c = 0; c < system.channels(); ++c) {
             auto& leading = row.leading.emplace_back();
-            for (const Eigenpair& pair : leading_eigenpairs(system.channel(c), 2).pairs) leading.push_back(pair.value);
+            const Eigenpairs found = leading_eigenpairs(system.channel(c), 2, false, limits);
+            for (const Eigenpair& pair : found.pairs)
+                if (found.converged) leading.push_back(pair.value);
         }
         rows.push_back(std::move(row));
     };
-    add("patches / 16", settings.patches / 16, settings.rays);
-    add("patches / 4", settings.patches / 4, settings.rays);
-    add("rays / 16", settings.patches, settings.rays / 16);
-    add("rays / 4", settings.patches, settings.rays / 4);
+    try {
+        add("patches / 16", settings.patches / 16, settings.rays);
+        add("patches / 4", settings.patches / 4, settings.rays);
+        add("rays / 16", settings.patches, settings.rays / 16);
+        add("rays / 4", settings.patches, settings.rays / 4);
+    } catch (const GivenUp&) {
+    }
     return rows;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "operators/matrix/traced_system.h"
+#include "operators/spectrum/spectrum.h"
 
 #include <complex>
 #include <vector>
@@ -18,8 +19,8 @@ struct RefinementRow {
 };
 
 // With a sixteenth and a quarter of the patches, and with a sixteenth and a quarter of the rays; where these are too few for that,
-// there are fewer rows.
-std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings);
+// there are fewer rows, and where limits.go_on() says so. An eigenvalue that is not found within the limits is left out.
+std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits = {});
 
 // How far the spectral radius of a channel moves when patches or rays are quartered; not a number where there is nothing to
 // compare.

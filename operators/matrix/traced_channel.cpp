@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
+#include <cmath>
 
 namespace neumann {
 
@@ -109,6 +110,20 @@ void TracedChannel::apply_adjoint(const Vector& x, Vector& y) const {
         }
         y[u] = sum / measure_[u];
     });
+}
+
+// Each ray brings a part; their number is taken for Poisson's.
+double TracedChannel::standard_error_of_power(Eigen::Index u) const {
+    ExitantVector<1> ones = ExitantVector<1>::Ones(1, size() + 1);
+    ones(0, size()) = 0.0;
+    const ExitantVector<1> worth = R_->of_means(std::move(ones));
+    double squares = 0.0;
+    for (const std::uint64_t ray : seers_.of(static_cast<std::uint32_t>(u))) {
+        const std::uint32_t v = arrives_in_[ray];
+        const double part = table_->measure(facet_of_unknown_[v]) * worth(0, v) / measure_[u];
+        squares += part * part;
+    }
+    return std::sqrt(squares);
 }
 
 double TracedChannel::diagonal(Eigen::Index u) const {

@@ -21,6 +21,9 @@ public:
     void add_column(Eigen::Index u, double a, Vector& y) const override;
     const Vector& measure() const override { return measure_; }
 
+    // Of (K* 1)_u, the part of u's power that is left after a bounce, which as many rays tell as happen to meet u.
+    double standard_error_of_power(Eigen::Index u) const;
+
     // ρ of each unknown with K = diag(ρ) F; empty where a side is not diffuse.
     const Vector& reflectance() const { return reflectance_; }
 

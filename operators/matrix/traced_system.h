@@ -1,6 +1,7 @@
 // A scene as matrices: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
 #pragma once
 
+#include "core/base/memory.h"
 #include "core/scene/scene.h"
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/traced_channel.h"
@@ -14,6 +15,7 @@ struct TracedSettings {
     std::size_t patches = 2000;  // about as many; at least one a chart
     std::uint32_t rays = 64;     // of a facet; a power of two. As many points on lights
     std::uint64_t seed = 0;
+    double memory = default_memory();  // bytes that may be taken, about
 };
 
 class TracedSystem {

@@ -71,7 +71,7 @@ void Atlas::add_mesh(std::uint32_t shape, const TriangleMesh& mesh, double patch
         charts_.emplace_back(shape, std::array{t.a, ab, middle, ca}, normal, number, number);
         charts_.emplace_back(shape, std::array{t.b, bc, middle, ab}, normal, number, number);
         charts_.emplace_back(shape, std::array{t.c, ca, middle, bc}, normal, number, number);
-        cut_.emplace_back(t.a, Triangle::Edges{t.b - t.a, t.c - t.a}, 0.0);
+        cut_.emplace_back(t.a, t.b, t.c, 0.0);
         primitive.cut = static_cast<std::uint32_t>(cut_.size());
     }
 }

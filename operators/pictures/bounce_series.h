@@ -1,6 +1,7 @@
 // Where all methods meet: for each bounce a picture, its errors and its cost, the partial sums, and the rest.
 #pragma once
 
+#include "core/image/pixel_estimate.h"
 #include "operators/pictures/missing_paths.h"
 
 #include <functional>
@@ -10,8 +11,10 @@
 namespace neumann {
 
 struct BounceSeries {
-    std::function<Estimate(std::size_t)> term, sum;  // K^i Le, and Σ_{k≤i} K^k Le; 0 … N
-    std::optional<Estimate> rest;                    // Σ_{k>N} K^k Le
+    std::function<PixelEstimate(std::size_t)> term, sum;  // K^i Le, and Σ_{k≤i} K^k Le; 0 … N
+    std::optional<PixelEstimate> rest;                    // Σ_{k>N} K^k Le
+    std::function<PictureMeans(std::size_t)> means_of_term, means_of_sum;
+    std::optional<PictureMeans> means_of_rest;
     SeriesReport report;
     Paths paths = Paths::all;
     std::vector<Checkpoint> convergence;

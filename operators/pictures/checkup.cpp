@@ -1,5 +1,6 @@
 #include "operators/pictures/checkup.h"
 
+#include "core/geometry/rounding.h"
 #include "operators/pictures/path_group.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -56,7 +57,10 @@ struct GroupCheckup : PathObserver {
 
 bool is_self_hit(const SurfacePoint& from, const SurfacePoint& to) {
     const bool parallel = 1.0 - std::abs(glm::dot(from.normal, to.normal)) <= 1e-12;
-    return parallel && std::abs(glm::dot(from.normal, to.position - from.position)) <= from.error + to.error;
+    // What is close is told apart in double.
+    const double rounding =
+        from.close ? double_rounding(from.position, largest_component(to.position)) : from.error + to.error;
+    return parallel && std::abs(glm::dot(from.normal, to.position - from.position)) <= rounding;
 }
 
 double Checkup::self_hits_at_most() const {

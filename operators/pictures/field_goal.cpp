@@ -1,10 +1,11 @@
 #include "operators/pictures/field_goal.h"
 
-#include "core/base/memory.h"
 #include "core/base/stopwatch.h"
+#include "operators/pictures/field_costs.h"
+#include "operators/pictures/field_errors.h"
 
+#include <fmt/format.h>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,82 +15,32 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t fewest_patches = 500, most_patches = 250'000;
-constexpr std::uint32_t fewest_rays = 16, most_samples = 1024, most_light_samples = 64;
+constexpr std::uint32_t fewest_rays = 16, most_rays = 1 << 16, most_samples = 1024, most_light_samples = 64;
 constexpr std::uint32_t pilot_samples = 4;
 // A step multiplies no part by more than this: estimates from few samples are rough.
 constexpr double most_growth = 8.0;
-// Of the table of T.
-constexpr double part_of_memory = 0.05;
+constexpr double without_limit = 1e6;
+// Renders take up to so many times the time and the memory that are foretold.
+constexpr double caution = 1.2;
+// A step towards an error out of reach pays if its error falls at least like the time of all steps to this power; that of
+// samples falls like its square root.
+constexpr double least_slope = 1.0 / 8.0;
+// And without an error to reach, if it falls by this part.
+constexpr double least_gain = 0.05;
+constexpr int shorter_steps = 8;
 
-double square(double x) { return x * x; }
-
-std::uint32_t most_rays(std::size_t patches) {
-    const double entries = part_of_memory * physical_memory() / sizeof(std::uint32_t);
-    return std::bit_floor(static_cast<std::uint32_t>(std::max(1.0 * fewest_rays, entries / static_cast<double>(patches))));
+FieldSettings largest(FieldSettings settings) {
+    settings.patching.patches = most_patches;
+    settings.rays = most_rays;
+    settings.light_samples = most_light_samples;
+    settings.samples = most_samples;
+    return settings;
 }
 
-std::uint32_t grow(std::uint32_t n, double factor, std::uint32_t most) {
-    const auto times = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(std::clamp(factor, 1.0, most_growth))));
-    return std::max(n, std::min(most, n * times));
+bool same(const FieldSettings& a, const FieldSettings& b) {
+    return a.patching.patches == b.patching.patches && a.rays == b.rays && a.light_samples == b.light_samples &&
+           a.samples == b.samples;
 }
-
-// What the error of each term is made of: camera samples are a part of its square like 1 / samples, rays of the fields another one
-// like 1 / rays; patches are like a power of their number.
-class ErrorParts {
-public:
-    // From two renders of which the second has more samples only.
-    ErrorParts(FieldMethod method, const std::vector<PictureError>& few, const std::vector<PictureError>& many, double times) {
-        for (std::size_t i = 0; i < few.size(); ++i) {
-            const bool at_pixel = i < 2 && !shows_patches(method);
-            const double fallen = (square(few[i].sampling) - square(many[i].sampling)) * times / (times - 1.0);
-            by_samples_.push_back(at_pixel ? std::numeric_limits<double>::infinity()
-                                           : std::clamp(fallen, 0.0, square(few[i].sampling)));
-        }
-    }
-
-    // More of what makes the errors of a render; false where nothing can grow any more.
-    bool grow(FieldSettings& settings, const std::vector<PictureError>& errors, double target) {
-        const FieldSettings before = settings;
-        const double part = 0.5 * square(target);  // for sampling; and for patches
-        double samples = 1.0, rays = 1.0, patches = 1.0;
-        for (std::size_t i = 0; i < errors.size(); ++i) {
-            const double all = square(errors[i].sampling), own = std::min(all, by_samples_[i] / settings.samples);
-            const bool only_samples = own == all;
-            samples = std::max(samples, own / (only_samples ? part : 0.5 * part));
-        }
-        settings.samples = neumann::grow(settings.samples, samples, most_samples);
-        for (std::size_t i = 0; i < errors.size(); ++i) {
-            const double all = square(errors[i].sampling), own = std::min(all, by_samples_[i] / before.samples);
-            const double left = part - by_samples_[i] / settings.samples;
-            rays = std::max(rays, (all - own) / std::max(left, 0.5 * part));
-            patches = std::max(patches, std::pow(square(errors[i].discretisation) / part, 0.5 / order(i, errors, before)));
-        }
-        settings.patching.patches = std::min(
-            most_patches, static_cast<std::size_t>(static_cast<double>(before.patching.patches) * std::min(patches, most_growth)));
-        settings.rays = neumann::grow(settings.rays, rays, most_rays(settings.patching.patches));
-        settings.light_samples = std::min(settings.rays, most_light_samples);
-        if (settings.patching.patches != before.patching.patches) {
-            errors_before_ = errors;
-            patches_before_ = before.patching.patches;
-        }
-        return settings.samples != before.samples || settings.rays != before.rays ||
-               settings.patching.patches != before.patching.patches;
-    }
-
-private:
-    // Of the error in the number of patches, as the last two renders show it: 1 where it is that of linear interpolation, 1/2
-    // beside edges.
-    double order(std::size_t i, const std::vector<PictureError>& errors, const FieldSettings& settings) const {
-        if (errors_before_.empty() || errors[i].discretisation == 0.0) return 0.5;
-        return std::clamp(std::log(errors_before_[i].discretisation / errors[i].discretisation) /
-                              std::log(static_cast<double>(settings.patching.patches) / static_cast<double>(patches_before_)),
-                          0.5, 1.0);
-    }
-
-    std::vector<double> by_samples_;  // times the number of samples
-    std::vector<PictureError> errors_before_;
-    std::size_t patches_before_ = 0;
-};
 
 FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::vector<Checkpoint> before, double seconds) {
     FieldRun run{std::move(pictures), settings, std::move(before), {}};
@@ -107,6 +58,115 @@ FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::ve
     return run;
 }
 
+std::string seconds_text(double seconds) { return fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0); }
+
+// Steps from the renders so far to a goal.
+class Steps {
+public:
+    Steps(const Scene& scene, const FieldGoal& goal, const FieldSettings& most)
+        : goal_(goal), most_(most), errors_(most), costs_(scene.film) {}
+
+    void add(const FieldRun& run, double seconds) {
+        finest_ = run.pictures.sides.empty() ? 1 : run.pictures.sides.rbegin()->first;
+        errors_.add(run.settings, finest_, run.term_errors);
+        costs_.add(run.settings, run.pictures, seconds);
+        last_ = run.settings;
+        ++renders_;
+    }
+
+    WorstError worst() const { return errors_.worst(); }
+
+    // Nothing where no step is to be taken; why_not() then says why.
+    std::optional<FieldSettings> next(double seconds) {
+        spent_ = seconds;
+        if (same(last_, most_)) return stop(Outcome::samples_reached, "these are the largest settings");
+        if (goal_.most && fits(most_)) return most_;
+        if (renders_ == 1 && most_.samples > 1) {
+            FieldSettings pilot = last_;
+            pilot.samples = std::min(pilot_samples, most_.samples);
+            if (fits(pilot)) return pilot;
+            return stop_short(pilot);
+        }
+        const double now = errors_.worst().error, target = std::max(goal_.relative_error.value_or(0.5 * now), now / most_growth);
+        const FieldSettings step = errors_.grow(target, most_growth);
+        if (within_reach() || fits_and_pays(step)) {
+            if (!same(step, last_)) return step;
+            return stop(Outcome::does_not_pay, "no part of what makes it would fall");
+        }
+        for (int i = 1; i <= shorter_steps; ++i) {
+            const FieldSettings shorter = errors_.grow(target * std::pow(now / target, i / (shorter_steps + 1.0)), most_growth);
+            if (!same(shorter, last_) && fits_and_pays(shorter)) return shorter;
+        }
+        return stop_short(step);
+    }
+
+    Outcome outcome() const { return outcome_; }
+    std::string why_not() const {
+        const WorstError now = worst();
+        std::string text = goal_.relative_error ? fmt::format("an error of {:g} is not within reach: ", *goal_.relative_error) : "";
+        text += fmt::format("the largest is {:.2g}, in bounce {}; {}", now.error, now.bounce, why_);
+        if (errors_.stands(now.bounce)) {
+            const auto k = static_cast<int>(std::lround(std::sqrt(finest_)));
+            text += fmt::format("; it hardly falls with more patches, for directions on mirrors, glass and rough metal are held in "
+                                "cells, {}×{} to a side at most",
+                                k, k);
+        }
+        return text;
+    }
+
+private:
+    bool in_time(const FieldCost& cost) const { return !goal_.seconds || spent_ + caution * cost.seconds <= *goal_.seconds; }
+    bool in_memory(const FieldCost& cost) const { return caution * cost.bytes <= most_.memory; }
+    bool fits(const FieldSettings& settings) const {
+        const FieldCost cost = costs_.predict(settings);
+        return in_time(cost) && in_memory(cost);
+    }
+    // The error asked for can be had, in as many steps as it takes.
+    bool within_reach() const {
+        if (!goal_.relative_error) return false;
+        const FieldSettings all = errors_.grow(*goal_.relative_error, without_limit);
+        return errors_.predict(all).error <= *goal_.relative_error && fits(all);
+    }
+    double least_fall(const FieldSettings& settings) const {
+        if (!goal_.relative_error) return 1.0 - least_gain;
+        return std::pow(spent_ / (spent_ + costs_.predict(settings).seconds), least_slope);
+    }
+    bool pays(const FieldSettings& settings) const {
+        return errors_.predict(settings).error <= least_fall(settings) * errors_.worst().error;
+    }
+    bool fits_and_pays(const FieldSettings& settings) const { return fits(settings) && pays(settings); }
+
+    std::nullopt_t stop(Outcome outcome, std::string why) {
+        outcome_ = outcome;
+        why_ = std::move(why);
+        return std::nullopt;
+    }
+    std::nullopt_t stop_short(const FieldSettings& step) {
+        const FieldCost cost = costs_.predict(step);
+        const std::string what = fmt::format(
+            "another refinement, to {} patches, {} directions and {} samples, would take about {} and {:.2g} GiB and bring it to {:.2g}",
+            step.patching.patches, std::uint64_t{step.rays} * step.replicates, std::uint64_t{step.samples} * step.replicates,
+            seconds_text(cost.seconds), cost.bytes / 0x1p30, errors_.predict(step).error);
+        if (!in_memory(cost))
+            return stop(Outcome::memory_reached, fmt::format("{}, and {:.2g} GiB may be taken", what, most_.memory / 0x1p30));
+        if (!in_time(cost))
+            return stop(Outcome::time_reached,
+                        fmt::format("{}, and {} are left", what, seconds_text(std::max(*goal_.seconds - spent_, 0.0))));
+        return stop(Outcome::does_not_pay, what);
+    }
+
+    const FieldGoal goal_;
+    const FieldSettings most_;
+    FieldSettings last_;
+    FieldErrors errors_;
+    FieldCosts costs_;
+    std::uint32_t finest_ = 1;
+    std::size_t renders_ = 0;
+    double spent_ = 0.0;
+    Outcome outcome_ = Outcome::samples_reached;
+    std::string why_;
+};
+
 }  // namespace
 
 std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings,
@@ -117,33 +177,53 @@ std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettin
     return make_run(std::move(*pictures), settings, {}, watch.seconds());
 }
 
-FieldRun render_fields_to_error(const Scene& scene, FieldSettings settings, double relative_error, const RenderObserver& observer) {
+FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const RenderObserver& observer) {
     const Stopwatch watch;
-    settings.patching.patches = fewest_patches;
-    settings.rays = settings.light_samples = fewest_rays;
+    const FieldSettings most = goal.most.value_or(largest(settings));
+    settings.patching.patches = std::min(fewest_patches, most.patching.patches);
+    settings.rays = std::min(fewest_rays, most.rays);
+    settings.light_samples = std::min(settings.rays, most.light_samples);
     settings.samples = 1;
     FieldRun run = *render_fields_once(scene, settings, [] { return false; });
-    std::optional<ErrorParts> parts;
+    Steps steps(scene, goal, most);
+    steps.add(run, run.seconds);
+
+    const auto tell = [&] {
+        const double seconds = watch.seconds(), worst = steps.worst().error;
+        RenderProgress progress{run.pictures.samples, seconds, 0.0, std::nullopt};
+        if (goal.relative_error && worst > 0.0) progress.fraction = *goal.relative_error / worst;
+        if (goal.seconds) progress.fraction = std::max(progress.fraction, seconds / *goal.seconds);
+        if (goal.seconds && !goal.relative_error) progress.seconds_left = std::max(*goal.seconds - seconds, 0.0);
+        progress.fraction = std::min(progress.fraction, 1.0);
+        observer.progress(progress);
+    };
+    const double end = goal.seconds ? 1.1 * *goal.seconds + 1.0 : std::numeric_limits<double>::infinity();
     for (;;) {
-        const auto& errors = run.convergence.back().term_error;
-        const double worst = *std::max_element(errors.begin(), errors.end());
-        observer.progress({run.pictures.samples, run.seconds, std::min(1.0, relative_error / worst), std::nullopt});
-        if (worst <= relative_error) {
+        tell();
+        if (goal.relative_error && steps.worst().error <= *goal.relative_error) {
             run.outcome = Outcome::error_reached;
             return run;
         }
-        const std::vector<PictureError> before = run.term_errors;
-        if (!parts)
-            settings.samples = pilot_samples;
-        else if (!parts->grow(settings, before, relative_error))
-            return run;
-        auto next = render_fields(scene, settings, observer.interrupted);
+        const double begin = watch.seconds();
+        const auto next = steps.next(begin);
         if (!next) {
-            run.outcome = Outcome::interrupted;
+            run.outcome = steps.outcome();
+            run.why = steps.why_not();
             return run;
         }
-        run = make_run(std::move(*next), settings, std::move(run.convergence), watch.seconds());
-        if (!parts) parts.emplace(settings.method, before, run.term_errors, pilot_samples);
+        const auto stopped = [&] {
+            tell();
+            return observer.interrupted() || watch.seconds() > end;
+        };
+        auto pictures = render_fields(scene, *next, stopped);
+        if (!pictures) {
+            run.outcome = observer.interrupted() ? Outcome::interrupted : Outcome::time_reached;
+            run.why = fmt::format("the largest error is {:.2g}, in bounce {}; the next refinement took longer than foretold and was given up",
+                                  steps.worst().error, steps.worst().bounce);
+            return run;
+        }
+        run = make_run(std::move(*pictures), *next, std::move(run.convergence), watch.seconds());
+        steps.add(run, watch.seconds() - begin);
     }
 }
 

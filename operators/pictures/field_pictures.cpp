@@ -4,7 +4,8 @@
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
-#include "operators/patches/patch_memory.h"
+#include "operators/pictures/field_memory.h"
+#include "operators/plan/half_spaces.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -28,14 +29,6 @@ struct Workspace {
 };
 
 struct GivenUp {};
-
-// What a patch needs: its rows of T, and for all replicates the quantities of the finer and the coarser field.
-void check_memory(const FieldSettings& settings, double unknowns, double rays) {
-    // T* and R* of four channels beside the table.
-    const double bytes_of_ray = settings.method == FieldMethod::importance ? 48.0 : 4.0;
-    check_patch_memory(settings.patching.patches, settings.rays,
-                       300.0 + bytes_of_ray * rays + unknowns * (32.0 + 15.0 * settings.replicates * (settings.bounces + 2.0)));
-}
 
 EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
     std::vector<std::vector<EnergyShares>> all;
@@ -75,9 +68,14 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
         for (std::uint32_t r = 0; r < replicates_; ++r) sum += value(r);
         const Rgb mean = sum / n;
         for (std::uint32_t r = 0; r < replicates_; ++r) squares += (value(r) - mean) * (value(r) - mean);
+        Rgb least(0.0);
+        for (std::size_t q = first; q <= last; ++q) {
+            const float* const m = means_.get() + 3 * (q * black.pixels.size() + pixel);
+            least += resolution_.in_pixel(q) * glm::abs(Rgb(m[0], m[1], m[2]));
+        }
         result.mean.pixels[pixel] = mean;
-        result.standard_error.pixels[pixel] =
-            replicates_ > 1 ? glm::sqrt(squares / (n * (n - 1.0))) : Rgb(std::numeric_limits<double>::infinity());
+        result.standard_error.pixels[pixel] = replicates_ > 1 ? glm::max(glm::sqrt(squares / (n * (n - 1.0))), least)
+                                                              : Rgb(std::numeric_limits<double>::infinity());
         result.discretisation.pixels[pixel] = glm::abs(value(replicates_));
     });
     return result;
@@ -107,26 +105,43 @@ Image FieldPictures::term_mean(std::size_t i) const {
     return result;
 }
 
-MeanWithError FieldPictures::mean(std::size_t first, std::size_t last) const {
-    const auto n = static_cast<double>(replicates_), pixels = static_cast<double>(width_) * height_;
+MeanWithError FieldPictures::mean(std::size_t first, std::size_t last, std::size_t which) const {
+    const auto n = static_cast<double>(replicates_);
     double sum = 0.0, squares = 0.0;
     std::vector<double> of_replicate(replicates_);
     for (std::uint32_t r = 0; r < replicates_; ++r) {
-        for (std::size_t q = first; q <= last; ++q) of_replicate[r] += sums[r * quantities_ + q] / pixels;
+        for (std::size_t q = first; q <= last; ++q) of_replicate[r] += replicate_mean(r, q, which);
         sum += of_replicate[r];
     }
     for (const double x : of_replicate) squares += (x - sum / n) * (x - sum / n);
-    return {sum / n, n > 1.0 ? std::sqrt(squares / (n * (n - 1.0))) : std::numeric_limits<double>::infinity(), n - 1.0};
+    double least = 0.0;
+    for (std::size_t q = first; q <= last; ++q)
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::uint32_t r = 0; r < replicates_; ++r)
+                if (which == c || which == 3)
+                    least += std::abs(replicate_mean(r, q, c)) * resolution_.of_mean(q)[static_cast<int>(c)] / (n * (which == 3 ? 3.0 : 1.0));
+    return {sum / n, n > 1.0 ? std::max(std::sqrt(squares / (n * (n - 1.0))), least) : std::numeric_limits<double>::infinity(),
+            n - 1.0};
+}
+
+PictureMeans FieldPictures::means(std::size_t first, std::size_t last) const {
+    PictureMeans means;
+    for (std::size_t c = 0; c < 3; ++c) means.channel[c] = mean(first, last, c);
+    means.all = mean(first, last);
+    return means;
 }
 
 std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings,
                                            const std::function<bool()>& interrupted) {
     const Stopwatch field_watch;
-    check_memory(settings, 1.0, settings.rays);
+    const auto asked = static_cast<double>(settings.patching.patches);
+    check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
     const PatchSpace space = scene_patches(scene, settings.patching), coarser = space.coarser();
     check_camera(scene, space);
     const auto patches = static_cast<double>(space.patches().size());
-    check_memory(settings, space.size() / patches, static_cast<double>(RayTable::size(space, settings.rays)) / patches);
+    const auto table_rays = static_cast<double>(RayTable::size(space, settings.rays));
+    const double n_replicates = settings.replicates;
+    check_field_memory(settings, scene.film, {patches, static_cast<double>(space.size()), table_rays});
     FieldPictures result(scene.film, settings);
     result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
@@ -150,8 +165,21 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     if (!result.importance) result.power = power_balance(series);
     result.patches = space.patches().size();
     result.unknowns = space.size();
+    for (const Facet& facet : space.facets()) ++result.sides[facet.cells.size()];
     result.samples = std::uint64_t{settings.samples} * settings.replicates;
     result.field_seconds = field_watch.seconds();
+
+    RayCounts counts;
+    counts.of_facet = settings.rays * n_replicates;
+    counts.all = table_rays * n_replicates;
+    for (const TracedSeries& s : series) counts.lights += static_cast<double>(s.light_rays);
+    counts.lights_of_facet = counts.lights / static_cast<double>(space.facets().size());
+    if (settings.method == FieldMethod::gather) counts.gathered = n_replicates * settings.samples * settings.gather_rays;
+    counts.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
+    if (!shows_patches(settings.method)) counts.sampled_at_pixel = settings.bounces > 0 ? 2 : 1;
+    const ConvexBody body = HalfSpaces(scene.geometry).convex_body();
+    counts.is_closed = body.found && body.is_closed;
+    result.set_resolution(RayResolution(series, counts));
 
     const Stopwatch picture_watch;
     const int width = scene.film.crop_width, height = scene.film.crop_height;
@@ -165,7 +193,8 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const FieldReader reader(scene, settings.method, settings.bounces, settings.gather_rays);
     const std::uint32_t pixels_at_once = std::max(1u, samples_at_once / settings.samples);
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
-    const std::size_t sums_of_group = result.quantities() * settings.replicates;
+    constexpr std::size_t each = FieldPictures::sums_of_quantity;
+    const std::size_t sums_of_group = result.quantities() * settings.replicates * each;
     std::vector<double> sums(groups * sums_of_group);
 
     const auto render = [&](std::uint32_t group, Workspace& work) {
@@ -205,8 +234,10 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
             float* const values = result.values(pixel);
             for (std::size_t k = 0; k < all; ++k) values[k] = found[k] * scale;
             std::copy_n(difference, stride, values + all);
-            for (std::size_t q = 0; q < sums_of_group; ++q)
-                group_sums[q] += (double{values[3 * q]} + values[3 * q + 1] + values[3 * q + 2]) / 3.0;
+            for (std::size_t q = 0; q < sums_of_group / each; ++q) {
+                for (std::size_t c = 0; c < 3; ++c) group_sums[each * q + c] += double{values[3 * q + c]};
+                group_sums[each * q + 3] += (double{values[3 * q]} + values[3 * q + 1] + values[3 * q + 2]) / 3.0;
+            }
         }
         result.find_means(begin, end);
     };

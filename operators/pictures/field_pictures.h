@@ -4,14 +4,17 @@
 #pragma once
 
 #include "core/base/large_array.h"
+#include "core/base/memory.h"
 #include "core/image/image.h"
 #include "operators/patches/patches.h"
 #include "operators/pictures/energy_balance.h"
 #include "operators/pictures/field_reader.h"
+#include "operators/pictures/ray_resolution.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -28,6 +31,7 @@ struct FieldSettings {
     std::uint32_t replicates = 4;
     std::uint64_t seed = 0;
     bool rest = true;  // Σ_{k>N} is wanted as well
+    double memory = default_memory();  // bytes that may be taken, about
 };
 
 // What all replicates found in each pixel, from which the pictures are made as they are asked for.
@@ -47,6 +51,13 @@ public:
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, i); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(0, i); }
     MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
+    PictureMeans means_of_term(std::size_t i) const { return means(i, i); }
+    PictureMeans means_of_sum(std::size_t i) const { return means(0, i); }
+    PictureMeans means_of_rest() const { return means(quantities_ - 1, quantities_ - 1); }
+    // Of one replicate and quantity: over pixels in red, green and blue, and over channels as well.
+    double replicate_mean(std::uint32_t replicate, std::size_t quantity, std::size_t which = sums_of_quantity - 1) const {
+        return sums[(replicate * quantities_ + quantity) * sums_of_quantity + which] / (static_cast<double>(width_) * height_);
+    }
 
     EnergyBalance power;  // of light, W: what patches exchange, replicates being the observations; without bounces for importance
     bool importance;      // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
@@ -54,6 +65,7 @@ public:
     std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; those for all of them are counted for bounce 2, or the
                                       // rest where there is none
     std::size_t patches = 0, unknowns = 0;
+    std::map<std::uint32_t, std::size_t> sides;  // of patches, by how many cells of directions they have
     std::uint64_t samples = 0;  // a pixel, of the camera
     double field_seconds = 0.0, picture_seconds = 0.0;
 
@@ -63,18 +75,23 @@ public:
     // Once those of pixels [begin, end) are there.
     void find_means(std::size_t begin, std::size_t end);
     std::size_t quantities() const { return quantities_; }
-    // Sums over all pixels, replicate by replicate.
+    // No error is stated below what these rays can tell.
+    void set_resolution(RayResolution resolution) { resolution_ = std::move(resolution); }
+    // Sums over all pixels, replicate by replicate and quantity by quantity: of red, green, blue, and of their mean.
+    static constexpr std::size_t sums_of_quantity = 4;
     std::vector<double> sums;
 
 private:
     Estimate picture(std::size_t first, std::size_t last) const;
-    MeanWithError mean(std::size_t first, std::size_t last) const;
+    MeanWithError mean(std::size_t first, std::size_t last, std::size_t which = sums_of_quantity - 1) const;
+    PictureMeans means(std::size_t first, std::size_t last) const;
 
     int width_, height_;
     std::uint32_t replicates_;
     std::size_t quantities_, stride_;
     LargeArray<float> values_;
     LargeArray<float> means_;  // of the replicates, a picture for each quantity
+    RayResolution resolution_;
 };
 
 // Nothing where `interrupted` answers true meanwhile; asked from any thread.

@@ -17,8 +17,8 @@ namespace neumann {
 //     patches     every bounce as it is on the patches: the piecewise constant truth
 //     matrix      bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces; as gather
 //                 where what is seen is not diffuse, for there cells of directions would show
-//     gather      K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1; and again at what is seen
-//                 in a mirror
+//     gather      K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1, as it is there where R is
+//                 diffuse, and linearly within surfaces elsewhere; and again at what is seen in a mirror
 //     importance  as patches, of K*^i We in place of K^i Le
 enum class FieldMethod { patches, matrix, gather, importance };
 inline bool shows_patches(FieldMethod method) { return method == FieldMethod::patches || method == FieldMethod::importance; }

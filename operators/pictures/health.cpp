@@ -61,8 +61,12 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
             bounce.fireflies += firefly;
         }
     }
+    const PictureSampler sampler(scene, settings);
+    for (std::size_t q = 0; q < quantities; ++q)
+        if (SampleHealth& bounce = health.bounces[q]; bounce.fireflies > 0)
+            bounce.remedies = remedies(scene, sampler, bounce.largest->sample.place.name, q);
     health.first_non_finite = series.tally.non_finite;
-    health.checkup = check_up(scene, PictureSampler(scene, settings), series.samples);
+    health.checkup = check_up(scene, sampler, series.samples);
     return health;
 }
 

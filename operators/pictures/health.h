@@ -3,6 +3,7 @@
 #pragma once
 
 #include "operators/pictures/checkup.h"
+#include "operators/pictures/remedy.h"
 #include "operators/pictures/render.h"
 
 #include <optional>
@@ -30,6 +31,8 @@ struct SampleHealth {
     // mean of the picture, and a quarter of what the brightest pixel has of this bounce; at the edge of something bright a sample
     // that sees it does not. Neither bounce 0 is judged nor fewer than 16 samples a pixel: there it is usual.
     std::uint64_t fireflies = 0;
+    // What else to try, if there are any; of the one that is named.
+    std::vector<Remedy> remedies = {};
 };
 constexpr std::uint64_t fewest_samples_to_judge = 16;
 

@@ -45,9 +45,9 @@ Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q
     return sum;
 }
 
-// The means of one pixel's samples of a replicate, into work.sum.
+// The means of one pixel's samples of a replicate, into work.sum; `ranges`: of the samples, for each quantity.
 void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_weights,
-             const std::optional<glm::dmat3>& colors, Workspace& work) {
+             const std::optional<glm::dmat3>& colors, std::span<SampleRange> ranges, Workspace& work) {
     const std::size_t quantities = work.sum.size();
     std::copy_n(samples.begin(), quantities, work.sum.begin());
     for (std::size_t i = 1; i < size; ++i)
@@ -62,6 +62,7 @@ void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std:
         if (has_negative_weights || max_component(sum) > largest.threshold())
             for (std::size_t i = 0; i < size; ++i)
                 largest.add(max_component(glm::abs(samples[i * quantities + q])), {pixel, {pixel, replicate * size + i}});
+        for (std::size_t i = 0; i < size; ++i) ranges[q].add(samples[i * quantities + q]);
         sum *= 1.0 / static_cast<double>(size);
         if (colors) sum = *colors * sum;
     }
@@ -104,6 +105,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
     MomentsNode node{first, count, std::move(memory)};
     node.data.resize(pixels * stride);
+    node.ranges.of.resize(pixels * quantities());
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work(pixels_at_once, quantities(), levels);
@@ -128,7 +130,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
                         begin + static_cast<std::uint32_t>(i), first + r, std::holds_alternative<SignedFilter>(scene_.film.filter),
-                        settings_.colors, work);
+                        settings_.colors, std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()), work);
                 append(r, work.waiting[i], work);
             }
         }

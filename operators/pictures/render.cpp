@@ -1,6 +1,7 @@
 #include "operators/pictures/render.h"
 
 #include "core/base/stopwatch.h"
+#include "operators/pictures/bounded_samples.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     const auto pixels = static_cast<double>(sampler.width()) * sampler.height();
     RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
     series.replicate_size = settings.replicate_size;
+    series.samples_are_bounded = samples_are_bounded(scene, settings);
     const Stopwatch watch;
 
     const auto report = [&](double replicates_done) {

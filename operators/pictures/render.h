@@ -27,7 +27,7 @@ struct Checkpoint {
     std::optional<double> true_sum_error;
 };
 
-enum class Outcome { samples_reached, time_reached, error_reached, interrupted };
+enum class Outcome { samples_reached, time_reached, error_reached, interrupted, memory_reached, does_not_pay };
 
 struct RenderProgress {
     std::uint64_t samples;  // a pixel, finished
@@ -53,6 +53,7 @@ struct RenderedSeries {
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
     double seconds = 0.0;
+    bool samples_are_bounded = false;  // of bounces 0 … N, as bounded_samples.h knows it
 };
 
 // Samples a pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 4 replicates. Large

@@ -12,6 +12,10 @@ bool SeriesReport::infinite_variance() const {
     return std::any_of(bounces.begin(), bounces.end(), [](const BounceReport& b) { return b.infinite_variance; });
 }
 
+bool SeriesReport::rare_large_samples() const {
+    return std::any_of(bounces.begin(), bounces.end(), [](const BounceReport& b) { return b.rare_large_samples; });
+}
+
 double SeriesReport::tail_fraction() const {
     const double tail = rest.mean + rest.interval();
     return tail == 0.0 ? 0.0 : tail / sum.mean;
@@ -24,17 +28,15 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     const std::size_t N = result.quantities() - 2;
     const auto all_rays =
         static_cast<double>(std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0}));
-    const auto is_infinite = [&](std::size_t q) {
-        const auto tail = tail_index(series.tally.largest[q]);
-        return tail && tail->variance_is_infinite();
-    };
     for (std::size_t i = 0; i <= N; ++i) {
         BounceReport bounce;
         bounce.mean = result.mean_of_term(i);
         if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
         bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
         bounce.tail = tail_index(series.tally.largest[i]);
-        bounce.infinite_variance = is_infinite(i);
+        const bool heavy = bounce.tail && bounce.tail->variance_is_infinite();
+        bounce.infinite_variance = heavy && !series.samples_are_bounded;
+        bounce.rare_large_samples = heavy && series.samples_are_bounded;
         bounce.rays = series.tally.rays[i];
         bounce.seconds = all_rays > 0.0 ? series.seconds * static_cast<double>(bounce.rays) / all_rays : 0.0;
         report.bounces.push_back(bounce);
@@ -42,7 +44,8 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     report.sum = result.mean_of_sum(N);
     if (rest_verdict == RestVerdict::measured) {
         report.rest = result.mean_of_term(N + 1);
-        report.rest_infinite_variance = is_infinite(N + 1);
+        const auto tail = tail_index(series.tally.largest[N + 1]);
+        report.rest_infinite_variance = tail && tail->variance_is_infinite();
     }
     return report;
 }

@@ -22,6 +22,10 @@ struct BounceReport {
     std::optional<double> ratio;     // to the mean of the bounce before: an estimate, not a bound; none after a bounce that is zero
     double bound;                    // a priori, of ‖Σ_{k>i} K^k Le‖∞; infinite: there is none
     bool infinite_variance = false;  // then `mean` has no interval
+    bool unmet = false;              // no sample met it, and `mean` has an upper bound as its interval (least_errors.h)
+    // The samples are bounded, so that the variance is finite, but the largest have a tail as if it were not: they are rare, make
+    // much of the mean, and what is missing of them is missing in the interval, too.
+    bool rare_large_samples = false;
     std::optional<TailIndex> tail;
     std::uint64_t rays = 0;
     double seconds = 0.0;  // of the sampling, shared out by rays
@@ -42,9 +46,11 @@ struct SeriesReport {
     std::optional<DiscretisationReport> sum_discretisation;
     RestVerdict rest_verdict = RestVerdict::measured;
     MeanWithError rest;
-    bool rest_infinite_variance = false;
+    bool rest_infinite_variance = false, rest_unmet = false;
 
-    bool infinite_variance() const;  // of any bounce
+    // Of any bounce.
+    bool infinite_variance() const;
+    bool rare_large_samples() const;
     // The rest, with its interval, is below this part of the sum.
     double tail_fraction() const;
 };

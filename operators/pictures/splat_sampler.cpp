@@ -95,7 +95,7 @@ std::uint32_t SplatSampler::pixel_at(const Vec2& position) const {
 
 template <class Sampler>
 void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk,
-                                std::span<Rgb> own, Workspace& work) const {
+                                std::span<Rgb> own, SampleRanges& ranges, Workspace& work) const {
     const std::size_t Q = settings_.quantities();
     const auto name = [&](std::uint32_t i) { return name_in_group(replicate, first, i, settings_.replicate_size); };
     trace_group<Sampler>(
@@ -115,12 +115,14 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
                 x = Rgb(0.0);
             }
             work.tally.largest[q].add(max_component(glm::abs(x)), place);
-            own[place.pixel * Q + q] += x * work.group.weights[i];
+            const Rgb weighted = x * work.group.weights[i];
+            own[place.pixel * Q + q] += weighted;
+            ranges.of[place.pixel * Q + q].add(weighted);
         }
     }
 }
 
-bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally,
+bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
                                   const std::function<bool(double)>& part_done) const {
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = pixels_ * settings_.replicate_size, at_once = paths_at_once * groups_at_once;
@@ -137,9 +139,9 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         for (std::uint32_t first = chunk.first; first < chunk.end; first += paths_at_once) {
             const std::uint32_t n = std::min(paths_at_once, chunk.end - first);
             if (settings_.sampler == SamplerKind::sobol)
-                sample_group<SobolSampler>(replicate, first, n, chunk, picture, work);
+                sample_group<SobolSampler>(replicate, first, n, chunk, picture, ranges.own, work);
             else
-                sample_group<IndependentSampler>(replicate, first, n, chunk, picture, work);
+                sample_group<IndependentSampler>(replicate, first, n, chunk, picture, ranges.own, work);
         }
     };
     // Pieces are worked on in any order and added up in one: the same bits on any number of threads.
@@ -166,7 +168,10 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                                                                     return chunk;
                                                                 }) &
                        oneapi::tbb::make_filter<Chunk*, void>(oneapi::tbb::filter_mode::serial_in_order, [&](const Chunk* chunk) {
-                           for (const Chunk::Share& s : chunk->shares) splatted[s.pixel * Q + s.quantity] += s.value;
+                           for (const Chunk::Share& s : chunk->shares) {
+                               splatted[s.pixel * Q + s.quantity] += s.value;
+                               ranges.shares.of[s.pixel * Q + s.quantity].add(s.value);
+                           }
                            if (part_done(static_cast<double>(chunk->end) / samples)) dropped = true;
                        }));
     if (dropped) return false;
@@ -189,6 +194,9 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
     std::vector<std::vector<double>> waiting(static_cast<std::size_t>(std::countr_zero(count)) + 1);
     std::vector<double> carry = std::move(memory);
     std::vector<Rgb> picture;
+    Ranges ranges;
+    ranges.own.of.resize(pixels_ * Q);
+    ranges.shares.of.resize(pixels_ * Q);
     Tally new_tally(Q);
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
     // And for their mean.
@@ -202,7 +210,7 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
             const double done = (static_cast<double>(r) + part) / static_cast<double>(count);
             return watch && watch(static_cast<std::uint64_t>(done * pixels_));
         };
-        if (!sample_picture(first + r, picture, new_tally, part_done)) return std::nullopt;
+        if (!sample_picture(first + r, picture, ranges, new_tally, part_done)) return std::nullopt;
         carry.resize((pixels_ + 1) * stride);
         const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
         for_each_pixel(
@@ -217,7 +225,11 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
         std::swap(waiting[level], carry);
     }
     tally.merge(new_tally);
-    return MomentsNode{first, count, std::move(waiting.back())};
+    // Where something comes from the lights, most paths bring nothing.
+    for (SampleRange& range : ranges.shares.of)
+        if (range.largest[0] >= range.smallest[0] || settings_.method == Method::light) range.add(Rgb(0.0));
+    ranges.own.merge(ranges.shares);
+    return MomentsNode{first, count, std::move(waiting.back()), std::move(ranges.own)};
 }
 
 }  // namespace neumann

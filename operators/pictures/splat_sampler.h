@@ -27,8 +27,12 @@ public:
 private:
     struct Workspace;
     struct Chunk;
+    // Of the camera's samples, and of what comes to a pixel from anywhere.
+    struct Ranges {
+        SampleRanges own, shares;
+    };
     // A replicate's picture, all quantities of each pixel, and then their means. False where the work was dropped.
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Tally& tally,
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
                         const std::function<bool(double)>& part_done) const;
     // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate. `found(path, quantity, value)`: what
     // a path brings to its own pixel, but for the filter's weight; `splatted(path, position, quantity, value)`: radiance times
@@ -38,7 +42,7 @@ private:
                      const OnSplat& splatted, Workspace& work) const;
     template <class Sampler>
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
-                      Workspace& work) const;
+                      SampleRanges& ranges, Workspace& work) const;
     void spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,
                 Workspace& work) const;
     std::uint32_t pixel_at(const Vec2& position) const;

@@ -1,6 +1,7 @@
 #include "operators/series/series_run.h"
 
 #include "operators/series/change_rate.h"
+#include "operators/spectrum/radius_evidence.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity(), epsilon = std::numeric_limits<double>::epsilon();
 
 // Neighbours first; where these alternate, every second term.
 Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum) {
@@ -39,6 +40,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
             fmt::format("a = {:.6g} is not below 1 and bounds nothing; the series may converge all the same", *options.norm));
     TermSeries series(K, Le);
     ChangeRate rate;
+    RadiusEvidence evidence(&K, bounded ? options.norm : std::nullopt);
     Vector before_last;
     const double emitted = series.term_norms().sup;
     const auto end = [&](Verdict verdict, std::string why) {
@@ -62,23 +64,30 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
         run.rows.push_back(row);
         if (options.observer) options.observer(row);
 
-        const double allowed = options.tolerance * norms(run.sum, K.measure()).sup;
-        if (!run.sum.allFinite()) return end(Verdict::diverging, "the terms grew until they were not finite");
+        const double allowed = std::max(options.tolerance, epsilon) * norms(run.sum, K.measure()).sup;
+        if (!run.sum.allFinite())
+            return end(evidence.shows_divergence() ? Verdict::diverging : Verdict::broke_down,
+                       "the terms grew until they were not finite");
         if (row.term.sup == 0.0)
             return end(Verdict::converged, fmt::format("term {} is 0, and so are all that follow", row.bounce));
-        if (0.5 * row.enclosure_width <= options.tolerance) {
+        // Rounding each term by ε leaves about ε/(1 − q) of the sum.
+        const double rounding = rate.rate() < 1.0 ? epsilon / (1.0 - rate.rate()) : epsilon;
+        const auto close = [&](std::string how) {
+            if (rounding <= options.tolerance) return end(Verdict::converged, std::move(how));
+            return end(Verdict::rounding, fmt::format("{}; rounding leaves an error of about {:.2g}", how, rounding));
+        };
+        if (0.5 * row.enclosure_width <= std::max(options.tolerance, epsilon)) {
             run.sum = 0.5 * (run.enclosure.low + run.enclosure.high);
-            return end(Verdict::converged,
-                       fmt::format("enclosed between quotients {:.6g} and {:.6g}", run.enclosure.c1, run.enclosure.c2));
+            return close(fmt::format("enclosed between quotients {:.6g} and {:.6g}", run.enclosure.c1, run.enclosure.c2));
         }
-        if (row.a_posteriori <= allowed) return end(Verdict::converged, fmt::format("bounded with a = {:.6g}", a));
+        if (row.a_posteriori <= allowed) return close(fmt::format("bounded with a = {:.6g}", a));
         if (!bounded && !run.enclosure.exists && row.estimate <= allowed)
-            return end(Verdict::converged,
-                       fmt::format("estimated from the rate {:.6g}, not bounded: {}", rate.rate(), run.enclosure.why));
-        if (rate.not_falling())
+            return close(fmt::format("estimated from the rate {:.6g}, not bounded: {}", rate.rate(), run.enclosure.why));
+        if (rate.not_falling() && evidence.shows_divergence())
             return end(Verdict::diverging,
-                       fmt::format("not converging: the terms did not get smaller over the last 32 bounces, rate {:.9g}",
-                                   rate_over(run.rows)));
+                       fmt::format("not converging: the terms did not get smaller over the last 32 bounces, rate "
+                                   "{:.9g}, and the spectral radius is {:.6g}",
+                                   rate_over(run.rows), evidence.radius()));
         if (row.bounce >= options.most_bounces)
             return end(Verdict::limit, fmt::format("{} bounces were used up", options.most_bounces));
         before_last = series.before();

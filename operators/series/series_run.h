@@ -41,7 +41,8 @@ struct SeriesRun {
 };
 
 // Converged where the enclosure or the bound with a < 1 is within the tolerance: both are rigorous up to rounding. Where neither
-// exists the estimate has to do, and `why` says so. Diverging where 32 bounces did not make the terms smaller; a ≥ 1 alone is a
+// exists the estimate has to do, and `why` says so. Rounding where that is all that is left and the tolerance is less. Diverging
+// where 32 bounces did not make the terms smaller and the spectral radius, which is found then, is 1 or more; a ≥ 1 alone is a
 // warning.
 SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOptions& options = {});
 

@@ -5,8 +5,9 @@ namespace neumann {
 
 enum class Verdict {
     converged,   // the estimated error is below the tolerance
+    rounding,    // as close as rounding lets it come, which is not as close as the tolerance
     limit,       // the applications allowed were used up before
-    diverging,   // the terms do not get smaller: there is no L
+    diverging,   // the terms do not get smaller, and the spectral radius is 1 or more: there is no L
     broke_down,  // a division by zero, or numbers that are not finite: the method has no answer here
     refused      // there is an answer, but not one to rely on; `why` says what is wrong with it
 };
@@ -15,6 +16,8 @@ inline const char* name(Verdict verdict) {
     switch (verdict) {
         case Verdict::converged:
             return "converged";
+        case Verdict::rounding:
+            return "rounding";
         case Verdict::limit:
             return "limit";
         case Verdict::diverging:

@@ -15,11 +15,14 @@ SolverResult solve_anderson(const Problem& problem, int m) {
     Eigen::MatrixXd df(n, columns), dg(n, columns);  // df weighted
     Eigen::Index kept = 0, next = 0;
     Vector x = problem.Le, g(n), f(n), last_g, last_f;
+    ChangeRate rate;
     for (;;) {
         progress.apply(x, g);
         g += problem.Le;
         f = g - x;
         const double estimate = progress.from_residual(f, x);
+        rate.add(largest(f));
+        const bool rounding = Progress::is_rounding(largest(f), x, !rate.not_falling());
         Vector weighted = weight.cwiseProduct(f);
         if (last_f.size() != 0) {
             df.col(next) = weighted - last_f;
@@ -37,6 +40,7 @@ SolverResult solve_anderson(const Problem& problem, int m) {
         if (!x.allFinite()) return progress.end(x, Verdict::broke_down, "values that are not finite");
         // The estimate is that of the iterate before: the residual of this one is not known yet.
         if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
+        if (rounding) return progress.end_rounding(x, estimate);
         if (progress.exhausted()) return progress.end_limit(x);
     }
 }

@@ -28,7 +28,9 @@ SolverResult solve_bicgstab(const Problem& problem) {
     Eigen::BiCGSTAB<EigenSystem, Eigen::IdentityPreconditioner> bicgstab;
     bicgstab.compute(system);
     const Vector scaled = system.scaled(problem.Le);
-    double goal = problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0);
+    // Of the residual, in parts of that of x = 0.
+    const double least = std::numeric_limits<double>::epsilon();
+    double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
     for (;;) {
         bicgstab.setTolerance(goal);
         bicgstab.setMaxIterations(
@@ -41,10 +43,10 @@ SolverResult solve_bicgstab(const Problem& problem) {
         if (!x.allFinite() || bicgstab.info() == Eigen::NumericalIssue)
             return progress.end(x, Verdict::broke_down, "a division by zero in BiCGSTAB");
         if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
+        if ((goal <= least || progress.exhausted()) && Progress::is_rounding(largest(r), x, false))
+            return progress.end_rounding(x, progress.from_residual(r, x));
         if (progress.exhausted()) return progress.end_limit(x);
-        goal *= 0.1;
-        if (goal < std::numeric_limits<double>::epsilon())
-            return progress.end(x, Verdict::limit, "rounding keeps the residual above the tolerance");
+        goal = std::max(0.1 * goal, least);
     }
 }
 

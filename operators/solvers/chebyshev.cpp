@@ -8,10 +8,10 @@ namespace neumann {
 
 SolverResult solve_chebyshev(const Problem& problem, double lowest, double highest) {
     Progress progress(problem);
-    if (!(lowest < highest && highest < 1.0))
+    if (!(lowest <= highest && highest < 1.0))
         return progress.end(
             problem.Le, Verdict::refused,
-            fmt::format("needs lowest < highest < 1 for the eigenvalues of K, not [{:.6g}, {:.6g}]", lowest, highest));
+            fmt::format("needs lowest ≤ highest < 1 for the eigenvalues of K, not [{:.6g}, {:.6g}]", lowest, highest));
     // I − K has its eigenvalues in centre ± half.
     const double centre = 1.0 - 0.5 * (lowest + highest), half = 0.5 * (highest - lowest);
     double c = half / centre;
@@ -21,12 +21,13 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
     for (;;) {
         // The residual of this x takes one more application, so that the estimate is that of the iterate before.
         if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
+        if (Progress::is_rounding(largest(r), x)) return progress.end_rounding(x, estimate);
         if (progress.exhausted()) return progress.end_limit(x);
         progress.apply(d, Kd);
         r -= d - Kd;
         estimate = progress.from_residual(r, x);
-        const double next = 1.0 / (2.0 * centre / half - c);
-        d = next * c * d + 2.0 * next / half * r;
+        const double width = 2.0 * centre - half * c, next = half / width;
+        d = next * c * d + 2.0 / width * r;
         c = next;
         x += d;
         if (!x.allFinite())

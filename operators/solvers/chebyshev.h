@@ -9,7 +9,7 @@
 
 namespace neumann {
 
-// Refused unless lowest < highest < 1.
+// Refused unless lowest ≤ highest < 1.
 SolverResult solve_chebyshev(const Problem&, double lowest, double highest);
 
 // With the interval [Problem::lowest, Problem::radius]; refused without a radius.

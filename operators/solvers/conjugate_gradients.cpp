@@ -30,7 +30,8 @@ SolverResult solve_conjugate_gradients(const Problem& problem) {
     double rr = dot(r, r), defect = 0.0;
     for (;;) {
         if (rr == 0.0) {
-            progress.reached(x, 0.0);
+            const double estimate = progress.from_residual(r, x);
+            if (!progress.reached(x, estimate)) return progress.end_rounding(x, estimate);
             return progress.end(x, Verdict::converged, "the residual is 0");
         }
         progress.apply(p, Kp);
@@ -49,6 +50,7 @@ SolverResult solve_conjugate_gradients(const Problem& problem) {
         x += alpha * p;
         r -= alpha * (p - Kp);
         if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
+        if (Progress::is_rounding(largest(r), x)) return progress.end_rounding(x, progress.from_residual(r, x));
         if (progress.exhausted()) return progress.end_limit(x);
         const double next = dot(r, r);
         last_p = p;

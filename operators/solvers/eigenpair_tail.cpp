@@ -18,7 +18,7 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
     if (!right.converged || !left.converged)
         return progress.end(problem.Le, Verdict::refused, "the leading eigenpair was not found");
     const std::complex<double> value = right.pairs[0].value;
-    if (!(std::abs(value) < 1.0))
+    if (judge(std::abs(value), 0.0) != Convergence::converges)
         return progress.end(problem.Le, Verdict::refused,
                             fmt::format("the spectral radius is {:.6g}: the series diverges", std::abs(value)));
     if (std::abs(value.imag()) > 1e-9 * std::abs(value) || std::abs(value - left.pairs[0].value) > 1e-6 * std::abs(value))
@@ -35,12 +35,15 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
         const double other = largest(series.term() - amount * v);
         const Vector x = series.sum() + lambda / (1.0 - lambda) * amount * v;
         rate.add(other);
-        if (progress.reached(x, other == 0.0 ? 0.0 : rate.estimate() / largest(x)))
+        const double rounding = progress.rounding(std::max(rate.rate(), std::abs(lambda)));
+        if (progress.reached(x, largest(series.term()) == 0.0 ? 0.0 : std::max(rate.estimate() / largest(x), rounding)))
             return progress.end(x, Verdict::converged, fmt::format("the other modes fall at the rate {:.6g}", rate.rate()));
         if (!std::isfinite(scale) || !x.allFinite())
             return progress.end(x, Verdict::broke_down, "the leading eigenvector is defective");
-        if (rate.not_falling())
-            return progress.end(x, Verdict::limit, "the other modes are down to the accuracy of the leading one");
+        if (Progress::is_rounding(rate.estimate(), x)) return progress.end_rounding(x, rounding);
+        // They fall in the end; these are what the leading mode is not known to.
+        if (rate.not_falling() && other <= 1e-8 * largest(series.term()))
+            return progress.end(x, Verdict::rounding, "the other modes are down to the accuracy of the leading one");
         if (progress.exhausted()) return progress.end_limit(x);
         series.advance();
         progress.count(1.0);

@@ -20,8 +20,8 @@ struct Trouble {
 using Extrapolate = std::function<std::optional<Trouble>(const TermSeries&, Vector& x)>;
 
 // Ends when two limits in a row differ by less than the tolerance and the residual of the last, found with one more application of
-// K, agrees; where it does not, looks again after twice as many terms. Terms that do not get smaller are refused, and so is what
-// Progress::end refuses. Where there is trouble S_n stands in for the limit.
+// K, agrees; where it does not, looks again after twice as many terms. Where there is trouble S_n stands in for the limit, and is
+// what it ends with if it gets there first, as the series alone would. Diverging as there; refused is what Progress::end refuses.
 SolverResult solve_extrapolated(const Problem&, const Extrapolate&);
 
 }  // namespace neumann

@@ -43,7 +43,9 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     });
     gmres.compute(system);
     gmres.set_restart(steps);
-    double goal = problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0);
+    // Of the residual, in parts of that of x = 0.
+    const double least = std::numeric_limits<double>::epsilon();
+    double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
     for (;;) {
         gmres.setTolerance(goal);
         gmres.setMaxIterations(std::max<Eigen::Index>(1, problem.most - static_cast<Eigen::Index>(progress.applications())));
@@ -53,10 +55,10 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
         progress.apply(x, r);
         r += problem.Le - x;
         if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
+        if ((goal <= least || progress.exhausted()) && Progress::is_rounding(largest(r), x, false))
+            return progress.end_rounding(x, progress.from_residual(r, x));
         if (progress.exhausted()) return progress.end_limit(x);
-        goal *= 0.1;
-        if (goal < std::numeric_limits<double>::epsilon())
-            return progress.end(x, Verdict::limit, "rounding keeps the residual above the tolerance");
+        goal = std::max(0.1 * goal, least);
         begun = false;
     }
 }

@@ -31,7 +31,7 @@ SolverResult solve_lu(const Problem& problem, double most_bytes) {
                             fmt::format("I − K is singular to rounding: reciprocal condition {:.2g}", rcond));
     const double estimate = std::numeric_limits<double>::epsilon() / rcond;
     if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "eliminated");
-    return progress.end(x, Verdict::limit, fmt::format("rounding leaves an error of up to {:.2g}", estimate));
+    return progress.end_rounding(x, estimate);
 }
 
 }  // namespace neumann

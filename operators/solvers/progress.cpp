@@ -8,9 +8,15 @@
 
 namespace neumann {
 
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
 double largest(const Vector& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
 
-Progress::Progress(const Problem& problem) : problem_(problem) {
+Progress::Progress(const Problem& problem) : problem_(problem), evidence_(problem.K, problem.radius) {
     if (!problem.K || problem.K->size() != problem.Le.size())
         throw std::invalid_argument("Le needs one value for each unknown of K");
     if (problem.exact && problem.exact->size() != problem.Le.size())
@@ -22,11 +28,25 @@ void Progress::apply(const Vector& x, Vector& y) {
     count(1.0);
 }
 
-double Progress::from_residual(const Vector& r, const Vector& x) const {
+double Progress::from_residual(const Vector& r, const Vector& x, double rate) const {
     const double size = largest(x), residual = largest(r);
-    if (residual == 0.0) return 0.0;
-    const double amplification = problem_.radius && *problem_.radius < 1.0 ? 1.0 / (1.0 - *problem_.radius) : 1.0;
-    return residual * amplification / size;
+    if (residual == 0.0 && size == 0.0) return 0.0;
+    double amplification = 1.0;
+    if (problem_.radius && *problem_.radius < 1.0)
+        amplification = 1.0 / (1.0 - *problem_.radius);
+    else if (!problem_.radius)
+        amplification = std::max(size / largest(problem_.Le), rate < 1.0 ? 1.0 / (1.0 - rate) : 1.0);
+    return std::max(residual * amplification / size, rounding(rate));
+}
+
+double Progress::rounding(double rate) const {
+    if (problem_.radius && *problem_.radius < 1.0) rate = *problem_.radius;
+    return epsilon / (rate < 1.0 ? 1.0 - rate : 1.0);
+}
+
+bool Progress::is_rounding(double change, const Vector& x, bool falling) {
+    const double size = largest(x);
+    return size > 0.0 && change <= (falling ? epsilon : 1e-12) * size;
 }
 
 double Progress::true_error(const Vector& x) const {
@@ -39,12 +59,24 @@ bool Progress::record(double estimate, double error) {
     return estimate <= problem_.tolerance;
 }
 
+bool Progress::diverges() {
+    const double before = evidence_.applications();
+    const bool shown = evidence_.shows_divergence();
+    count(evidence_.applications() - before);
+    return shown;
+}
+
+bool Progress::converges() {
+    diverges();
+    return evidence_.known_to_converge();
+}
+
 SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
     if (!x.allFinite() && verdict != Verdict::diverging) {
+        if (verdict != Verdict::broke_down) why = "values that are not finite";
         verdict = Verdict::broke_down;
-        why = "values that are not finite";
     }
-    if (verdict == Verdict::converged && x.size() > 0) {
+    if ((verdict == Verdict::converged || verdict == Verdict::rounding) && x.size() > 0) {
         const double lowest = x.minCoeff();
         if (problem_.radius && *problem_.radius >= 1.0) {
             verdict = Verdict::refused;
@@ -54,7 +86,8 @@ SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
         } else if (largest(x) > 1e12 * largest(problem_.Le)) {
             verdict = Verdict::refused;
             why = fmt::format("it is {:.2g} times Le: I − K is singular to rounding", largest(x) / largest(problem_.Le));
-        } else if (problem_.Le.minCoeff() >= 0.0 && lowest < -std::max(1e-9, 10.0 * problem_.tolerance) * largest(x)) {
+        } else if (problem_.Le.minCoeff() >= 0.0 && lowest < -std::max(1e-9, 10.0 * problem_.tolerance) * largest(x) &&
+                   !converges()) {
             verdict = Verdict::refused;
             why = fmt::format(
                 "negative radiance, {:.6g}: the series diverges, and this solves (I − K) L = Le without being its sum", lowest);
@@ -67,7 +100,24 @@ SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
 }
 
 SolverResult Progress::end_limit(Vector x) {
+    if (evidence_.known_to_diverge())
+        return end_diverging(std::move(x), fmt::format("{} applications were used up", problem_.most));
     return end(std::move(x), Verdict::limit, fmt::format("{} applications were used up", problem_.most));
+}
+
+SolverResult Progress::end_diverging(Vector x, const std::string& seen) {
+    return end(std::move(x), Verdict::diverging, fmt::format("{}, and the spectral radius is {:.6g}", seen, evidence_.radius()));
+}
+
+SolverResult Progress::end_overflow(Vector x, const char* what) {
+    const std::string seen = fmt::format("{} grew until they were not finite", what);
+    return diverges() ? end_diverging(std::move(x), seen) : end(std::move(x), Verdict::broke_down, seen);
+}
+
+SolverResult Progress::end_rounding(Vector x, double error) {
+    const std::string left = fmt::format("rounding leaves an error of about {:.2g}", error);
+    if (!(error < 1e-3)) return end(std::move(x), Verdict::refused, left + ": I − K is singular to rounding");
+    return end(std::move(x), Verdict::rounding, left);
 }
 
 }  // namespace neumann

@@ -26,14 +26,14 @@ SolverResult solve_sor(const Problem& problem, double omega) {
             change = std::max(change, std::abs(step));
         }
         progress.count(1.0);
-        if (!x.allFinite()) return progress.end(x, Verdict::diverging, "the iterates grew until they were not finite");
+        if (!x.allFinite()) return progress.end_overflow(x, "the iterates");
         rate.add(change);
-        if (progress.reached(x, change == 0.0 ? 0.0 : rate.estimate() / largest(x)))
+        const double rounding = progress.rounding(rate.rate()), size = largest(x);
+        if (progress.reached(x, size == 0.0 ? 0.0 : std::max(change == 0.0 ? 0.0 : rate.estimate() / size, rounding)))
             return progress.end(x, Verdict::converged, fmt::format("the changes fall at the rate {:.6g}", rate.rate()));
-        if (rate.not_falling() && change <= 1e-12 * largest(x))
-            return progress.end(x, Verdict::limit, "the changes are down to rounding");
-        if (rate.not_falling())
-            return progress.end(x, Verdict::diverging, "the changes did not get smaller over the last 32 sweeps");
+        if (Progress::is_rounding(change, x, !rate.not_falling())) return progress.end_rounding(x, rounding);
+        if (rate.not_falling() && progress.diverges())
+            return progress.end_diverging(x, "the changes did not get smaller over the last 32 sweeps");
         if (progress.exhausted()) return progress.end_limit(x);
     }
 }
@@ -61,8 +61,10 @@ SolverResult solve_southwell(const Problem& problem) {
         progress.count(cost);
         if (i % std::max<Eigen::Index>(1, n / 4) != 0) continue;
         if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
-        if (!(K.measure().dot(r.cwiseAbs()) < 1e6 * power))
-            return progress.end(x, Verdict::diverging, "the unshot power grew to a million times the emitted power");
+        if (Progress::is_rounding(largest(r), x)) return progress.end_rounding(x, progress.from_residual(r, x));
+        if (!x.allFinite()) return progress.end_overflow(x, "the iterates");
+        if (!(K.measure().dot(r.cwiseAbs()) < 1e6 * power) && progress.diverges())
+            return progress.end_diverging(x, "the unshot power grew to a million times the emitted power");
         if (progress.exhausted()) return progress.end_limit(x);
     }
 }

@@ -10,7 +10,8 @@ namespace neumann {
 // x = S_n, added with compensation. Estimate: ChangeRate of ‖t_n‖∞.
 SolverResult solve_neumann(const Problem&);
 
-// x = S_n + t_n λ/(1−λ) with one ratio for all, λ = ⟨t_n, t_n⟩ / ⟨t_n, t_{n−1}⟩. Refused where |λ| ≥ 1 at the end.
+// x = S_n + t_n λ/(1−λ) with one ratio for all, λ = ⟨t_n, t_n⟩ / ⟨t_n, t_{n−1}⟩. Where |λ| ≥ 1, as where terms
+// alternate, there is none, and the series is left as it is; refused where it ends so.
 // The accelerator that stands noise in the terms: λ is an average.
 SolverResult solve_ratio_tail(const Problem&);
 

@@ -7,17 +7,32 @@
 #include "operators/solvers/channel_operator.h"
 
 #include <complex>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace neumann {
 
-// In the norms Σ m|f|, (Σ m f²)^½ and max |f|, m the measure.
+// How far a search is: the largest ‖K v − λ v‖₂ / |λ| of the pairs that are wanted, ‖v‖₂ = 1.
+struct EigenStep {
+    double applications = 0.0, residual = 1.0;
+};
+
+// When a search ends that does not find what it looks for.
+struct EigenLimits {
+    double most = 10000.0;  // applications of K; also where it is foretold to take more
+    std::function<bool(const EigenStep&)> go_on = [](const EigenStep&) { return true; };  // asked before each
+};
+
+// In the norms Σ m|f|, (Σ m f²)^½ and max |f|, m the measure: where f is radiance and m étendue, the first is power. `one_at`: the
+// unknown of which most of the power is left.
 struct OperatorNorms {
-    double one = 0.0, two = 0.0, sup = 0.0;
+    double one = 0.0, two = 0.0, sup = 0.0;  // two: not a number where it was not found
+    Eigen::Index one_at = 0;
 };
 
 // For K ≥ 0: row sums of K and of K*, and the largest singular value by Lanczos on K*K.
-OperatorNorms operator_norms(const ChannelOperator& K);
+OperatorNorms operator_norms(const ChannelOperator& K, const EigenLimits& limits = {});
 
 struct Eigenpair {
     std::complex<double> value;
@@ -26,15 +41,20 @@ struct Eigenpair {
 };
 
 struct Eigenpairs {
-    std::vector<Eigenpair> pairs;  // by falling |λ|; conjugate pairs are two
+    std::vector<Eigenpair> pairs;  // by falling |λ|; conjugate pairs are two. What was reached, where not all were found
     bool converged = false;        // all that were asked for
     double applications = 0.0;     // n where K was small and formed
+    std::vector<EigenStep> history = {};  // a step each restart
+    std::string why = {};                 // they were not found: "not found within 512 applications of K, largest residual 2e-03: …"
+
+    // |λ₁|; not a number where it was not found.
+    double radius() const;
 };
 
 // The `count` eigenvalues of largest modulus, by Arnoldi's method with implicit restarts (Spectra), or of the matrix where it has
 // at most 64 unknowns. Of the adjoint K* where asked for. The start is fixed, so that the answer is too. An eigenvalue with
 // several vectors may come with fewer of them, as from every method that builds on one start.
-Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint = false);
+Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint = false, const EigenLimits& limits = {});
 
 // |λ₁|, or not a number where it was not found.
 double spectral_radius(const ChannelOperator& K);

@@ -134,31 +134,38 @@ double expected_rmse(const Estimate& test, const Estimate& reference) {
     return error.standard_error() / std::sqrt(3.0 * static_cast<double>(places.size()));
 }
 
-MeanDifferences compare_means(const Estimate& test, double test_degrees_of_freedom, const Estimate& reference,
-                              double reference_degrees_of_freedom, double confidence) {
-    expect_same_size(test.mean, reference.mean);
-    const std::vector<std::size_t> places = finite_in_both(test.mean, reference.mean);
+MeanDifferences compare_means(const ComparedPicture& test, const ComparedPicture& reference, double confidence) {
+    const Image &test_mean = test.picture.mean, &reference_mean = reference.picture.mean;
+    expect_same_size(test_mean, reference_mean);
+    const std::vector<std::size_t> places = finite_in_both(test_mean, reference_mean);
+    const bool all_pixels = places.size() == test_mean.pixels.size();
     const double n = static_cast<double>(places.size());
 
-    const auto difference_of = [&](const auto& value) {
+    const auto difference_of = [&](const auto& value, const auto& part) {
         MeanDifference d;
         ErrorOfSum error;
-        const auto add_errors = [&](const Estimate& picture, double degrees_of_freedom) {
+        const auto add_errors = [&](const ComparedPicture& compared) {
+            const Estimate& picture = compared.picture;
             if (picture.standard_error.pixels.empty()) return;
+            if (compared.means && all_pixels) {
+                const MeanWithError& mean = part(*compared.means);
+                error.add(mean.standard_error, mean.degrees_of_freedom);
+                return;
+            }
             double all = 0.0;
             for (const std::size_t i : places) {
                 const double one = value(picture.standard_error.pixels[i]) / n;
                 all += one;
-                if (picture.pixels_are_independent) error.add(one, degrees_of_freedom);
+                if (picture.pixels_are_independent) error.add(one, compared.degrees_of_freedom);
             }
-            if (!picture.pixels_are_independent) error.add(all, degrees_of_freedom);
+            if (!picture.pixels_are_independent) error.add(all, compared.degrees_of_freedom);
         };
-        add_errors(test, test_degrees_of_freedom);
-        add_errors(reference, reference_degrees_of_freedom);
+        add_errors(test);
+        add_errors(reference);
         for (const std::size_t i : places) {
-            d.mean += value(test.mean.pixels[i]);
-            d.reference_mean += value(reference.mean.pixels[i]);
-            d.difference += value(test.mean.pixels[i]) - value(reference.mean.pixels[i]);
+            d.mean += value(test_mean.pixels[i]);
+            d.reference_mean += value(reference_mean.pixels[i]);
+            d.difference += value(test_mean.pixels[i]) - value(reference_mean.pixels[i]);
         }
         for (double* sum : {&d.mean, &d.reference_mean, &d.difference}) *sum /= n;
         d.standard_error = error.standard_error();
@@ -167,8 +174,9 @@ MeanDifferences compare_means(const Estimate& test, double test_degrees_of_freed
         return d;
     };
     MeanDifferences all;
-    for (int c = 0; c < 3; ++c) all.channel[c] = difference_of([c](const Rgb& v) { return v[c]; });
-    all.all = difference_of(mean_component);
+    for (int c = 0; c < 3; ++c)
+        all.channel[c] = difference_of([c](const Rgb& v) { return v[c]; }, [c](const PictureMeans& m) { return m.channel[c]; });
+    all.all = difference_of(mean_component, [](const PictureMeans& m) { return m.all; });
     return all;
 }
 

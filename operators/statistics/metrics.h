@@ -1,7 +1,7 @@
 // How far a picture is from a reference.
 #pragma once
 
-#include "core/image/image.h"
+#include "operators/statistics/picture_statistics.h"
 
 #include <cstddef>
 #include <limits>
@@ -34,9 +34,10 @@ Metrics compare(const Image& test, const Image& reference);
 // none.
 double expected_rmse(const Estimate& test, const Estimate& reference);
 
-// The mean over all pixels, its difference from the reference's, and how sure that is. Pixels are independent unless the picture
-// says otherwise, and then their standard errors add up; the channels of a pixel share their samples, so for a mean over channels
-// their standard errors add up, and the interval holds at least its confidence.
+// The mean over all pixels, its difference from the reference's, and how sure that is. Where a picture's means come with errors of
+// their own, these count. Otherwise pixels are independent unless the picture says that they are not, and then their standard errors
+// add up; the channels of a pixel share their samples, so for a mean over channels their standard errors add up, and the interval
+// holds at least its confidence.
 struct MeanDifference {
     double mean = 0.0, reference_mean = 0.0, difference = 0.0;
     double standard_error = 0.0;      // of the difference
@@ -50,10 +51,16 @@ struct MeanDifferences {
 
 constexpr double exact_degrees_of_freedom = std::numeric_limits<double>::infinity();
 
-// Compares means by the standard errors of both pictures, which rest on so many degrees of freedom a pixel. An empty standard_error
-// counts as no error: a reference known exactly. Pixels that compare() leaves out are left out. Throws InputError if the sizes
+// A picture whose standard errors rest on so many degrees of freedom a pixel. An empty standard_error counts as no error: a picture
+// known exactly.
+struct ComparedPicture {
+    const Estimate& picture;
+    double degrees_of_freedom = exact_degrees_of_freedom;
+    const PictureMeans* means = nullptr;  // of all its pixels, where they are known with their own errors
+};
+
+// Pixels that compare() leaves out are left out, and then `means`, which have them, do not count. Throws InputError if the sizes
 // differ.
-MeanDifferences compare_means(const Estimate& test, double test_degrees_of_freedom, const Estimate& reference,
-                              double reference_degrees_of_freedom, double confidence = 0.95);
+MeanDifferences compare_means(const ComparedPicture& test, const ComparedPicture& reference, double confidence = 0.95);
 
 }  // namespace neumann

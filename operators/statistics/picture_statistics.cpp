@@ -20,31 +20,42 @@ double largest(const Image& image) {
     return value;
 }
 
-}  // namespace
-
-double MeanWithError::interval() const {
-    return standard_error == 0.0 ? 0.0 : student_t_quantile(0.95, degrees_of_freedom) * standard_error;
-}
-
-MeanWithError picture_mean(const Estimate& estimate) {
+// `value`: of a pixel, and of its standard error.
+template <class Value>
+MeanWithError mean_of(const Estimate& estimate, const Value& value) {
     const std::size_t n = estimate.mean.pixels.size();
     if (n == 0) return {};
     double sum = 0.0, largest_error = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        sum += mean_component(estimate.mean.pixels[i]);
-        largest_error = std::max(largest_error, mean_component(estimate.standard_error.pixels[i]));
+        sum += value(estimate.mean.pixels[i]);
+        largest_error = std::max(largest_error, value(estimate.standard_error.pixels[i]));
     }
     const double mean = sum / static_cast<double>(n), df = estimate.degrees_of_freedom;
     if (largest_error == 0.0 || !std::isfinite(largest_error)) return {mean, largest_error, df};
     double variance = 0.0, variance2 = 0.0, sum_of_errors = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        const double error = mean_component(estimate.standard_error.pixels[i]) / largest_error, v = error * error;
+        const double error = value(estimate.standard_error.pixels[i]) / largest_error, v = error * error;
         variance += v;
         variance2 += v * v;
         sum_of_errors += error;
     }
     if (!estimate.pixels_are_independent) return {mean, largest_error * sum_of_errors / static_cast<double>(n), df};
     return {mean, largest_error * std::sqrt(variance) / static_cast<double>(n), df * variance * variance / variance2};
+}
+
+}  // namespace
+
+double MeanWithError::interval() const {
+    return standard_error == 0.0 ? 0.0 : student_t_quantile(0.95, degrees_of_freedom) * standard_error;
+}
+
+MeanWithError picture_mean(const Estimate& estimate) { return mean_of(estimate, mean_component); }
+
+PictureMeans picture_means(const Estimate& estimate) {
+    PictureMeans means;
+    for (int c = 0; c < 3; ++c) means.channel[c] = mean_of(estimate, [c](const Rgb& v) { return v[c]; });
+    means.all = picture_mean(estimate);
+    return means;
 }
 
 MeanWithError difference(const MeanWithError& a, const MeanWithError& b) {

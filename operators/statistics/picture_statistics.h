@@ -15,6 +15,12 @@ struct MeanWithError {
 // only make the error larger. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
+// Of each channel over pixels, and of all over both.
+struct PictureMeans {
+    MeanWithError channel[3], all;
+};
+PictureMeans picture_means(const Estimate& estimate);
+
 // a − b, of independent means. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError difference(const MeanWithError& a, const MeanWithError& b);
 

@@ -7,7 +7,8 @@ namespace neumann {
 
 namespace {
 
-enum class Add { values, squares };
+// Bounds: one sample more or less counts for as little as there are pixels.
+enum class Add { values, squares, bounds };
 
 Image box_means(const Image& picture, int factor, Add add) {
     if (picture.pixels.empty()) return {};
@@ -21,8 +22,8 @@ Image box_means(const Image& picture, int factor, Add add) {
                     const Rgb& p = picture.at(u, v);
                     sum += add == Add::squares ? p * p : p;
                 }
-            out.at(x, y) =
-                (add == Add::squares ? glm::sqrt(sum) : sum) / static_cast<double>((right - x * factor) * (low - y * factor));
+            const double n = static_cast<double>((right - x * factor) * (low - y * factor));
+            out.at(x, y) = (add == Add::squares ? glm::sqrt(sum) : sum) / (add == Add::bounds ? n * n : n);
         }
     }
     return out;
@@ -30,11 +31,12 @@ Image box_means(const Image& picture, int factor, Add add) {
 
 }  // namespace
 
-Estimate reduced(const Estimate& picture, int factor) {
+PixelEstimate reduced(const PixelEstimate& picture, int factor) {
     if (factor == 1) return picture;
-    Estimate out = picture;
+    PixelEstimate out = picture;
     out.mean = box_means(picture.mean, factor, Add::values);
     out.standard_error = box_means(picture.standard_error, factor, picture.pixels_are_independent ? Add::squares : Add::values);
+    out.least_error = box_means(picture.least_error, factor, Add::bounds);
     out.discretisation = box_means(picture.discretisation, factor, Add::values);
     return out;
 }

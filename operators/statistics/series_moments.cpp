@@ -53,6 +53,25 @@ std::uint64_t SeriesMoments::replicates() const {
 }
 
 std::vector<double> SeriesMoments::add(MomentsNode node) {
+    join(node.ranges);
+    node.ranges = {};
+    return join(std::move(node));
+}
+
+void SeriesMoments::add(const SeriesMoments& next) {
+    if (next.nodes_.empty()) return;
+    join(next.ranges_);
+    for (const MomentsNode& node : next.nodes_) join(node);
+}
+
+void SeriesMoments::join(const SampleRanges& ranges) {
+    if (nodes_.empty())
+        ranges_ = ranges;
+    else
+        ranges_.merge(ranges);
+}
+
+std::vector<double> SeriesMoments::join(MomentsNode node) {
     if (!nodes_.empty() && node.first != nodes_.back().first + nodes_.back().count)
         throw std::logic_error("SeriesMoments: replicates are not consecutive");
     nodes_.push_back(std::move(node));
@@ -68,10 +87,6 @@ std::vector<double> SeriesMoments::add(MomentsNode node) {
         nodes_.pop_back();
     }
     return free;
-}
-
-void SeriesMoments::add(const SeriesMoments& next) {
-    for (const MomentsNode& node : next.nodes_) add(node);
 }
 
 SeriesMoments::Result SeriesMoments::result() const {
@@ -123,6 +138,15 @@ MeanWithError SeriesMoments::Result::mean(std::size_t quantity, bool sum) const 
     if (pixels_are_independent()) return picture_mean(estimate(quantity, sum));
     const auto [mean, error] = at(pixels(), quantity, sum);
     return {mean_component(mean), mean_component(error), degrees_of_freedom()};
+}
+
+PictureMeans SeriesMoments::Result::means(std::size_t quantity, bool sum) const {
+    if (pixels_are_independent()) return picture_means(estimate(quantity, sum));
+    PictureMeans means;
+    const auto [value, error] = at(pixels(), quantity, sum);
+    for (int c = 0; c < 3; ++c) means.channel[c] = {value[c], error[c], degrees_of_freedom()};
+    means.all = mean(quantity, sum);
+    return means;
 }
 
 }  // namespace neumann

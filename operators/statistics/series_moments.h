@@ -8,6 +8,7 @@
 
 #include "core/image/image.h"
 #include "operators/statistics/picture_statistics.h"
+#include "operators/statistics/sample_ranges.h"
 
 #include <cstdint>
 #include <span>
@@ -30,6 +31,7 @@ public:
 struct MomentsNode {
     std::uint64_t first = 0, count = 0;
     std::vector<double> data;  // pixel by pixel; where pixels are not independent, their mean comes after them as one more
+    SampleRanges ranges = {};  // of the samples themselves; may be empty
 };
 
 // Any consecutive replicates, as the fewest nodes.
@@ -49,15 +51,21 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
     const std::vector<MomentsNode>& nodes() const { return nodes_; }
+    // Of all samples; empty where they were not kept.
+    const SampleRanges& ranges() const { return ranges_; }
 
     // Joins all nodes into pictures that term() and sum() can be read from.
     class Result;
     Result result() const;
 
 private:
+    void join(const SampleRanges& ranges);
+    std::vector<double> join(MomentsNode node);
+
     int width_, height_;
     std::size_t quantities_;
     std::vector<MomentsNode> nodes_;
+    SampleRanges ranges_;  // of all nodes, whose own are empty
 };
 
 class SeriesMoments::Result {
@@ -69,6 +77,8 @@ public:
     // Of their means over pixels and channels. Where pixels are not independent it is the spread of whole pictures that counts.
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, false); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
+    PictureMeans means_of_term(std::size_t i) const { return means(i, false); }
+    PictureMeans means_of_sum(std::size_t i) const { return means(i, true); }
 
     // The mean alone, at one pixel.
     Rgb term_at(std::size_t pixel, std::size_t i) const { return at(pixel, i, false).first; }
@@ -84,6 +94,7 @@ private:
     friend class SeriesMoments;
     Estimate estimate(std::size_t i, bool sum) const;
     MeanWithError mean(std::size_t i, bool sum) const;
+    PictureMeans means(std::size_t i, bool sum) const;
     // At one pixel: its mean and standard error.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
     bool pixels_are_independent() const { return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }

@@ -3,12 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace neumann {
 
 namespace {
 
 bool larger(const LargestSamples::Sample& a, const LargestSamples::Sample& b) { return a.value > b.value; }
+
+// Hill's estimate from the k largest of samples that fall, and how many more would be above the largest of them if the tail went on
+// so: k (X_k / X_1)^α, which of a power law is above x with probability e^−x (Aban, Meerschaert and Panorska, Parameter Estimation
+// for the Truncated Pareto Distribution, 2006).
+struct Hill {
+    double alpha, upper, missing;
+
+    Hill(const std::vector<double>& largest, std::size_t k) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i + 1 < k; ++i) sum += std::log(largest[i] / largest[k - 1]);
+        const auto n = static_cast<double>(k - 1);
+        alpha = n / sum;  // infinite where all are equal
+        upper = alpha * (1.0 + 3.1 / std::sqrt(n));
+        missing = static_cast<double>(k) * std::pow(largest[k - 1] / largest[0], alpha);
+    }
+    bool ends() const { return missing > -std::log(1e-6); }
+};
 
 }  // namespace
 
@@ -48,16 +66,10 @@ std::optional<TailIndex> tail_index(const LargestSamples& samples) {
     const std::vector<double> largest = samples.sorted();
     const std::size_t k = std::min<std::size_t>({LargestSamples::capacity, largest.size(), samples.count() / 200});
     if (k < 400) return std::nullopt;
-    const auto hill = [&](std::size_t of) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i + 1 < of; ++i) sum += std::log(largest[i] / largest[of - 1]);
-        const auto n = static_cast<double>(of - 1);
-        const double alpha = n / sum;  // infinite where all are equal
-        return TailIndex{alpha, alpha * (1.0 + 3.1 / std::sqrt(n))};
-    };
-    const TailIndex near = hill(k), far = hill(k / 4);
+    const Hill near(largest, k), far(largest, k / 4);
     if (!std::isfinite(near.alpha)) return std::nullopt;
-    return TailIndex{near.alpha, std::max(near.upper, far.upper)};
+    const bool ends = near.ends() && far.ends();
+    return TailIndex{near.alpha, ends ? std::numeric_limits<double>::infinity() : std::max(near.upper, far.upper)};
 }
 
 }  // namespace neumann

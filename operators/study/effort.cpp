@@ -19,8 +19,10 @@ std::uint64_t mix(std::uint64_t x) {
 
 Effort sampling_effort(int level) { return {std::uint64_t{1} << level}; }
 
-Effort field_effort(int level) {
-    return {std::uint64_t{8} << level, std::size_t{250} << level, std::uint32_t{64} << std::min(level / 2, 14)};
+Effort field_effort(double level) {
+    const int whole = static_cast<int>(std::floor(level));
+    return {std::uint64_t{8} << whole, static_cast<std::size_t>(std::llround(250.0 * std::exp2(level))),
+            std::uint32_t{64} << std::min(whole / 2, 14)};
 }
 
 Effort field_effort_of_samples(std::uint64_t samples) {
@@ -30,19 +32,56 @@ Effort field_effort_of_samples(std::uint64_t samples) {
     return effort;
 }
 
-std::vector<int> choose_levels(std::span<const double> measured, std::span<const double> budgets) {
-    const auto seconds = [&](int level) {
-        const int last = static_cast<int>(measured.size()) - 1;
-        return level <= last ? measured[static_cast<std::size_t>(level)] : std::ldexp(measured.back(), level - last);
-    };
-    std::vector<int> levels;
-    for (const double budget : budgets) {
-        int best = levels.empty() ? 0 : std::min(levels.back() + 1, largest_effort);
-        for (int level = best; level <= largest_effort; ++level)
-            if (std::abs(std::log(seconds(level) / budget)) < std::abs(std::log(seconds(best) / budget))) best = level;
-        levels.push_back(best);
+std::uint64_t whole_nets(double samples) {
+    std::uint64_t spacing = 1;
+    while (samples >= 16.0 * static_cast<double>(spacing)) spacing *= 2;
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(samples / static_cast<double>(spacing)))) * spacing;
+}
+
+double affordable_level(std::span<const double> measured, double growth, double seconds) {
+    std::size_t k = measured.size();
+    while (k > 0 && measured[k - 1] > seconds) --k;
+    if (k == 0) return 0.0;
+    const double factor = k < measured.size() ? measured[k] / measured[k - 1] : growth;
+    return std::min(static_cast<double>(k - 1) + std::log(seconds / measured[k - 1]) / std::log(factor),
+                    static_cast<double>(largest_effort));
+}
+
+double field_growth(std::span<const double> measured) {
+    const std::size_t n = measured.size();
+    return n > 2 ? std::clamp(std::sqrt(measured[n - 1] / measured[n - 3]), 1.5, 4.0) : 2.0;
+}
+
+double corrected_level(double level, double seconds, double budget) {
+    constexpr double just_below = 1.0 - 0x1p-10;
+    const double whole = std::floor(level);
+    return std::clamp(level + std::log2(budget / seconds), whole, whole + just_below);
+}
+
+bool misses(double seconds, double budget) { return std::abs(seconds - budget) > 0.1 * budget; }
+
+std::vector<Effort> sampling_efforts(std::span<const double> levels) {
+    std::vector<Effort> efforts;
+    for (const double level : levels) {
+        std::uint64_t samples = whole_nets(std::exp2(level));
+        if (!efforts.empty() && samples <= efforts.back().samples) {
+            const std::uint64_t last = efforts.back().samples;
+            samples = last + std::max<std::uint64_t>(std::bit_floor(last) / 8, 1);
+        }
+        efforts.push_back({samples});
     }
-    return levels;
+    return efforts;
+}
+
+std::vector<Effort> field_efforts(std::span<const double> levels, bool patches_given) {
+    const double least = patches_given ? 1.0 : 0.125;
+    std::vector<Effort> efforts;
+    double last = -least;
+    for (const double level : levels) {
+        last = std::max(patches_given ? std::round(level) : level, last + least);
+        efforts.push_back(field_effort(last));
+    }
+    return efforts;
 }
 
 std::uint64_t study_seed(std::uint64_t seed, std::uint64_t method, std::uint64_t budget, std::uint64_t repeat) {

@@ -14,7 +14,9 @@ from ._progress import run as run_job
 from ._report import Report
 
 Picture = NDArray[np.float32]
-_Pictures = Tuple[Picture, Optional[Picture], Optional[Picture]]
+_Means = Optional[Tuple[Tuple[float, float, float], ...]]
+# Mean, stderr, discretisation, spread, means.
+_Pictures = Tuple[Picture, Optional[Picture], Optional[Picture], Optional[Picture], _Means]
 
 
 class _Source(Protocol):
@@ -109,7 +111,9 @@ class BounceSeries:
 
     Pictures are float32, scene-linear RGB, as in the files; row 0 is on top. Radiance in W·m⁻²·sr⁻¹, importance in m⁻²·sr⁻¹.
     A standard error is that of a pixel and channel; mean ± t · stderr is a 95% interval, with Student's t of
-    ``run.samples.degrees_of_freedom``. inf: unknown, after a single replicate.
+    ``run.samples.degrees_of_freedom``. inf: unknown, after a single replicate. Where the mean is 0 and the standard error is not, no
+    sample met anything, and t · stderr is an upper bound; 0 with 0 is known to be dark. A pixel's standard error is not below what few
+    samples leave open, however well they agree; the spread is without that, and is for means over pixels.
 
     In a notebook it shows its bounces and sums in two rows, at one exposure.
     """
@@ -125,23 +129,24 @@ class BounceSeries:
         return [self._source.picture(kind, i) for i in range(self.bounces + 1)]
 
     @staticmethod
-    def _stack(pictures: List[_Pictures], which: int) -> Optional[Picture]:
-        found = [p[which] for p in pictures]
-        return None if any(f is None for f in found) else np.stack(found)  # type: ignore[arg-type]
+    def _stack(pictures: List[_Pictures]) -> Tuple[Any, ...]:
+        def stacked(which: int) -> Optional[Picture]:
+            found = [p[which] for p in pictures]
+            return None if any(f is None for f in found) else np.stack(found)  # type: ignore[arg-type]
+
+        return *(stacked(which) for which in range(4)), [p[4] for p in pictures]
 
     @cached_property
-    def _terms(self) -> Tuple[Any, Any, Any]:
-        pictures = self._all("bounce")
-        return self._stack(pictures, 0), self._stack(pictures, 1), self._stack(pictures, 2)
+    def _terms(self) -> Tuple[Any, ...]:
+        return self._stack(self._all("bounce"))
 
     @cached_property
-    def _sums(self) -> Tuple[Any, Any, Any]:
-        pictures = self._all("sum")
-        return self._stack(pictures, 0), self._stack(pictures, 1), self._stack(pictures, 2)
+    def _sums(self) -> Tuple[Any, ...]:
+        return self._stack(self._all("sum"))
 
     @cached_property
     def _rest(self) -> _Pictures:
-        return self._source.rest() or (None, None, None)  # type: ignore[return-value]
+        return self._source.rest() or (None, None, None, None, None)  # type: ignore[return-value]
 
     @property
     def terms(self) -> Picture:
@@ -152,6 +157,11 @@ class BounceSeries:
     def terms_stderr(self) -> Picture:
         """Their standard errors, (N + 1, height, width, 3)."""
         return self._terms[1]
+
+    @property
+    def terms_spread(self) -> Picture:
+        """The standard errors by the samples' spread alone, for means over pixels, (N + 1, height, width, 3)."""
+        return self._terms[3]
 
     @property
     def terms_discretisation(self) -> Optional[Picture]:
@@ -169,6 +179,11 @@ class BounceSeries:
         return self._sums[1]
 
     @property
+    def sums_spread(self) -> Picture:
+        """The standard errors by the samples' spread alone, for means over pixels, (N + 1, height, width, 3)."""
+        return self._sums[3]
+
+    @property
     def sums_discretisation(self) -> Optional[Picture]:
         """What patches get wrong of the sums, (N + 1, height, width, 3); None where there are no patches."""
         return self._sums[2]
@@ -182,6 +197,11 @@ class BounceSeries:
     def rest_stderr(self) -> Optional[Picture]:
         """Its standard error, (height, width, 3)."""
         return self._rest[1]
+
+    @property
+    def rest_spread(self) -> Optional[Picture]:
+        """Its standard error by the samples' spread alone, for means over pixels, (height, width, 3)."""
+        return self._rest[3]
 
     @cached_property
     def table(self) -> NDArray[Any]:
@@ -237,11 +257,11 @@ def read(folder: Union[str, "PathLike[str]"]) -> BounceSeries:
     return BounceSeries(Folder(Path(folder)), fspath(folder))
 
 
-def _picture(x: "Comparable") -> Optional[Tuple[NDArray[Any], Optional[Picture]]]:
-    """A picture with its standard error, from memory or a file; None of a series."""
+def _picture(x: "Comparable") -> Optional[_Pictures]:
+    """A picture with its errors, from memory or a file; None of a series."""
     if isinstance(x, (str, PathLike)):
-        return None if Path(x).is_dir() else _neumann.read(fspath(x))[:2]
-    return None if isinstance(x, BounceSeries) else (np.asarray(x), None)
+        return None if Path(x).is_dir() else _neumann.read(fspath(x))
+    return None if isinstance(x, BounceSeries) else (np.asarray(x), None, None, None, None)
 
 
 Comparable = Union[BounceSeries, NDArray[Any], str, "PathLike[str]"]
@@ -251,17 +271,21 @@ def compare(a: Comparable, b: Comparable) -> Any:
     """How far a is from the reference b, as ``neumann compare``.
 
     Two pictures, each an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
-    reference_mean, mean_difference; means run over pixels and channels, fractions and not percent, with ε = 0.01:
+    reference_mean, mean_difference and mean_difference_interval95, half of the latter's interval: None where a file does not hold it, and
+    an array counts as exact. Means run over pixels and channels, fractions and not percent, with ε = 0.01:
     RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
 
     Two series, or folders of renders, give a structured array: a row for each picture that both have ("bounce_000" …, "sum_000" …,
     "rest" where they end at the same bounce). ``rmse_by_noise`` is the RMSE that standard errors alone explain. Raises InputError
     where sizes differ.
     """
+
+    def errors_of(x: Any, y: Any) -> Any:
+        return _neumann.compare(x[0], y[0], x[3], y[3], x[4], y[4])
+
     pictures = [_picture(x) for x in (a, b)]
     if all(pictures):
-        (x, x_stderr), (y, y_stderr) = pictures
-        return Report(_neumann.compare(x, y, x_stderr, y_stderr))
+        return Report(errors_of(*pictures))
     if any(pictures):
         raise _neumann.InputError("a series against a picture; compare a picture with a picture, as series.terms[2] is one")
     a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
@@ -272,10 +296,9 @@ def compare(a: Comparable, b: Comparable) -> Any:
 
     for name, kind in (("bounce", "_terms"), ("sum", "_sums")):
         for i in both:
-            (x, x_stderr, _), (y, y_stderr, _) = of(a, kind, i), of(b, kind, i)
-            rows.append((f"{name}_{i:03}", _neumann.compare(x, y, x_stderr, y_stderr)))
+            rows.append((f"{name}_{i:03}", errors_of(of(a, kind, i), of(b, kind, i))))
     if a.rest is not None and b.rest is not None and len(a) == len(b):
-        rows.append(("rest", _neumann.compare(a.rest, b.rest, a.rest_stderr, b.rest_stderr)))
+        rows.append(("rest", errors_of(a._rest, b._rest)))
     columns = [name for name in rows[0][1] if name not in ("pixels", "not_finite")]
     result = np.empty(len(rows), dtype=[("picture", "U12")] + [(name, np.float64) for name in columns])
     for row, (name, figures) in zip(result, rows):

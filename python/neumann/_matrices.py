@@ -36,7 +36,7 @@ class Matrices:
     patches: a row for each side of a patch: its first ``unknown``, how many ``directions``, ``patch``, ``side``, ``shape``, the middle
     ``x, y, z`` and the normal ``nx, ny, nz`` in scene units, ``area``.
     channel: "grey", "red", "green" or "blue".
-    radius: the spectral radius of K.
+    radius: the spectral radius of K; nan, with a warning, where it was not found.
     """
 
     T: scipy.sparse.csr_matrix
@@ -56,6 +56,7 @@ class Matrices:
         self.measure, self.ray_measure = made["measure"], made["ray_measure"]
         self.patches = _report.table(made["patches"])
         self.channel, self.radius, self.title = made["channel"], made["radius"], made["title"]
+        self.no_radius = made["no_radius"]
         self._cameras: Dict[Tuple[int, int], Any] = {}
 
     def __iter__(self) -> Iterator[Any]:
@@ -112,7 +113,7 @@ def series(
 
     Returns a Report of
     sum (n,), which is the middle of the enclosure where that ended it;
-    verdict, "converged", "limit" or "diverging", and why;
+    verdict, "converged", "rounding" (all that is left, and error is less), "limit" or "diverging", and why;
     warnings;
     rows, a structured array with a row a bounce: bounce, power Σ m|t|, l2, sup of the term t = K^n Le, ratio of powers, and bounds on
     ‖L − S_n‖∞: a_priori, a_posteriori (inf: there is none), estimate (no bound), enclosure_width, relative;
@@ -170,8 +171,8 @@ def solve(
     eigenvalue where all are real; −radius without it. reflectance: (n,), ρ where K = diag(ρ) F with F reciprocal, for cg. exact: (n,), L
     where it is known, to see true errors. measure: (n,), of each unknown; 1 without it.
 
-    Returns a Report of x (n,), verdict ("converged", "limit", "diverging", "broke down", "refused"), why, applications of K,
-    setup_applications of these, seconds, and history, a structured array: applications, estimate, error (nan where L is not known),
+    Returns a Report of x (n,), verdict ("converged", "rounding", "limit", "diverging", "broke down", "refused"), why, applications
+    of K, setup_applications of these, seconds, and history, a structured array: applications, estimate, error (nan where L is not known),
     seconds. Of several solvers: Solutions, these by name, and with "lu" among them the error of each to it. Raises InputError for an unknown solver.
     """
     operator = _operator(K, measure)
@@ -195,14 +196,29 @@ def solve(
     return Solutions(found, Report(unknowns=operator.size))
 
 
-def spectrum(K: Matrix, count: int = 4, *, measure: Optional[ArrayLike] = None, adjoint: bool = False, quiet: bool = False) -> Report:
+def spectrum(
+    K: Matrix,
+    count: int = 4,
+    *,
+    most: int = 10000,
+    measure: Optional[ArrayLike] = None,
+    adjoint: bool = False,
+    quiet: bool = False,
+) -> Report:
     """Norms and leading eigenvalues of K (n, n), of K* where adjoint is set.
 
-    Returns a Report of norms ("1", "2", "inf"; they belong to Σ m|f|, (Σ m f²)^½ and max |f|), spectral_radius, series ("converges" …),
-    eigenvalues (count,) by falling modulus, eigenvectors (n, count), residuals, eigenvalues_converged, applications of K.
+    most: applications of K that the search may take; it ends sooner where it is foretold to take more. What is not found is a warning.
+
+    Returns a Report of norms ("1", "2", "inf"; they belong to Σ m|f|, (Σ m f²)^½ and max |f|, m the measure, 1 without it: norm
+    "1" is of power if K comes from a scene and m is its matrices().measure), spectral_radius, nan where it was not found, series ("converges" …), eigenvalues (count,) by falling modulus, eigenvectors (n, count), residuals, what was reached where not
+    all were found, eigenvalues_converged, applications of K, why they were not found, and history, a structured array: applications,
+    residual, the largest of all that are wanted, relative.
     """
     operator = _operator(K, measure)
-    made = run(_neumann.spectrum_of(operator, count, adjoint), quiet)
+    made = run(_neumann.spectrum_of(operator, count, adjoint, most), quiet)
+    made["history"] = _report.rows(made["history"], ("applications", "residual"))
+    if made["why"] and not quiet:
+        _report.warn([f"eigenvalues were {made['why']}"])
     made["norms"] = Report(made["norms"])
     return Report(made)
 

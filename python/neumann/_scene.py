@@ -77,6 +77,7 @@ class Scene:
         spp: Optional[int] = None,
         time: Optional[float] = None,
         error: Optional[float] = None,
+        memory: Optional[float] = None,
         method: Optional[str] = None,
         direct: Optional[str] = None,
         lights: Optional[str] = None,
@@ -97,7 +98,8 @@ class Scene:
 
         bounces: the last bounce with a picture of its own; or tail: as many as it takes until the rest is below this part of the sum.
         spp: samples a pixel; time: seconds; error: relative standard error of every bounce. Whichever comes first ends it; without
-        any it ends at 2% error or after 20 seconds.
+        any it ends at 2% error or after 20 seconds, with error alone after ten minutes. memory: GiB that may be taken, half of the machine's
+        without it.
         method: walk (the default), guided, surface, light, bidirectional, classic, pointwise; or matrix, gather, patches.
         direct, lights, roulette, split: how a walk finds lights, which of them, how it ends, where it branches: (64, 1).
         sampler: sobol or independent. ways: of bidirectional, the bounce of which every way is shown. plan: auto or full.
@@ -126,20 +128,28 @@ class Scene:
         directions: Optional[int] = None,
         seed: Optional[int] = None,
         channel: Optional[str] = None,
+        memory: Optional[float] = None,
         threads: Optional[int] = None,
         quiet: bool = False,
     ) -> Matrices:
         """T, R and Le on patches: ``T, R, Le = scene.matrices()``; then ``K = R @ T``, and ``L = Le + K @ Le + K @ K @ Le + …``.
 
         patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
-        or b; without it the one with the largest spectral radius. Raises InputError.
+        or b; without it the one with the largest spectral radius. memory: GiB that may be taken. Raises InputError. Where the spectral
+        radius was not found it is nan, and a warning says why.
         """
-        return Matrices(run(_neumann.matrices(self._scene, options(locals())), quiet))
+        made = Matrices(run(_neumann.matrices(self._scene, options(locals())), quiet))
+        if made.no_radius and not quiet:
+            warn([f"the spectral radius was {made.no_radius}"])
+        return made
 
     def spectrum(
         self,
         *,
         eigenvalues: Optional[int] = None,
+        time: Optional[float] = None,
+        most: Optional[int] = None,
+        memory: Optional[float] = None,
         patches: Optional[int] = None,
         directions: Optional[int] = None,
         seed: Optional[int] = None,
@@ -148,9 +158,11 @@ class Scene:
     ) -> Report:
         """Norms and leading eigenvalues of K, whether and how fast the series ends, rounding: what ``neumann spectrum --json`` prints.
 
-        eigenvalues: how many, 4 without it. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
-        ``norms``, ``eigenvalues`` (k,) complex, by falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of
-        ``matrices()`` with the same patches, directions and seed, ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``.
+        eigenvalues: how many, 4 without it. time: seconds to look for them, 60 without it; most: applications of K of a search, 10000;
+        memory: GiB that may be taken. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
+        ``norms`` ("inf" of radiance, "1" of power, with ``norm_1_standard_error`` by the rays, and "2"), ``eigenvalues`` (k,) complex, by falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of
+        ``matrices()`` with the same patches, directions and seed, ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``,
+        and ``eigenvalues_search``: its applications, its history, and why what it reached is not what it looked for, which is a warning, too.
         """
         text, vectors = run(_neumann.spectrum(self._scene, options(locals())), quiet)
         report = _report.from_json(text)
@@ -169,6 +181,7 @@ class Scene:
         channel: Optional[str] = None,
         error: Optional[float] = None,
         most: Optional[int] = None,
+        memory: Optional[float] = None,
         patches: Optional[int] = None,
         directions: Optional[int] = None,
         seed: Optional[int] = None,
@@ -178,7 +191,7 @@ class Scene:
         """L = Le + K L by the series and by all other solvers, side by side: as ``neumann solve``.
 
         channel: r, g or b; without it the one with the largest spectral radius. error: relative, that ends a solver, 1e-6 without it.
-        most: applications of K that a solver may take, 10000 without it. Returns Reports by the solvers' names; each has x
+        most: applications of K that a solver may take, 10000 without it. memory: GiB that may be taken. Returns Reports by the solvers' names; each has x
         (unknowns,), or x = L − Le where ``about.unknown`` says so, verdict, why, applications, error to LU, history.
         """
         text, x, warnings = run(_neumann.solve(self._scene, options(locals())), quiet)

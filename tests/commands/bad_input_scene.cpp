@@ -54,6 +54,15 @@ TEST_F(BadInputScene, Parameters) {
               "scene.xml:2:22: parameter 'radius' of shape 'sphere' is a string, expected float or integer\n");
 }
 
+TEST_F(BadInputScene, AllAtOnce) {
+    write("bad.obj", "v 0\n");
+    EXPECT_EQ(refusal_of("<shape type=\"sphere\"><float name=\"radius\" value=\"0\"/></shape>\n" + mesh("obj", "bad.obj") +
+                         "\n<bsdf type=\"diffuse\"><float name=\"x\" value=\"1\"/></bsdf>"),
+              "scene.xml:2:43: radius is 0, expected more than 0\n"
+              "bad.obj:1:4: expected a number, found the end of the line\n"
+              "scene.xml:4:29: unknown parameter 'x' of bsdf 'diffuse'; allowed: reflectance\n");
+}
+
 TEST_F(BadInputScene, Meshes) {
     EXPECT_EQ(refusal_of(mesh("obj", "none.obj")), "scene.xml:2:43: there is no file 'none.obj'; looked in: .\n");
     write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
@@ -76,6 +85,37 @@ TEST_F(BadInputScene, CoordinatesThatOverflow) {
                          "<transform name=\"to_world\"><scale value=\"1e200\"/></transform></shape>")
                   .substr(0, 10),
               "scene.xml:");
+}
+
+// Floats hold 7 digits: one vertex far away, and no ray meets anything else any more.
+TEST_F(BadInputScene, AVertexFarAway) {
+    write("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n");
+    EXPECT_EQ(refusal_of(mesh("obj", "far.obj")),
+              "scene.xml:2:1: shape 'obj': all of its triangles are too small or too thin for rays to meet them in a scene that is "
+              "1e+39 across, for shape 'obj' (scene.xml:2:1) has a vertex at 0 1e+39 0; expected at least 1e-7 of that\n");
+    // Another shape is lost to it.
+    write("near.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("wide.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1e39 0\nf 1 2 3\n");
+    EXPECT_EQ(refusal_of(mesh("obj", "near.obj") + "\n" + mesh("obj", "wide.obj")),
+              "scene.xml:2:1: shape 'obj': all of its triangles are too small or too thin for rays to meet them in a scene that is "
+              "1.4e+39 across, for shape 'obj' (scene.xml:3:1) has a vertex at 1e+39 0 0; expected at least 1e-7 of that\n");
+    // All of it in that unit is no harm, up to where squares of areas overflow.
+    write("beyond.obj", "v 0 0 0\nv 1e80 0 0\nv 0 1e80 0\nf 1 2 3\n");
+    EXPECT_EQ(refusal_of(mesh("obj", "beyond.obj")),
+              "scene.xml:2:1: shape 'obj': the scene is 1.4e+80 across, for shape 'obj' (scene.xml:2:1) has a vertex at 1e+80 0 0; "
+              "expected from 1e-70 to 1e+70\n");
+    write("scene.xml", "<scene version=\"3.0.0\">\n" + mesh("obj", "wide.obj") +
+                           "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>");
+    EXPECT_EQ(run({"render", "scene.xml", "-o", "wide", "-n", "1", "--spp", "1", "--quiet"}).exit_code, 0);
+}
+
+// Embree takes no ray from there, and ended the program.
+TEST_F(BadInputScene, ACameraFarAway) {
+    write("scene.xml", R"(<scene version="3.0.0"><shape type="cube"/><sensor type="perspective">
+<transform name="to_world"><lookat origin="0, 1e20, 0" target="0, 0, 0" up="0, 0, 1"/></transform></sensor></scene>)");
+    EXPECT_EQ(refusal("scene.xml"),
+              "scene.xml: the sensor looks from 1e+20 away, with a near_clip of 0.01, at a scene that is 3.5 across; expected at "
+              "most 1e+15 times that\n");
 }
 
 TEST_F(BadInputScene, Films) {

@@ -1,5 +1,6 @@
 // `neumann compare`: tables, JSON, and what cannot be compared.
 #include "apps/compare.h"
+#include "apps/rendered_picture.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 
@@ -194,6 +195,25 @@ TEST_F(CompareCommand, IntervalsOfPixelsThatErrTogetherAreSaidToBeUpperBounds) {
     EXPECT_EQ(printed(a, b).find("upper bounds"), std::string::npos);
     EXPECT_NE(printed(c, b).find("upper bounds"), std::string::npos);
     EXPECT_NE(printed(b, c).find("upper bounds"), std::string::npos);
+}
+
+// Where a file holds the error of its mean that one counts, 0.02 and not the pixels' 0.5, unless pixels are left out.
+TEST_F(CompareCommand, TheErrorOfTheMeanInTheFileCounts) {
+    Estimate together = constant(4, 3.0, 0.5);
+    Attributes attributes{{"neumann:pixels", std::string("correlated")}};
+    attributes.merge(mean_attributes({{{3.0, 0.01, 3.0}, {3.0, 0.02, 3.0}, {3.0, 0.03, 3.0}}, {3.0, 0.02, 3.0}}));
+    const std::string a = put("a.exr", together, attributes), b = put("b.exr", {constant(4, 2.0, 0.0).mean, {}});
+    const std::string table = printed(a, b);
+    EXPECT_EQ(table.find("upper bounds"), std::string::npos) << table;
+    const nlohmann::json j = numbers(a, b).at("pictures").at(0);
+    EXPECT_EQ(j.at("standard_error"), 0.02);
+    EXPECT_EQ(j.at("degrees_of_freedom"), 3.0);
+    EXPECT_EQ(j.at("blue").at("standard_error"), 0.03);
+    EXPECT_EQ(j.at("interval_is_upper_bound"), false);
+    together.mean.at(1, 2).g = std::nan("");
+    const std::string c = put("c.exr", together, attributes);
+    EXPECT_NEAR(numbers(c, b).at("pictures").at(0).at("standard_error").get<double>(), 0.5, 1e-12);
+    EXPECT_NE(printed(c, b).find("upper bounds"), std::string::npos);
 }
 
 TEST_F(CompareCommand, PixelsThatAreNotFiniteAreSaid) {

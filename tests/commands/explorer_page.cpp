@@ -43,7 +43,7 @@ double error_value(const nlohmann::ordered_json& scale, int code) {
 // it, and errors 3%, or what 253 steps over their range leave.
 TEST(ExplorerPage, PackedPicturesKeepThreeDigits) {
     constexpr int width = 7, height = 5;
-    Estimate term{Image(width, height), Image(width, height), 15.0}, sum = term;
+    PixelEstimate term = Estimate{Image(width, height), Image(width, height), 15.0}, sum = term;
     std::mt19937 random(3);
     std::uniform_real_distribution<double> decades(-9.0, 0.0), narrow(0.0, 1.0);
     for (std::size_t i = 0; i < term.mean.pixels.size(); ++i)
@@ -122,7 +122,7 @@ TEST(ExplorerPage, SeventeenNoisyBouncesStayBelow15Megabytes) {
         return picture;
     };
     for (int i = 0; i <= 16; ++i) {
-        const Estimate term = noisy(), sum = noisy();
+        const PixelEstimate term = noisy(), sum = noisy();
         packed.add(term, &sum);
     }
     packed.add(noisy(), nullptr);
@@ -164,7 +164,7 @@ TEST(ExplorerPage, TextCannotEndItsScript) {
     nlohmann::ordered_json json = small_run(1);
     json["command"] = "</script><script>alert(1)</script><!--";
     PackedSeries packed(1, 1, 1);
-    packed.add({Image(1, 1), Image(1, 1)}, nullptr);
+    packed.add(Estimate{Image(1, 1), Image(1, 1)}, nullptr);
     packed.pack();
     const ExploredRun run{json, "", 1.0, std::move(packed), false};
     const std::string page = explorer_page({&run});

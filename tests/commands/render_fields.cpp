@@ -100,6 +100,67 @@ TEST_F(RenderFields, ReachTheErrorThatIsAskedFor) {
     for (int i = 0; i <= N; ++i) EXPECT_LE(table.last(fmt::format("relative_stderr_{:03}", i)), 0.05);
 }
 
+// Stopped by time, and repeated by what run.json says.
+TEST_F(RenderFields, TimeEndsThem) {
+    for (const char* method : {"patches", "matrix", "gather"}) {
+        render_plates("timed", {"--method", method, "--time", "0.5"});
+        const auto run = run_json("timed");
+        const std::string outcome = run.at("samples").at("outcome");
+        EXPECT_TRUE(outcome == "time reached" || outcome == "more does not pay") << outcome;
+        EXPECT_NE(run.at("samples").at("why").get<std::string>(), "");
+        EXPECT_LT(run.at("timing").at("sampling_seconds").get<double>(), 30.0);  // a busy machine is no failure
+        expect_complete("timed");
+        const auto number = [&](const char* part, const char* name) { return run.at(part).at(name).dump(); };
+        render_plates("again", {"--method", method, "--patches", number("options", "patches"), "--directions",
+                                number("options", "directions"), "--spp", number("samples", "per_pixel")});
+        expect_same_pictures("timed", "again");
+    }
+    // What is given is gone to, if there is time.
+    const std::vector<std::string> given{"--method", "matrix", "--patches", "600", "--directions", "128", "--spp", "16"};
+    auto timed = given;
+    timed.insert(timed.end(), {"--time", "600"});
+    render_plates("given", given);
+    render_plates("timed", timed);
+    EXPECT_EQ(run_json("timed").at("samples").at("outcome"), "samples reached");
+    expect_same_pictures("timed", "given");
+}
+
+// An error that is not within reach ends with what was reached, and with the reason.
+TEST_F(RenderFields, ErrorsOutOfReach) {
+    write("scene.xml", plates());
+    const Finished done = run({"render", "scene.xml", "-o", "time", "-n", "2", "--method", "matrix", "--error", "1e-5", "--time", "0.5"});
+    EXPECT_EQ(done.exit_code, 0);
+    const auto time = run_json("time");
+    EXPECT_EQ(time.at("samples").at("outcome"), "time reached");
+    EXPECT_TRUE(done.err.starts_with("warning: an error of 1e-05 is not within reach: the largest is 0.")) << done.err;
+    EXPECT_NE(done.err.find("; another refinement, to "), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find(" s are left"), std::string::npos) << done.err;
+    // 32 MiB hold the first few.
+    render_plates("memory", {"--method", "matrix", "--error", "1e-5", "--memory", "0.03125"});
+    const auto memory = run_json("memory");
+    EXPECT_EQ(memory.at("samples").at("outcome"), "memory reached") << memory.at("samples").dump();
+    EXPECT_TRUE(memory.at("samples").at("why").get<std::string>().ends_with(", and 0.031 GiB may be taken"))
+        << memory.at("samples").at("why");
+    const Finished many = run({"render", "scene.xml", "-o", "refused", "--method", "matrix", "--memory", "0.25", "--patches", "1000000"});
+    EXPECT_EQ(many.exit_code, 2);
+    EXPECT_NE(many.err.find("1000000 patches of 32 rays need about "), std::string::npos) << many.err;
+    EXPECT_NE(many.err.find(" GiB, and 0.2 may be taken; at most "), std::string::npos) << many.err;
+    EXPECT_FALSE(std::filesystem::exists(path("refused")));
+}
+
+TEST_F(RenderFieldsSlow, ScenesOfMirrorsAndGlassEndInTime) {
+    for (const std::string name : {"glass-ball", "facing-mirrors", "glossy-floor"})
+        for (const char* method : {"matrix", "gather"}) {
+            render(SCENES "/" + name + "/" + name + ".xml", name,
+                   {"-D", "res=32", "-n", "5", "--method", method, "--error", "0.001", "--time", "1", "--quiet"});
+            const auto run = run_json(name);
+            EXPECT_NE(run.at("samples").at("outcome"), "interrupted");
+            EXPECT_LT(run.at("timing").at("sampling_seconds").get<double>(), 30.0) << name << " " << method;  // of a busy machine
+            EXPECT_NE(run.at("samples").at("why").get<std::string>().find("is not within reach: the largest is "), std::string::npos)
+                << name << " " << method << run.at("samples").dump();
+        }
+}
+
 TEST_F(RenderFields, AClosedRoomOfAlbedoOneHasNoRest) {
     write("room.xml", closed_room("1"));
     render("room.xml", "room",
@@ -109,8 +170,6 @@ TEST_F(RenderFields, AClosedRoomOfAlbedoOneHasNoRest) {
 }
 
 TEST_F(RenderFields, Refusals) {
-    expect_refused({"--method", "matrix", "--time", "3"},
-                   "--time belongs to the methods that make paths; matrix takes --error, or --spp, --patches and --directions");
     expect_refused({"--method", "gather", "--direct", "light"},
                    "--direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to gather");
     expect_refused({"--method", "pointwise", "--lights", "all"},

@@ -32,6 +32,13 @@ std::map<std::string, int> exr_channels(const std::string& bytes) {
 }
 
 const std::map<std::string, int> six_floats{{"R", 2}, {"G", 2}, {"B", 2}, {"stderr.R", 2}, {"stderr.G", 2}, {"stderr.B", 2}};
+// Where few samples leave open more than their spread says.
+const std::map<std::string, int> with_spread = [] {
+    auto channels = six_floats;
+    for (const char* name : {"spread.R", "spread.G", "spread.B"}) channels[name] = 2;
+    return channels;
+}();
+bool are_known(const std::map<std::string, int>& channels) { return channels == six_floats || channels == with_spread; }
 
 TEST_F(RenderFiles, FourBounces) {
     constexpr int N = 3;
@@ -45,13 +52,14 @@ TEST_F(RenderFiles, FourBounces) {
     std::vector<Estimate> bounces, sums;
     for (int i = 0; i <= N; ++i) {
         for (const std::string& name : {numbered("bounce", i), numbered("sum", i)})
-            EXPECT_EQ(exr_channels(text_of(path("a/b") / name)), six_floats) << name;
+            EXPECT_TRUE(are_known(exr_channels(text_of(path("a/b") / name)))) << name;
         bounces.push_back(picture("a/b", numbered("bounce", i)));
         sums.push_back(picture("a/b", numbered("sum", i)));
         EXPECT_EQ(bounces.back().mean.width, 164);
         EXPECT_EQ(bounces.back().mean.height, 4);
     }
-    EXPECT_EQ(exr_channels(text_of(path("a/b/rest.exr"))), six_floats);
+    EXPECT_EQ(exr_channels(text_of(path("a/b/bounce_001.exr"))), with_spread);
+    EXPECT_TRUE(are_known(exr_channels(text_of(path("a/b/rest.exr")))));
     expect_finite("a/b");
     Attributes attributes;
     read_exr(path("a/b/bounce_002.exr").string(), &attributes);

@@ -34,7 +34,8 @@ TEST_F(RenderHelp, OptionsOfRender) {
               (std::set<std::string>{"-h,--help", "-o",        "-n",        "--tail",       "--spp",        "--time",
                                      "--error",   "--method",  "--direct",  "--lights",     "--roulette",   "--split",
                                      "--ways",    "--sampler", "--patches", "--directions", "--reference",  "--seed",
-                                     "-t",        "-D",        "--quiet",   "--json",       "--importance", "--plan"}));
+                                     "-t",        "-D",        "--quiet",   "--json",       "--importance", "--plan",
+                                     "--memory"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -49,18 +50,19 @@ TEST_F(RenderHelp, OptionsOfCompare) {
 TEST_F(RenderHelp, OptionsOfSpectrum) {
     EXPECT_EQ(options(printed({"help", "spectrum"})),
               (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json",
-                                     "--eigenvalues", "--csv"}));
+                                     "--eigenvalues", "--csv", "--time", "--most", "--memory"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSolve) {
     EXPECT_EQ(options(printed({"help", "solve"})),
               (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json",
-                                     "--channel", "--error", "--most", "--csv"}));
+                                     "--channel", "--error", "--most", "--csv", "--memory"}));
 }
 
 TEST_F(RenderHelp, OptionsOfExport) {
     EXPECT_EQ(options(printed({"help", "export"})), (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t",
-                                                                           "-D", "--quiet", "--json", "-o", "--with-K"}));
+                                                                           "-D", "--quiet", "--json", "-o", "--with-K",
+                                                                           "--memory"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStudy) {

@@ -76,7 +76,10 @@ TEST_F(RenderRest, AlbedoAboveOneHasNoBoundAndAWarning) {
     write("scene.xml", closed_room("1.2"));
     const Finished done = render("scene.xml", "a", {"-n", "2", "--spp", "8"});
     EXPECT_EQ(names("a"), output_names(2, false));
-    const std::string warning = "reflectance above 1: a surface gives back more light than it receives";
+    const std::string warning =
+        "reflectance above 1: a surface (bsdf 'diffuse' of shape 'cube', scene.xml:5:1) gives back up to 1.200 times the light "
+        "that "
+        "it receives";
     EXPECT_EQ(warnings("a"), (std::map<std::string, int>{{warning, 1}}));
     EXPECT_EQ(done.err, "warning: " + warning + "\n");
     const nlohmann::json rest = run_json("a").at("rest");

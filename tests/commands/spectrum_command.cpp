@@ -41,6 +41,12 @@ TEST_F(SpectrumCommand, Furnace) {
         EXPECT_NEAR(grey["spectral_radius"], rho, 1e-12);
         EXPECT_NEAR(grey["norms"]["inf"], rho, 1e-15);
         EXPECT_GE(grey["norms"]["2"], rho * (1.0 - 1e-12));
+        // Of the operator all norms are ρ. Of the matrix ‖K‖₁ is the largest of some 300 sums of rays, each with the noise of its own.
+        const double one = grey["norms"]["1"], error = grey["norm_1_standard_error"];
+        EXPECT_GE(one, rho * (1.0 - 1e-12));
+        EXPECT_LE(one, rho + 4.5 * error);
+        EXPECT_LE(error, 0.5 * rho) << "what this test can see";
+        EXPECT_EQ(j["norms_of"]["1"], "power: sum of m |L|, m = n^2 * area * projected solid angle of an unknown");
         EXPECT_EQ(grey["largest_albedo"], rho);
         ASSERT_EQ(grey["refinement"].size(), 4u);
         for (const auto& row : grey["refinement"]) EXPECT_NEAR(row["eigenvalues"][0]["real"], rho, 1e-12) << row["what"];
@@ -133,6 +139,29 @@ TEST_F(SpectrumCommand, TheSameOnAnyNumberOfThreads) {
     one.push_back("1");
     two.push_back("2");
     EXPECT_EQ(printed(one), printed(two));
+}
+
+// Light that stays in the ball has as many eigenvalues of modulus 1 as there are ways to go round. The radius is known without them.
+TEST_F(SpectrumCommand, WhatIsNotFoundIsSaid) {
+    const std::string ball = SCENES "/glass-ball/glass-ball.xml";
+    const Finished done = run({"spectrum", ball, "--patches", "400", "--most", "40"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_NE(done.err.find("warning: red: eigenvalues were not found within 40 applications of K, largest residual "), std::string::npos)
+        << done.err;
+    EXPECT_NE(done.out.find("\nred: the radius is known without them: some light is kept for good, 1.000000 of it each time.\n"),
+              std::string::npos)
+        << done.out;
+    const auto j = json({ball, "--patches", "400", "--most", "40"});
+    const auto& red = j["channels"][0];
+    EXPECT_EQ(red["eigenvalues_converged"], false);
+    EXPECT_EQ(red["eigenvalues_search"]["applications"], 40.0);
+    EXPECT_FALSE(red["eigenvalues_search"]["history"].empty());
+    EXPECT_NEAR(red["spectral_radius"], 1.0, 1e-9);
+    EXPECT_EQ(red["series"], "undecided");
+    // Out of time at once: there is still a report.
+    const Finished soon = run({"spectrum", furnace, "--time", "1e-9"});
+    EXPECT_EQ(soon.exit_code, 0);
+    EXPECT_NE(soon.err.find("warning: the time of 1e-09 s was up: this is what was found until then\n"), std::string::npos) << soon.err;
 }
 
 TEST_F(SpectrumCommand, Refusals) {

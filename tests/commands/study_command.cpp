@@ -1,7 +1,6 @@
 // neumann study: what it writes, what it refuses, and that it goes on where it was cut off.
 #include "tests/commands/render_output.h"
 
-#include <bit>
 #include <cstdlib>
 
 namespace neumann {
@@ -209,15 +208,33 @@ TEST_F(StudyCommand, Table) {
     EXPECT_EQ(json.out, text_of(path("a/study.json")));
 }
 
-// Seconds are turned into numbers of samples that grow.
+// Seconds are turned into efforts that grow: of samples, or of patches.
 TEST_F(StudyCommand, Budgets) {
     study("a", {"--methods", "walk,patches", "--budgets", "0.01,0.011,0.1", "--repeats", "2", "-n", "1"});
     const nlohmann::json json = study_json("a");
-    for (const char* name : {"walk", "patches"}) {
+    for (const auto& [name, what] : {std::pair("walk", "samples"), std::pair("patches", "patches")}) {
         const nlohmann::json points = method(json, "1", name).at("points");
         ASSERT_EQ(points.size(), 3u);
-        for (std::size_t b = 1; b < 3; ++b) EXPECT_GT(points[b].at("samples"), points[b - 1].at("samples"));
-        EXPECT_EQ(std::popcount(points[2].at("samples").get<std::uint64_t>()), 1);
+        for (std::size_t b = 1; b < 3; ++b) EXPECT_GT(points[b].at(what), points[b - 1].at(what)) << name;
+        EXPECT_EQ(points[2].at("budget"), 0.1);
+    }
+}
+
+// A single sample takes longer than a nanosecond: what it took is said, and is what efficiencies are made of.
+TEST_F(StudyCommand, MissedBudgets) {
+    const Finished done =
+        run({"study", "scene.xml", "-o", "a", "--methods", "walk", "--budgets", "1e-9,2e-9", "--repeats", "2", "-n", "1"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    const nlohmann::json json = study_json("a");
+    EXPECT_NE(json.at("warnings").dump().find("walk: a run took "), std::string::npos) << json.at("warnings");
+    EXPECT_NE(json.at("warnings").dump().find(" s and was given 2e-09; efficiencies, ranks, slopes"), std::string::npos);
+    EXPECT_NE(done.out.find(" for 2e-09 "), std::string::npos) << done.out;
+    EXPECT_NE(text_of(path("a/index.html")).find(" s and was given 2e-09; "), std::string::npos);
+    const nlohmann::json points = method(json, "1", "walk").at("points");
+    for (const nlohmann::json& p : points) {
+        const double V = p.at("variance").at("value"), T = p.at("seconds").at("value");
+        EXPECT_GT(T, 1e-6);
+        EXPECT_NEAR(p.at("efficiency").get<double>() * V * T, 1.0, 1e-6);
     }
 }
 

@@ -64,6 +64,20 @@ TEST_F(ImageExr, PicturesAndTheirErrorsComeBack) {
     EXPECT_EQ(got.standard_error.pixels, sent.standard_error.pixels);
 }
 
+// A pixel's error in stderr, what the spread says beside it only where that is less somewhere.
+TEST_F(ImageExr, ErrorsOfPixelsAndTheirSpreadComeBack) {
+    PixelEstimate sent = gradient(7, 5);
+    sent.least_error = Image(7, 5);
+    EXPECT_TRUE(read_exr(put("none.exr", encode_exr(sent))).least_error.pixels.empty());
+    sent.mean.at(2, 3) = sent.standard_error.at(2, 3) = Rgb(0.0);
+    sent.least_error.at(2, 3) = Rgb(0.5, 0.25, 0.0);
+    const PixelEstimate got = read_exr(put("some.exr", encode_exr(sent)));
+    EXPECT_EQ(got.standard_error.pixels, sent.standard_error.pixels);
+    EXPECT_EQ(got.pixel_errors().pixels, sent.pixel_errors().pixels);
+    EXPECT_EQ(got.pixel_errors().at(2, 3), Rgb(0.5, 0.25, 0.0));
+    EXPECT_EQ(got.pixel_errors().at(1, 1), sent.standard_error.at(1, 1));
+}
+
 TEST_F(ImageExr, AttributesComeBackAsWhatTheyWere) {
     const std::int64_t beyond_int = 5'000'000'000, beyond_double = (std::int64_t{1} << 53) + 1;
     const Attributes sent = {{"neumann:bounce", std::int64_t{3}},     {"neumann:degrees_of_freedom", 15.5},
@@ -94,7 +108,7 @@ TEST_F(ImageExr, ValuesThatAreNotFiniteAndVerySmallOnesStay) {
 }
 
 TEST_F(ImageExr, APictureWithoutErrorsHasNone) {
-    const Estimate got = read_exr(put("a.exr", encode_exr({gradient(4, 4).mean, {}})));
+    const Estimate got = read_exr(put("a.exr", encode_exr(Estimate{gradient(4, 4).mean, {}})));
     EXPECT_EQ(got.mean.width, 4);
     EXPECT_EQ(got.standard_error.width, 0);
     EXPECT_TRUE(got.standard_error.pixels.empty());
@@ -176,8 +190,8 @@ TEST_F(ImageExr, APictureWithoutRgbIsRefusedWithWhatItHas) {
 }
 
 TEST_F(ImageExr, PicturesOfDifferentSizesDoNotMakeAnEstimate) {
-    EXPECT_THROW(encode_exr({Image(2, 2), Image(2, 3)}), std::invalid_argument);
-    EXPECT_THROW(encode_exr({}), std::invalid_argument);
+    EXPECT_THROW(encode_exr(Estimate{Image(2, 2), Image(2, 3)}), std::invalid_argument);
+    EXPECT_THROW(encode_exr(Estimate{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -83,4 +83,33 @@ TEST(MeasuredLaws, AreSaidOnceForAllMaterials) {
                    1}}));
 }
 
+// Of a surface that gives back more than it receives, which one and how much: as many digits as show it.
+TEST(MeasuredLaws, ReflectanceAboveOneIsNamed) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.5, 1.0));
+    maker.add(Sphere{{0, 0, 0}, 0.3, false}, matte(1.0003));
+    const auto origin = [](int line, const char* bsdf) {
+        return Origin{{"room.xml", line, 1}, "shape 'sphere'", std::string("bsdf '") + bsdf + "'"};
+    };
+    maker.parts.origins = {origin(3, "diffuse"), origin(7, "diffuse"), origin(9, "normalmap")};
+    const std::string head = "reflectance above 1: a surface (bsdf ";
+    using Texts = std::map<std::string, std::uint64_t>;
+    EXPECT_EQ(
+        maker.make().warnings.counts(),
+        (Texts{
+            {head + "'diffuse' of shape 'sphere', room.xml:7:1) gives back up to 1 + 0.0003 times the light that it receives", 1}}));
+    // What a normal map has below it bounds it, and need not be reached.
+    maker.add(Sphere{{0.5, 0, 0}, 0.1, false}, made_of(tilted(Diffuse(Rgb(1.25)), 0.1)));
+    const Scene scene = maker.make();
+    const auto& found = scene.warnings.counts();
+    EXPECT_EQ(found.count(head + "'normalmap' of shape 'sphere', room.xml:9:1) may give back up to 1.250 times the light that it "
+                                 "receives; 1 other is above 1, too"),
+              1u)
+        << found.begin()->first;
+    EXPECT_EQ(found.size(), 2u);
+    EXPECT_NE(found.begin()->first.find("the largest albedo is 1.250 (bsdf 'normalmap' of shape 'sphere', room.xml:9:1)"),
+              std::string::npos)
+        << found.begin()->first;
+}
+
 }  // namespace neumann::physics

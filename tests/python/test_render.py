@@ -1,6 +1,7 @@
 """scene.render() has the same bits as the files of `neumann render`, and read() and save() agree with both."""
 
 import filecmp
+import json
 import unittest
 
 import neumann
@@ -25,6 +26,8 @@ class Render(Case):
             else:
                 self.assertEqual(first.dtype, np.float32)
                 np.testing.assert_array_equal(first, second, name)
+        for name in ("_terms", "_sums", "_rest"):
+            self.assertEqual(getattr(a, name)[3], getattr(b, name)[3], name)  # the means
 
     def test_shapes(self):
         series = cornell().render(bounces=3, spp=8)
@@ -134,6 +137,12 @@ class Render(Case):
         found = neumann.compare(*files)
         self.assertEqual(found.rmse, neumann.compare(series.terms[1], str(files[1])).rmse)
         self.assertGreater(found.rmse_by_noise, 0.0)
+        # The interval of a mean: the command's; of arrays none.
+        by_command = json.loads(command("compare", *files, "--json", folder=self.folder).stdout)["pictures"][0]["interval"]
+        self.assertAlmostEqual(found.mean_difference_interval95, (by_command[1] - by_command[0]) / 2, 12)
+        again = neumann.compare(series, self.folder / "out")
+        self.assertTrue((again["mean_difference_interval95"][1:4] > 0.0).all())
+        self.assertIsNone(neumann.compare(one, two).mean_difference_interval95)
         with self.assertRaisesRegex(neumann.InputError, "^a series against a picture"):
             neumann.compare(series, files[0])
         with self.assertRaisesRegex(neumann.InputError, "none.exr: cannot be read"):

@@ -126,6 +126,34 @@ TEST_F(MeshPly, ReadsAttributesThatAreAskedFor) {
     EXPECT_EQ(mesh.attribute("face_shade_color")->values, (Values{{0.5f, 0.25f, 0.125f}, {1, 2, 3}, {1, 2, 3}}));
 }
 
+// Numbered channels, from 0 or 1, as many as there are; a colour may be numbered as well.
+TEST_F(MeshPly, ChannelsOfAttributesMayBeNumbered) {
+    using Values = std::vector<std::array<float, 3>>;
+    const auto attribute = [&](const std::string& name, const std::vector<std::string>& channels) {
+        std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz, row;
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            head += "property float " + channels[i] + "\n";
+            row += " " + std::to_string(i + 1);
+        }
+        const auto mesh =
+            ply(head + "element face 1\n" + indices + "end_header\n0 0 0" + row + "\n1 0 0" + row + "\n0 1 0" + row + "\n3 0 1 2\n",
+                {name})
+                .mesh;
+        return mesh.attributes.empty() ? Values() : mesh.attributes[0].values;
+    };
+    const Values three(3, {1, 2, 3}), one(3, {1, 1, 1});
+    EXPECT_EQ(attribute("vertex_color", {"color_0", "color_1", "color_2"}), three);
+    EXPECT_EQ(attribute("vertex_color", {"color_1", "color_2", "color_3"}), three);
+    EXPECT_EQ(attribute("vertex_color", {"color_0"}), one);
+    EXPECT_EQ(attribute("vertex_heat", {"heat_0", "heat_1", "heat_2"}), three);
+    EXPECT_EQ(attribute("vertex_heat", {"heat_1"}), one);
+    EXPECT_EQ(attribute("vertex_sky_color", {"sky_color_0", "sky_color_1", "sky_color_2"}), three);
+    EXPECT_EQ(attribute("vertex_sky_color", {"sky_r", "sky_g", "sky_b", "sky_a"}), three);
+    EXPECT_EQ(attribute("vertex_color", {"r", "g", "b", "color_0"}), three);
+    EXPECT_EQ(attribute("vertex_color", {"r", "g"}), Values());
+    EXPECT_EQ(attribute("vertex_heat", {"heat_2", "heat_3"}), Values());
+}
+
 // Values of the sRGB transfer function: 0, its linear part at 10/255, 188/255, 1 (IEC 61966-2-1).
 TEST_F(MeshPly, WholeNumbersOfAttributesAreSrgb) {
     Bytes body(std::endian::big);
@@ -152,6 +180,12 @@ TEST_F(MeshPly, RefusesAttributes) {
     const std::string bytes = "property uchar r\nproperty uchar g\nproperty uchar b\n";
     EXPECT_EQ(error(head + bytes + tail + "0 0 0 1 2 300\n", {"vertex_color"}),
               "FILE:13:11: b is 300, expected a whole number from 0 to 255");
+    EXPECT_EQ(error(head + "property float a_0\nproperty float a_1\n" + tail, {"vertex_a"}),
+              "FILE:3:9: mesh attribute 'vertex_a' has 2 channels, from 'a_0' to 'a_1', expected 1 or 3");
+    EXPECT_EQ(error(head + "property float a_x\nproperty float a_y\nproperty float a_z\nproperty float a_w\n" + tail, {"vertex_a"}),
+              "FILE:3:9: mesh attribute 'vertex_a' has 4 channels, from 'a_x' to 'a_w', expected 1 or 3");
+    EXPECT_EQ(error(head + "property float a_0\nproperty float a_2\n" + tail, {"vertex_a"}),
+              "FILE:3:9: element 'vertex' has the property 'a_2' without 'a_1'");
     EXPECT_EQ(error(head + "property float a_x\n" + tail + "0 0 0 1e60\n", {"vertex_a"}), "FILE:11:7: a_x is not finite");
     EXPECT_EQ(error(head + "property float u\nproperty float v\n" + tail + "0 0 0 nan 0\n"),
               "FILE:12:7: texture coordinate is not finite");

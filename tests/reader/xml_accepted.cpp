@@ -48,6 +48,24 @@ TEST_F(XmlAccepted, OrderOfFolders) {
     EXPECT_EQ(radius("<path value='one'/><path value='two'/><include filename='a.xml'/>"), 2.0);
 }
 
+// As in Mitsuba, a file looks for the folder of a <path> in its own <path>s, beside itself, and then where the file looks that
+// includes it.
+TEST_F(XmlAccepted, FoldersOfIncludedFiles) {
+    const auto sphere = [](int radius) {
+        return "<scene version='3.0.0'><shape type='sphere'><float name='radius' value='" + std::to_string(radius) +
+               "'/></shape></scene>";
+    };
+    write("meshes/a.xml", sphere(1));
+    write("parts/inner.xml", "<scene version='3.0.0'><path value='meshes'/><include filename='a.xml'/></scene>");
+    const std::string body = "<include filename='parts/inner.xml'/>";
+    const auto radius = [&](const std::string& text) { return std::get<Sphere>(read(text).shapes.at(0)).radius; };
+    EXPECT_EQ(radius(body), 1.0);
+    write("other/meshes/a.xml", sphere(2));
+    EXPECT_EQ(radius("<path value='other'/>" + body), 2.0);
+    write("parts/meshes/a.xml", sphere(3));
+    EXPECT_EQ(radius("<path value='other'/>" + body), 3.0);
+}
+
 TEST_F(XmlAccepted, Substitution) {
     const std::string body =
         "<default name='r' value='2'/><default name='radius' value='$r.5'/><default name='r' value='7'/>"

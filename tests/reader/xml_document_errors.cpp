@@ -69,7 +69,7 @@ TEST_F(XmlDocumentErrors, Attributes) {
 
 TEST_F(XmlDocumentErrors, ElementsTooDeep) {
     std::string text;
-    for (int i = 0; i < 101; ++i) text += "<bsdf type=\"twosided\">";
+    for (int i = 0; i < 101; ++i) text += "<bsdf type=\"mask\"    >";
     for (int i = 0; i < 101; ++i) text += "</bsdf>";
     EXPECT_EQ(error(text), "scene.xml:2:2201: elements are nested more than 100 deep");
 }
@@ -133,6 +133,8 @@ TEST_F(XmlDocumentErrors, IncludedWhereItMayNotStand) {
 
 TEST_F(XmlDocumentErrors, MissingFolder) {
     EXPECT_EQ(error("<path value=\"meshes\"/>"), "scene.xml:2:7: there is no folder 'meshes'");
+    write("sub/inner.xml", "<scene version=\"3.0.0\">\n<path value=\"meshes\"/></scene>");
+    EXPECT_EQ(error("<include filename=\"sub/inner.xml\"/>"), "sub/inner.xml:2:7: there is no folder 'sub/meshes' or 'meshes'");
 }
 
 TEST_F(XmlDocumentErrors, References) {

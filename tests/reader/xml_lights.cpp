@@ -24,7 +24,7 @@ protected:
     void write_exr(const std::string& name, int width, const std::vector<double>& values) const {
         Image image(width, static_cast<int>(values.size()) / width);
         for (std::size_t i = 0; i < values.size(); ++i) image.pixels[i] = Rgb(values[i]);
-        write(name, encode_exr({image, {}}));
+        write(name, encode_exr(Estimate{image, {}}));
     }
 };
 
@@ -86,8 +86,8 @@ TEST_F(XmlLights, Spot) {
               "scene.xml:3:28: cutoff_angle is 90, expected more than 0 and with a texture less than 90 degrees");
     EXPECT_EQ(light_error("spot", "<float name='beam_width' value='21'/>"),
               "scene.xml:3:26: beam_width is 21, expected at least 0 and at most cutoff_angle, 20 degrees");
-    EXPECT_EQ(light_error("spot", "<texture type='bitmap' name='image'/>"),
-              "scene.xml:3:24: a <texture> of emitter 'spot' is named 'image', expected the name 'texture'");
+    EXPECT_EQ(light_error("spot", "<texture type='checkerboard' name='image'/>"),
+              "scene.xml:3:30: a <texture> of emitter 'spot' is named 'image', expected the name 'texture'");
     EXPECT_EQ(light_error("spot", "<texture type='mesh_attribute' name='texture'><string name='name' value='vertex_c'/></texture>"),
               "scene.xml:3:47: the mesh attribute 'vertex_c' is thrown by a light, which has no mesh");
     write_exr("negative.exr", 2, {1.0, -2.0});

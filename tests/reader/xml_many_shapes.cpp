@@ -32,7 +32,7 @@ TEST_F(XmlManyShapes, KeepTheirOrder) {
     EXPECT_EQ(read(text).hash, parts.hash);
 }
 
-TEST_F(XmlManyShapes, TheFirstErrorIsTold) {
+TEST_F(XmlManyShapes, AllErrorsAreToldInTheOrderOfTheShapes) {
     std::string text;
     for (int i = 0; i < 100; ++i) {
         write_obj(i);
@@ -41,13 +41,16 @@ TEST_F(XmlManyShapes, TheFirstErrorIsTold) {
     write("10.obj", std::string(100'000, '\n') + "v 0 0 zero\n");  // found last
     write("11.obj", "v 0 0\n");
     write("90.obj", "v");
-    for (int i = 0; i < 5; ++i) ASSERT_EQ(error(text), "10.obj:100001:7: expected a number, found 'zero'");
-    // All files come before any material.
+    const std::string all =
+        "10.obj:100001:7: expected a number, found 'zero'\n"
+        "11.obj:1:6: expected a number, found the end of the line\n"
+        "90.obj:1:2: expected a number, found the end of the file";
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(error(text), all);
     const std::string wrong = "<shape type='cube'><bsdf type='diffuse'><float name='reflectance' value='x'/></bsdf></shape>\n";
-    EXPECT_EQ(error(wrong + text), "10.obj:100001:7: expected a number, found 'zero'");
-    EXPECT_EQ(error(text + wrong), "10.obj:100001:7: expected a number, found 'zero'");
-    EXPECT_EQ(error("<shape type='instance'/>\n" + text), "scene.xml:2:1: shape 'instance' has no shapegroup inside, expected one");
-    EXPECT_EQ(error(text + "<shape type='instance'/>\n"), "10.obj:100001:7: expected a number, found 'zero'");
+    EXPECT_EQ(error(wrong + text), "scene.xml:2:67: 'x' is not a number\n" + all);
+    EXPECT_EQ(error(text + wrong), all + "\nscene.xml:102:67: 'x' is not a number");
+    EXPECT_EQ(error("<shape type='instance'/>\n" + text),
+              "scene.xml:2:1: shape 'instance' has no shapegroup inside, expected one\n" + all);
 }
 
 // The meshes of a serialized file, by their number.
@@ -58,8 +61,11 @@ TEST_F(XmlManyShapes, SerializedParameters) {
     };
     EXPECT_EQ(error(shape("")), "s: byte 0: 0x6f6e where a serialized mesh begins, expected 0x041c");
     EXPECT_EQ(error(shape("<integer name='shape_index' value='-1'/>")), "scene.xml:3:29: shape_index is -1, expected 0 or more");
-    EXPECT_EQ(error("<shape type='obj'><string name='filename' value='s'/>\n<integer name='shape_index' value='1'/></shape>"),
-              "s:1:1: unsupported OBJ element 'no', expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl");
+    EXPECT_EQ(
+        error("<shape type='obj'><string name='filename' value='s'/>\n<integer name='shape_index' value='1'/></shape>"),
+        "s:1:1: unsupported OBJ element 'no', expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl\n"
+        "scene.xml:3:10: unknown parameter 'shape_index' of shape 'obj'; allowed: to_world, filename, flip_normals, face_normals, "
+        "flip_tex_coords");
 }
 
 }  // namespace neumann

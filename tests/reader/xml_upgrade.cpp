@@ -139,10 +139,57 @@ TEST_F(XmlUpgrade, WhatIsGone) {
     EXPECT_EQ(error("<film type='ldrfilm'/>"), "scene.xml:2:7: film type 'ldrfilm' is not supported; allowed: hdrfilm");
 }
 
+// What exporters write: metals in air, opacities as colours, pictures with their gamma.
+TEST_F(XmlUpgrade, IndicesOpacityAndGamma) {
+    const std::string sensor = "<sensor type='perspective'><float name='fov' value='40'/></sensor>";
+    write("a.pgm", "P2 1 1 255\n51\n");
+    const auto bitmap = [&](const std::string& gamma) {
+        const SceneParts parts = read_version("0.5.0", sensor +
+                                                           "<shape type='cube'><bsdf type='diffuse'><texture type='bitmap' "
+                                                           "name='reflectance'><string name='filename' value='a.pgm'/>" +
+                                                           gamma + "</texture></bsdf></shape>");
+        return reflectance(parts.bsdfs.at(0), point_with_coordinates({0.5, 0.5})).g;
+    };
+    EXPECT_DOUBLE_EQ(bitmap("<float name='gamma' value='1'/>"), 0.2);
+    for (const char* srgb : {"-1", "2.2"}) EXPECT_EQ(bitmap(std::string("<float name='gamma' value='") + srgb + "'/>"), bitmap(""));
+
+    const SceneParts metal =
+        read_version("0.5.0", sensor +
+                                  "<shape type='cube'><bsdf type='roughconductor'><float name='extEta' value='1'/>"
+                                  "<string name='material' value='Cu'/></bsdf></shape>");
+    const SceneParts same =
+        read("<shape type='cube'><bsdf type='roughconductor'><string name='material' value='Cu'/></bsdf></shape>");
+    EXPECT_EQ(largest_albedo(metal.bsdfs.at(0)), largest_albedo(same.bsdfs.at(0)));
+    EXPECT_EQ(metal.warnings.counts().count("old scene file: extEta of a metal left out, which is air"), 1u);
+    EXPECT_EQ(version_error("0.5.0", sensor + "<bsdf type='conductor'>\n<float name='extEta' value='1.33'/></bsdf>"),
+              "scene.xml:3:22: extEta of bsdf 'conductor' is '1.33', expected 1 or air; eta and k divided by it say the same");
+
+    const SceneParts glass =
+        read_version("0.5.0", sensor +
+                                  "<shape type='cube'><bsdf type='roughdielectric'><float name='intEta' value='1.4'/>"
+                                  "<float name='extEta' value='1.2'/></bsdf></shape>");
+    EXPECT_DOUBLE_EQ(refractive_ratio(glass.bsdfs.at(0)), 1.4 / 1.2);
+
+    const auto opacity = [&](const std::string& rgb) {
+        const SceneParts parts = read_version("0.5.0", sensor + "<shape type='cube'><bsdf type='mask'><rgb name='opacity' value='" +
+                                                           rgb + "'/><bsdf type='diffuse'/></bsdf></shape>");
+        return 1.0 - largest_albedo(parts.bsdfs.at(static_cast<std::size_t>(parts.sides_of_shape.at(0).back))).g;
+    };
+    EXPECT_DOUBLE_EQ(opacity("0.3"), 0.3);
+    EXPECT_NEAR(opacity("0.2, 0.3, 0.7"), 0.4, 1e-15);
+    EXPECT_EQ(version_error("0.5.0",
+                            sensor + "<bsdf type='diffuse'><texture type='bitmap' name='reflectance'>"
+                                     "<string name='filename' value='a.pgm'/>\n<float name='gamma' value='1.8'/></texture></bsdf>"),
+              "scene.xml:3:21: gamma of texture 'bitmap' is 1.8, expected 1, 2.2 or -1, which is sRGB");
+}
+
 TEST_F(XmlUpgrade, WhatMitsubaLeavesIsRefused) {
-    EXPECT_EQ(version_error("0.6.0", "<bsdf type='diffuse'>\n<srgb name='reflectance' value='#ff8000'/></bsdf>").substr(0, 56),
-              "scene.xml:3:1: <srgb> is not supported in <bsdf>; allowe");
-    EXPECT_EQ(version_error("0.6.0", "<bsdf type='diffuse'>\n<spectrum name='reflectance' value='1' intent='reflectance'/></bsdf>"),
+    const std::string sensor = "<sensor type='perspective'><float name='fov' value='40'/></sensor>";
+    EXPECT_EQ(
+        version_error("0.6.0", sensor + "<bsdf type='diffuse'>\n<srgb name='reflectance' value='#ff8000'/></bsdf>").substr(0, 56),
+        "scene.xml:3:1: <srgb> is not supported in <bsdf>; allowe");
+    EXPECT_EQ(version_error("0.6.0",
+                            sensor + "<bsdf type='diffuse'>\n<spectrum name='reflectance' value='1' intent='reflectance'/></bsdf>"),
               "scene.xml:3:40: unknown attribute 'intent' of <spectrum>; allowed: name, value, filename, type");
     EXPECT_EQ(version_error("0.6.0",
                             "<sensor type='perspective'><float name='fov' value='40'/></sensor>"

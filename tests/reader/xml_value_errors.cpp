@@ -306,7 +306,8 @@ TEST_F(XmlValueErrors, RoughConductors) {
     EXPECT_EQ(rough_error("<float name=\"alpha\" value=\"0.1\"/><float name=\"alpha_u\" value=\"0.3\"/>"),
               "scene.xml:3:56: both alpha and alpha_u are given, expected one of them");
     EXPECT_EQ(rough_error("<float name=\"alpha_u\" value=\"0\"/><float name=\"alpha_v\" value=\"0\"/>"),
-              "scene.xml:3:23: alpha_u is 0, expected at least 0.0001; bsdf 'conductor' is smooth");
+              "scene.xml:3:23: alpha_u is 0, expected at least 0.0001; bsdf 'conductor' is smooth\n"
+              "scene.xml:3:56: alpha_v is 0, expected at least 0.0001; bsdf 'conductor' is smooth");
     EXPECT_EQ(rough_error("<float name=\"roughness\" value=\"0.1\"/>"),
               "scene.xml:3:8: unknown parameter 'roughness' of bsdf 'roughconductor'; allowed: material, eta, k, "
               "specular_reflectance, distribution, alpha, alpha_u, alpha_v, sample_visible");

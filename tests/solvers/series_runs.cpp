@@ -71,7 +71,8 @@ TEST(SeriesRuns, AlbedoOneDoesNotConverge) {
     const DenseChannel K = furnace(1.0);
     const SeriesRun run = run_series(K, Vector::Ones(3), {.norm = 1.0});
     EXPECT_EQ(run.verdict, Verdict::diverging);
-    EXPECT_EQ(run.why, "not converging: the terms did not get smaller over the last 32 bounces, rate 1");
+    EXPECT_EQ(run.why,
+              "not converging: the terms did not get smaller over the last 32 bounces, rate 1, and the spectral radius is 1");
     ASSERT_EQ(run.warnings.size(), 1u);
     EXPECT_EQ(run.warnings[0], "a = 1 is not below 1 and bounds nothing; the series may converge all the same");
     EXPECT_NEAR(run.sum[0], static_cast<double>(run.rows.size()), 1e-12);  // S_n = n + 1

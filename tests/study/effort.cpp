@@ -1,20 +1,108 @@
 #include "operators/study/effort.h"
 
+#include "operators/pictures/render.h"
 #include "operators/study/method_summary.h"
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
 #include <set>
 
 namespace neumann {
 namespace {
 
-TEST(Effort, LevelsNearestToTheBudgets) {
-    const std::vector<double> measured{0.01, 0.02, 0.05};  // then 0.1, 0.2, …
-    EXPECT_EQ(choose_levels(measured, std::vector{0.05, 0.1, 0.4, 0.9}), (std::vector{2, 3, 5, 6}));
-    // Budgets that one level would fit best still grow; and one that is less than a single sample takes it.
-    EXPECT_EQ(choose_levels(measured, std::vector{0.001, 0.0011, 0.0012}), (std::vector{0, 1, 2}));
-    EXPECT_EQ(choose_levels(std::vector{1.0}, std::vector{5.7, 8.0}), (std::vector{3, 4}));
+TEST(Effort, SamplesInWholeNets) {
+    std::vector<std::uint64_t> all;
+    for (double x = 1.0; x <= 1000.0; x += 0.25)
+        if (const std::uint64_t n = whole_nets(x); all.empty() || n != all.back()) all.push_back(n);
+    EXPECT_EQ(std::vector(all.begin(), all.begin() + 20),
+              (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24}));
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        EXPECT_GT(all[i], all[i - 1]);
+        if (all[i] <= 8) continue;
+        EXPECT_LE(static_cast<double>(all[i]), 1.125 * static_cast<double>(all[i - 1]));
+        // As render makes its replicates: at least four, of as many points as in powers of two, or half or a quarter of these.
+        const std::uint64_t size = replicate_size(all[i]);
+        EXPECT_EQ(all[i] % size, 0u);
+        EXPECT_GE(all[i] / size, 4u);
+        EXPECT_GE(size, std::min(std::bit_floor(all[i]) / 8, std::uint64_t{largest_replicate})) << all[i];
+    }
+    EXPECT_EQ(whole_nets(0.2), 1u);
+    EXPECT_EQ(whole_nets(0x1p30), std::uint64_t{1} << 30);
+}
+
+// Runs that take a + b n seconds, measured at n = 1, 2, 4, … up to a quarter of the budget: what is chosen takes the budget within
+// a tenth, as long as eight samples fit it.
+TEST(Effort, EqualTimesAreEqual) {
+    for (const double overhead : {0.0, 0.003, 0.02})
+        for (const double each : {1e-5, 0.0013, 0.017, 0.11}) {
+            const auto seconds = [&](std::uint64_t n) { return overhead + each * static_cast<double>(n); };
+            std::vector<double> budgets, measured;
+            for (double budget = 1.0; budget < 40.0; budget *= 1.37) budgets.push_back(budget);
+            do measured.push_back(seconds(std::uint64_t{1} << measured.size()));
+            while (measured.back() < 0.25 * budgets.back());
+            std::vector<double> levels;
+            for (const double budget : budgets) levels.push_back(affordable_level(measured, 2.0, budget));
+            const std::vector<Effort> efforts = sampling_efforts(levels);
+            ASSERT_EQ(efforts.size(), budgets.size());
+            for (std::size_t i = 0; i < budgets.size(); ++i) {
+                EXPECT_NEAR(seconds(efforts[i].samples), budgets[i], 0.1 * budgets[i])
+                    << overhead << " " << each << " " << budgets[i];
+                if (i > 0) {
+                    EXPECT_GT(efforts[i].samples, efforts[i - 1].samples);
+                }
+            }
+        }
+}
+
+TEST(Effort, LevelsOfTimes) {
+    const std::vector<double> measured{0.01, 0.02, 0.05};
+    EXPECT_NEAR(affordable_level(measured, 2.0, 0.02), 1.0, 1e-12);
+    EXPECT_NEAR(affordable_level(measured, 2.0, std::sqrt(0.02 * 0.05)), 1.5, 1e-12);
+    EXPECT_NEAR(affordable_level(measured, 2.0, 0.4), 5.0, 1e-12);
+    EXPECT_NEAR(affordable_level(measured, 3.0, 0.45), 4.0, 1e-12);
+    EXPECT_EQ(affordable_level(measured, 2.0, 0.001), 0.0);
+    EXPECT_EQ(affordable_level(measured, 2.0, 1e300), largest_effort);
+}
+
+// Time t = t_k p^a between two levels, where the number of patches is p 250·2^k: one correction brings it there where a = 1, and
+// never beyond the next level.
+TEST(Effort, FieldsAreCorrected) {
+    for (const double level : {3.0, 3.4, 3.9})
+        for (const double budget : {1.0, 1.3, 1.9}) {
+            const auto seconds = [](double x) { return std::exp2(x - 3.0); };
+            EXPECT_NEAR(seconds(corrected_level(level, seconds(level), budget)), budget, 1e-12);
+        }
+    EXPECT_EQ(std::floor(corrected_level(3.4, 0.1, 1.0)), 3.0);
+    EXPECT_EQ(corrected_level(3.4, 10.0, 1.0), 3.0);
+    EXPECT_EQ(*field_efforts(std::vector{corrected_level(3.4, 0.1, 1.0)}, false)[0].directions, 128u);
+    EXPECT_NEAR(field_growth(std::vector{1.0, 2.0, 8.0, 16.0}), std::sqrt(8.0), 1e-12);
+    EXPECT_EQ(field_growth(std::vector{1.0, 9.0}), 2.0);
+}
+
+TEST(Effort, EqualIsWithinATenth) {
+    EXPECT_FALSE(misses(2.15, 2.0));
+    EXPECT_FALSE(misses(1.85, 2.0));
+    EXPECT_TRUE(misses(2.25, 2.0));
+    EXPECT_TRUE(misses(1.75, 2.0));
+    EXPECT_TRUE(misses(5.62, 2.0));
+}
+
+// Budgets that one effort would fit best still grow, and one that is less than a single sample takes it.
+TEST(Effort, EffortsGrow) {
+    const std::vector<double> none{0.0, 0.0, 0.1}, some{5.0, 5.01, 5.02};
+    const auto samples = [](const std::vector<Effort>& efforts) {
+        std::vector<std::uint64_t> all;
+        for (const Effort& e : efforts) all.push_back(e.samples);
+        return all;
+    };
+    EXPECT_EQ(samples(sampling_efforts(none)), (std::vector<std::uint64_t>{1, 2, 3}));
+    EXPECT_EQ(samples(sampling_efforts(some)), (std::vector<std::uint64_t>{32, 36, 40}));
+    EXPECT_EQ(samples(field_efforts(some, true)), (std::vector<std::uint64_t>{256, 512, 1024}));
+    const std::vector<Effort> fields = field_efforts(some, false);
+    for (std::size_t i = 1; i < fields.size(); ++i)
+        EXPECT_GE(*fields[i].patches, *fields[i - 1].patches + *fields[i - 1].patches / 20);
 }
 
 TEST(Effort, Levels) {
@@ -23,6 +111,10 @@ TEST(Effort, Levels) {
     EXPECT_EQ(field.samples, 64u);
     EXPECT_EQ(field.patches, 2000u);
     EXPECT_EQ(field.directions, 128u);
+    const Effort between = field_effort(3.5);
+    EXPECT_EQ(between.samples, 64u);
+    EXPECT_EQ(between.patches, 2828u);
+    EXPECT_EQ(between.directions, 128u);
     EXPECT_EQ(field_effort_of_samples(64).patches, 2000u);
     EXPECT_EQ(field_effort_of_samples(1).patches, 250u);
     EXPECT_EQ(field_effort_of_samples(1).samples, 1u);

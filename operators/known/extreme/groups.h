@@ -11,6 +11,7 @@ Cases extreme_light_cases();
 Cases extreme_shape_cases();
 Cases extreme_material_cases();
 Cases extreme_camera_cases();
+Cases extreme_close_cases();
 void lecture_circle(Figures& figures, std::uint64_t seed);
 void numbers_that_are_none(Figures& figures, std::uint64_t seed);
 

@@ -1,0 +1,29 @@
+// A box around something, along the axes.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <limits>
+
+namespace neumann {
+
+struct Bounds {
+    Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+
+    void add(const Vec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    void add(const Bounds& b) {
+        low = glm::min(low, b.low);
+        high = glm::max(high, b.high);
+    }
+    bool is_empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
+    Vec3 center() const { return 0.5 * (low + high); }
+    // Of the sphere around it.
+    double radius() const { return 0.5 * glm::length(high - low); }
+    Bounds grown(double by) const { return {low - by, high + by}; }
+    friend Bounds intersection(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
+};
+
+}  // namespace neumann

@@ -1,0 +1,50 @@
+// Faces in double, for the few rays and points whose surroundings are finer than Embree's floats.
+#pragma once
+
+#include "core/geometry/bounds.h"
+#include "core/geometry/face.h"
+#include "core/geometry/shape.h"
+#include "core/geometry/triangle.h"
+
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+class DoubleFaces {
+public:
+    // Of Geometry, whose arrays outlive this: the triangles and the errors of round shapes, by shape.
+    DoubleFaces(const std::vector<Shape>& shapes, std::span<const std::vector<Triangle>> triangles, std::span<const double> errors)
+        : shapes_(&shapes), triangles_(triangles), errors_(errors) {}
+
+    const std::vector<Shape>& shapes() const { return *shapes_; }
+    // Null where the face is no triangle.
+    const Triangle* triangle(const Face& f) const {
+        const auto& of_shape = triangles_[f.shape];
+        return of_shape.empty() ? nullptr : &of_shape[f.primitive];
+    }
+    std::array<Vec3, 3> vertices(const Face& f) const;
+    // How far rounding to float moves it, and a hit on it.
+    double error(const Face& f) const {
+        const Triangle* t = triangle(f);
+        return t ? t->error() : errors_[f.shape];
+    }
+    Bounds bounds(const Face& f) const;
+    // Of the sphere around its box.
+    double size(const Face& f) const { return 2.0 * bounds(f).radius(); }
+    std::vector<Face> all() const;
+
+    // Whether p is at most `distance` from the face, or a little more beside its corners.
+    bool is_near(const Face& f, const Vec3& p, double distance) const;
+    // Whether p lies on the face, or on the plane of a triangle or disc, as far as doubles can tell.
+    bool holds(const Face& f, const Vec3& p) const;
+    // Where a ray that starts at p meets the face: up to two distances > 0, ascending; none where it starts. `direction`: unit length.
+    int meet(const Face& f, const Vec3& p, const Vec3& direction, double (&distances)[2]) const;
+
+private:
+    const std::vector<Shape>* shapes_;
+    std::span<const std::vector<Triangle>> triangles_;
+    std::span<const double> errors_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,195 @@
+#include "core/geometry/neighbours.h"
+
+#include "core/geometry/close_regions.h"
+#include "core/geometry/rounding.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <boost/iterator/function_output_iterator.hpp>
+
+namespace neumann {
+
+namespace {
+
+namespace index = boost::geometry::index;
+
+constexpr std::size_t largest_asked_one_by_one = 16;
+// Regions that reach no further from the edges than this are not kept one by one.
+constexpr double along_edges = 1.0 / 64.0;
+// Values of Triangle::clear() from here on are numbers of surroundings.
+constexpr float first_number = Triangle::unknown + 1.0f;
+constexpr double reach_in_errors = 64.0;
+constexpr std::size_t most_numbers = 1u << 23;  // that floats hold; faces beyond are looked at each time
+
+bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
+    if (!faces.triangle(a) || !faces.triangle(b)) return false;
+    const auto of_a = faces.vertices(a), of_b = faces.vertices(b);
+    return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
+}
+
+// Of two triangles that share a corner: whether b continues a beyond one of its edges, without a sharp bend. Then a ray may start
+// beside a, or end on either of them, and be on the right side of both.
+bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
+    constexpr double bend = 0.5, rounding = 1e-12;
+    const Triangle &t = *faces.triangle(a), &other = *faces.triangle(b);
+    if (std::abs(glm::dot(t.normal(), other.normal())) < bend) return false;
+    Vec3 largest(-std::numeric_limits<double>::infinity());  // of b's corners, the weights in a
+    for (const Vec3& corner : faces.vertices(b)) {
+        const Vec2 w = t.weights(corner);
+        largest = glm::max(largest, Vec3(w.x, w.y, 1.0 - w.x - w.y));
+    }
+    return std::min({largest.x, largest.y, largest.z}) <= rounding;
+}
+
+}  // namespace
+
+Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster)
+    : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), clear_of_round_(faces.shapes().size(), Triangle::unknown) {
+    if (large_.size() <= largest_asked_one_by_one) return;
+    const auto rest = large_.begin() + largest_asked_one_by_one;
+    std::nth_element(large_.begin(), rest, large_.end(), [&](const Face& a, const Face& b) {
+        return std::pair(-faces_.error(a), a) < std::pair(-faces_.error(b), b);
+    });
+    error_of_rest_ = faces_.error(*rest);
+    large_.erase(rest, large_.end());
+    large_.insert(large_.end(), giants.faces.begin(), giants.faces.end());
+    large_.shrink_to_fit();
+}
+
+// Not further than to the next but one triangle of a fine mesh.
+double Neighbours::reach(const Face& a, const Face& b) const {
+    const double errors = faces_.error(a) + faces_.error(b);
+    return std::max(errors, std::min(reach_in_errors * errors, 0.125 * std::min(faces_.size(a), faces_.size(b))));
+}
+
+// All that come so near, or within their reach of a face whose error is not larger than distance / reach_in_errors.
+void Neighbours::append_near(const Vec3& p, double distance, std::vector<Face>& found) const {
+    found.insert(found.end(), large_.begin(), large_.end());
+    if (error_of_rest_ > 0.0) caster_->near(p, distance + reach_in_errors * error_of_rest_, found);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
+std::vector<Face> Neighbours::around(const SurfacePoint& p) const {
+    const Face own{p.shape, p.primitive};
+    std::vector<Face> found;
+    append_near(p.position, reach_in_errors * p.error, found);
+    std::erase_if(found, [&](const Face& f) {
+        // At first without a look at their sizes.
+        const double most = reach_in_errors * (p.error + faces_.error(f));
+        return f != own && !(faces_.is_near(f, p.position, most) && faces_.is_near(f, p.position, reach(own, f)));
+    });
+    return found;
+}
+
+bool Neighbours::Surroundings::may_hold(const Vec2& weights, const Vec3& position) const {
+    if (!cells.is_marked(weights)) return false;
+    std::size_t n = 0;
+    boxes.query(index::intersects(Corner(position.x, position.y, position.z)),
+                boost::make_function_output_iterator([&](const Box&) { ++n; }));
+    return n > 0;
+}
+
+bool Neighbours::is_close(const SurfacePoint& p) const {
+    const Face f{p.shape, p.primitive};
+    const Triangle* t = faces_.triangle(f);
+    float clear = t ? t->clear() : std::atomic_ref(clear_of_round_[f.shape]).load(std::memory_order_acquire);
+    if (clear == Triangle::unknown) {
+        clear = examine(f);
+        if (t)
+            t->set_clear(clear);
+        else
+            std::atomic_ref(clear_of_round_[f.shape]).store(clear, std::memory_order_release);
+    }
+    const Vec2 w = t ? t->weights(p.position) : Vec2(0.0);
+    const double from_edges = t ? std::min({w.x, w.y, 1.0 - w.x - w.y}) : 1.0;
+    if (clear >= first_number) {
+        const Surroundings& s = surroundings_[static_cast<std::size_t>(clear - first_number)];
+        if (from_edges >= s.clear && !s.may_hold(w, p.position)) return false;
+    } else if (from_edges >= clear) {
+        return false;
+    }
+    return around(p).size() > 1;
+}
+
+// Number of the surroundings, or how far from the edges all of the face is clear.
+float Neighbours::examine(const Face& f) const {
+    const Bounds bounds = faces_.bounds(f);
+    const double error = faces_.error(f);
+    std::vector<Face> others;
+    append_near(bounds.center(), bounds.radius() + reach_in_errors * error, others);
+    double clear = 0.0;
+    WeightCells cells;
+    std::vector<Box> boxes;
+    for (const Face& other : others) {
+        if (other == f) continue;
+        const double errors = error + faces_.error(other);
+        if (intersection(bounds.grown(reach_in_errors * errors), faces_.bounds(other)).is_empty()) continue;
+        const bool joined = share_corner(faces_, f, other);
+        if (joined && continues(faces_, f, other)) continue;
+        const bool touch =
+            joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
+        const auto region = close_region(faces_, f, other, touch ? errors : reach(f, other));
+        if (!region) continue;
+        if (region->clear <= along_edges) {
+            clear = std::max(clear, region->clear);
+        } else {
+            const Vec3 &low = region->bounds.low, &high = region->bounds.high;
+            boxes.push_back({{low.x, low.y, low.z}, {high.x, high.y, high.z}});
+            cells.mark(region->weights);
+        }
+    }
+    // Upwards, and above 0: points on an edge are looked at.
+    const float threshold = std::nextafter(static_cast<float>(clear), 1.0f);
+    if (boxes.empty()) return faces_.triangle(f) ? threshold : 0.0f;
+    if (surroundings_.size() >= most_numbers) return Triangle::unknown;
+    if (!faces_.triangle(f)) cells.mark_all();
+    const auto at = surroundings_.push_back({threshold, cells, Boxes(boxes)});
+    return first_number + static_cast<float>(at - surroundings_.begin());
+}
+
+bool Neighbours::is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const {
+    const Triangle* own = faces_.triangle({p.shape, p.primitive});
+    if (!own || !faces_.triangle(f)) return false;
+    const Vec3 n = glm::dot(own->normal(), direction) < 0.0 ? -own->normal() : own->normal();
+    const auto corners = faces_.vertices(f);
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+        return glm::dot(corner - own->vertex(), n) <= double_rounding(corner, largest_component(own->vertex()));
+    });
+}
+
+std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const Vec3& p, const Vec3& direction) const {
+    std::optional<Met> met;
+    for (const Face& f : faces) {
+        double distances[2];
+        if (faces_.meet(f, p, direction, distances) > 0 && !(met && met->distance <= distances[0])) met = {f, distances[0]};
+    }
+    return met;
+}
+
+std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const SurfacePoint& p, const Vec3& direction) const {
+    std::vector<Face> before(faces.begin(), faces.end());
+    std::erase_if(before, [&](const Face& f) { return is_behind(f, p, direction); });
+    return first(before, p.position, direction);
+}
+
+bool Neighbours::any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const {
+    const double length = glm::length(y.position - x.position);
+    const Vec3 direction = (y.position - x.position) / length;
+    for (const Face& f : faces) {
+        if ((x.close && is_behind(f, x, direction)) || (y.close && is_behind(f, y, -direction))) continue;
+        double distances[2];
+        const int n = faces_.meet(f, x.position, direction, distances);
+        if (n == 0) continue;
+        // Of a face that y lies on, where the ray ends does not count.
+        const int end = !faces_.holds(f, y.position) ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
+        for (int i = 0; i < n; ++i)
+            if (i != end && distances[i] < length) return true;
+    }
+    return false;
+}
+
+}  // namespace neumann

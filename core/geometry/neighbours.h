@@ -1,0 +1,80 @@
+// What is closer together than Embree's floats can tell, asked in double: creases, thin gaps, surfaces that touch.
+//
+// Embree sees faces moved by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A point is *close*
+// where another face is nearer than both errors: there a ray could start behind that face, or end on the wrong one of the two. It
+// is close, too, where a face that does not touch its own is nearer than 64 times that: below and beside it a ray sees what the
+// point does not. Which parts of a face are close is found out when it is first hit, and kept; these parts are strips along edges,
+// as a rule, a millionth of the scene wide. The rays of close points meet the faces around them in double, and Embree is asked for
+// all others.
+#pragma once
+
+#include "core/geometry/double_faces.h"
+#include "core/geometry/giants.h"
+#include "core/geometry/ray_caster.h"
+#include "core/geometry/surface_point.h"
+#include "core/geometry/weight_cells.h"
+
+#include <optional>
+#include <vector>
+
+#include <boost/geometry/algorithms/disjoint.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <oneapi/tbb/concurrent_vector.h>
+
+namespace neumann {
+
+class Neighbours {
+public:
+    // The caster does not hold the giants.
+    Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster);
+
+    // Whether p, on its face, is close to another one.
+    bool is_close(const SurfacePoint& p) const;
+    // The faces within rounding of p, with its own, in order.
+    std::vector<Face> around(const SurfacePoint& p) const;
+
+    struct Met {
+        Face face;
+        double distance;
+    };
+    // The first of the faces that a ray meets, from a point in space or from a close point. `direction`: unit length.
+    std::optional<Met> first(std::span<const Face> faces, const Vec3& p, const Vec3& direction) const;
+    std::optional<Met> first(std::span<const Face> faces, const SurfacePoint& p, const Vec3& direction) const;
+    // Whether one of the faces lies strictly between x and y.
+    bool any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const;
+    const DoubleFaces& faces() const { return faces_; }
+    const Giants& giants() const { return giants_; }
+
+private:
+    using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+    using Box = boost::geometry::model::box<Corner>;
+    using Boxes = boost::geometry::index::rtree<Box, boost::geometry::index::linear<16>>;
+
+    // How a face lies among the others: from which barycentric distance from its edges it is clear, but for what is in the boxes,
+    // and for a first look, in the cells.
+    struct Surroundings {
+        float clear;
+        WeightCells cells;
+        Boxes boxes;
+        bool may_hold(const Vec2& weights, const Vec3& position) const;
+    };
+    float examine(const Face& f) const;
+    // Whether nothing of f is on the side of the plane of p's triangle that `direction` points to, where rays from p are.
+    bool is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const;
+    // How near to each other faces are that do not touch, and whose points are close.
+    double reach(const Face& a, const Face& b) const;
+    void append_near(const Vec3& p, double distance, std::vector<Face>& found) const;
+
+    DoubleFaces faces_;
+    Giants giants_;
+    const RayCaster* caster_;
+    std::vector<Face> large_;   // asked one by one, so that the others are found in small spheres
+    double error_of_rest_ = 0;  // the largest of them
+    // Of round faces, by shape, as Triangle::clear(): 0 where all of it is clear.
+    mutable std::vector<float> clear_of_round_;
+    mutable oneapi::tbb::concurrent_vector<Surroundings> surroundings_;
+};
+
+}  // namespace neumann

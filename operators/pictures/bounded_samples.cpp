@@ -1,0 +1,22 @@
+#include "operators/pictures/bounded_samples.h"
+
+namespace neumann {
+
+bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
+    if (!is_finite(scene.emitters.largest_radiance())) return false;  // some light has no extent
+    switch (settings.method) {
+        case Method::pointwise:
+            return true;
+        case Method::walk:
+        case Method::guided: {
+            const DirectLight direct = settings.walk.direct.direct;
+            return direct == DirectLight::bsdf || direct == DirectLight::mis;
+        }
+        case Method::bidirectional:
+            return !settings.ways_of_last_bounce;  // half of these are not weighted
+        default:
+            return false;
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,213 @@
+#include "operators/pictures/least_errors.h"
+
+#include "operators/pictures/missing_paths.h"
+#include "operators/pictures/reachable_light.h"
+#include "operators/statistics/student_t.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace neumann {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rule_of_three = 2.995732273553991;  // −ln 0.05
+// Replicates agree to rounding; ranges are floats.
+constexpr double agreement = 1e-9, float_rounding = 1e-6;
+
+Rgb times(const Rgb& a, const Rgb& b) {
+    Rgb product(0.0);
+    for (int c = 0; c < 3; ++c)
+        if (a[c] != 0.0 && b[c] != 0.0) product[c] = a[c] * b[c];
+    return product;
+}
+
+// ‖K^i Le‖∞ at most, and of the rest; for each channel.
+std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
+    const Rgb albedo = scene.materials.largest_albedo(), emitted = scene.emitters.largest_radiance();
+    const LeftOut& left_out = settings.walk.left_out;
+    const bool ends = left_out.rays_from_surfaces || (settings.method == Method::classic && !has_specular(scene.materials));
+    std::vector<Rgb> all{scene.hide_emitters ? Rgb(0.0) : emitted};
+    Rgb bound = emitted;
+    for (int i = 1; i <= settings.walk.bounces; ++i) {
+        bound = times(bound, albedo);
+        all.push_back(i > 1 && ends ? Rgb(0.0) : bound);
+    }
+    Rgb rest = times(bound, albedo);
+    for (int c = 0; c < 3; ++c)
+        if (rest[c] != 0.0) rest[c] = albedo[c] < 1.0 ? rest[c] / (1.0 - albedo[c]) : infinity;
+    const bool no_rest = settings.walk.rest_probability == 0.0 || settings.method == Method::pointwise;
+    all.push_back(no_rest || (ends && settings.walk.bounces > 0) ? Rgb(0.0) : rest);
+    return all;
+}
+
+// The pixel and its neighbours.
+template <class F>
+void for_neighbourhood(int width, int height, std::size_t pixel, const F& f) {
+    const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
+            f(static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u));
+}
+
+// Of one series; what belongs to a single quantity is kept for that alone.
+class Look {
+public:
+    Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
+        : scene_(&scene), result_(&result), ranges_(&ranges), quantities_(result.quantities()), bounds_(bounds(scene, settings)) {
+        lights_ = seen_lights(scene, settings.seed);
+        find_albedo(settings.seed);
+    }
+
+    struct Quantity {
+        std::vector<float> errors;  // h/t; empty where all are 0
+        double mean_at_most = 0.0;
+    };
+    // Quantities are asked for in order.
+    Quantity look(std::size_t q, double samples, double t) {
+        const Estimate term = result_->term(q);
+        const std::size_t pixels = result_->pixels();
+        remember_largest(q);
+        std::vector<float> errors(3 * pixels);
+        std::vector<Rgb> differences(pixels, Rgb(0.0));  // of those that no sample met
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
+            for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+                const Rgb nearby = difference_nearby(pixel, q);
+                for (int c = 0; c < 3; ++c) {
+                    const double mean = term.mean.pixels[pixel][c], error = term.standard_error.pixels[pixel][c];
+                    double d = nearby[c];
+                    if (mean == 0.0 && error == 0.0) {
+                        if (d == 0.0) d = difference_elsewhere(pixel, q, c);
+                        differences[pixel][c] = d;
+                    }
+                    if (d == 0.0) continue;
+                    double h = (error <= agreement * std::abs(mean) ? rule_of_three : 1.0) * d / samples;
+                    if (mean == 0.0) h = std::min(h, bounds_[q][c]);
+                    errors[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(h / t);
+                }
+            }
+        });
+        Quantity found;
+        if (is_zero(term.mean)) {
+            Rgb d(0.0), at_most(0.0);
+            for (const Rgb& difference : differences) d = glm::max(d, difference);
+            for (int c = 0; c < 3; ++c)
+                at_most[c] = std::min(bounds_[q][c], rule_of_three * d[c] / (samples * static_cast<double>(pixels)));
+            found.mean_at_most = mean_component(at_most);
+        }
+        if (std::any_of(errors.begin(), errors.end(), [](float e) { return e > 0.0f; })) found.errors = std::move(errors);
+        return found;
+    }
+
+private:
+    const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * quantities_ + q]; }
+
+    Rgb difference_nearby(std::size_t pixel, std::size_t q) const {
+        SampleRange all;
+        for_neighbourhood(result_->width(), result_->height(), pixel, [&](std::size_t other) { all.merge(range(other, q)); });
+        Rgb difference(0.0);
+        for (int c = 0; c < 3; ++c) {
+            const double smallest = all.smallest[c], largest = all.largest[c], d = largest - smallest;
+            if (d > float_rounding * std::max(std::abs(smallest), std::abs(largest))) difference[c] = d;
+        }
+        return difference;
+    }
+    // Where no sample nearby met anything.
+    double difference_elsewhere(std::size_t pixel, std::size_t q, int c) const {
+        if (bounds_[q][c] == 0.0) return 0.0;
+        if (q == 0) return lights_.pixels[pixel][c];
+        if (albedo_.pixels[pixel][c] == 0.0) return 0.0;
+        return largest_[c] > 0.0 ? largest_[c] : bounds_[q][c];
+    }
+    // Of the quantity's samples in the whole picture; where it has none those of the quantities before it stay.
+    void remember_largest(std::size_t q) {
+        Rgb largest(0.0);
+        for (std::size_t pixel = 0; pixel < result_->pixels(); ++pixel)
+            for (int c = 0; c < 3; ++c) largest[c] = std::max(largest[c], double{range(pixel, q).largest[c]});
+        for (int c = 0; c < 3; ++c)
+            if (largest[c] > 0.0) largest_[c] = largest[c];
+    }
+    // Of what is seen in pixels, and beside them, that a bounce did not reach.
+    void find_albedo(std::uint64_t seed) {
+        const std::size_t pixels = result_->pixels();
+        const int width = result_->width(), height = result_->height();
+        std::vector<char> wanted(pixels, 0);
+        const auto has_unmet = [&](std::size_t pixel) {
+            for (std::size_t q = 1; q < quantities_; ++q) {
+                const Rgb mean = result_->term_at(pixel, q);
+                for (int c = 0; c < 3; ++c)
+                    if (mean[c] == 0.0 && bounds_[q][c] > 0.0) return true;
+            }
+            return false;
+        };
+        for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+            if (has_unmet(pixel)) for_neighbourhood(width, height, pixel, [&](std::size_t other) { wanted[other] = 1; });
+        const Image seen = seen_albedo(*scene_, wanted, seed);
+        albedo_ = seen;
+        for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+            for_neighbourhood(width, height, pixel, [&](std::size_t other) {
+                albedo_.pixels[pixel] = glm::max(albedo_.pixels[pixel], seen.pixels[other]);
+            });
+    }
+
+    const Scene* scene_;
+    const SeriesMoments::Result* result_;
+    const SampleRanges* ranges_;
+    std::size_t quantities_;
+    std::vector<Rgb> bounds_;
+    Rgb largest_{0.0};
+    Image lights_, albedo_;
+};
+
+}  // namespace
+
+LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, const RenderedSeries& series,
+                         const SeriesMoments::Result& result)
+    : width_(result.width()),
+      height_(result.height()),
+      terms_(result.quantities()),
+      sums_(result.quantities()),
+      means_at_most_(result.quantities(), 0.0) {
+    const double t = student_t_quantile(0.95, result.degrees_of_freedom());
+    if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
+    Look look(scene, settings, series.moments.ranges(), result);
+    for (std::size_t q = 0; q < terms_.size(); ++q) {
+        auto found = look.look(q, static_cast<double>(series.samples), t);
+        terms_[q] = std::move(found.errors);
+        means_at_most_[q] = found.mean_at_most;
+        if (q > 0) sums_[q] = sums_[q - 1];
+        if (terms_[q].empty()) continue;
+        sums_[q].resize(terms_[q].size());
+        for (std::size_t k = 0; k < terms_[q].size(); ++k) sums_[q][k] = std::hypot(sums_[q][k], terms_[q][k]);
+    }
+}
+
+Image LeastErrors::image(const std::vector<Errors>& all, std::size_t i) const {
+    const Errors& errors = all[i];
+    if (errors.empty()) return {};
+    Image out(width_, height_);
+    for (std::size_t pixel = 0; pixel < out.pixels.size(); ++pixel)
+        for (std::size_t c = 0; c < 3; ++c) out.pixels[pixel][static_cast<int>(c)] = double{errors[3 * pixel + c]};
+    return out;
+}
+
+void report_unmet(SeriesReport& report, const LeastErrors& least) {
+    double of_sum = 0.0;
+    const auto set = [&](MeanWithError& mean, bool& unmet, std::size_t i) {
+        const double at_most = least.mean_at_most(i);
+        if (at_most == 0.0) return 0.0;
+        unmet = true;
+        return mean.standard_error = at_most / student_t_quantile(0.95, mean.degrees_of_freedom);
+    };
+    for (std::size_t i = 0; i < report.bounces.size(); ++i)
+        of_sum = std::hypot(of_sum, set(report.bounces[i].mean, report.bounces[i].unmet, i));
+    report.sum.standard_error = std::hypot(report.sum.standard_error, of_sum);
+    if (report.rest_verdict == RestVerdict::measured) set(report.rest, report.rest_unmet, report.bounces.size());
+}
+
+}  // namespace neumann

@@ -1,0 +1,79 @@
+#include "operators/pictures/reachable_light.h"
+
+#include "core/emitter/emission_sampler.h"
+#include "core/sampling/independent_sampler.h"
+#include "core/scene/pass_lights.h"
+#include "operators/pictures/path_group.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <cmath>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t albedo_stream = 0x616c6265646full, light_stream = 0x6c6967687473ull;  // other seeds than the pictures'
+constexpr std::uint64_t rays_of_pixel = 8, points_on_lights = 4096;
+
+}  // namespace
+
+Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed) {
+    const auto& bsdfs = scene.materials.bsdfs();
+    std::vector<Rgb> albedos;
+    for (const Bsdf& bsdf : bsdfs) albedos.push_back(largest_albedo(bsdf));
+    Image seen(scene.film.crop_width, scene.film.crop_height);
+    oneapi::tbb::parallel_for(std::size_t{0}, seen.pixels.size(), [&](std::size_t number) {
+        if (!wanted[number]) return;
+        const Pixel pixel = pixel_of(scene.film, static_cast<std::uint32_t>(number));
+        IndependentSampler sampler(seed ^ albedo_stream, static_cast<std::uint32_t>(number));
+        for (std::uint64_t i = 0; i < rays_of_pixel; ++i) {
+            sampler.start(i);
+            const FilmSample sample = scene.film.sample(sampler.next2(), pixel.x, pixel.y);
+            const CameraRay ray = scene.camera.sample_ray(sample.position, sampler);
+            SurfacePoint x;
+            std::uint64_t rays = 0;
+            if (!scene.geometry.first_hit(ray.origin, ray.direction, ray.length, x)) continue;
+            if (scene.hide_emitters && !pass_lights(scene.emitters, scene.geometry, ray.direction, x, rays)) continue;
+            const SurfaceSide side = scene.materials.side(x, -ray.direction);
+            if (!side.bsdf) continue;
+            seen.pixels[number] = glm::max(seen.pixels[number], albedos[static_cast<std::size_t>(side.bsdf - bsdfs.data())]);
+        }
+    });
+    return seen;
+}
+
+Image seen_lights(const Scene& scene, std::uint64_t seed) {
+    Image seen(scene.film.crop_width, scene.film.crop_height);
+    const EmissionSampler emission(scene.geometry, scene.emitters);
+    if (emission.empty() || scene.hide_emitters) return seen;
+    const Film& film = scene.film;
+    const double radius = neumann::radius(film.filter);
+    IndependentSampler sampler(seed ^ light_stream, 0);
+    for (std::uint64_t i = 0; i < points_on_lights; ++i) {
+        sampler.start(i);
+        const Vec2 place = sampler.next2(), direction = sampler.next2(), lens = sampler.next2();
+        const SurfacePoint light = emission.sample(place, direction).from;
+        if (light.is_infinite()) continue;
+        const auto point = scene.camera.see(light.position, lens);
+        if (!point || !film.holds(point->position)) continue;
+        const Rgb radiance = scene.emitters.emitted(light, point->w);
+        SurfacePoint camera;
+        camera.position = point->start;
+        camera.normal = point->w;
+        if (is_black(radiance) || !scene.geometry.visible(light, camera)) continue;
+        const int left = std::max(static_cast<int>(std::floor(point->position.x - radius)), film.crop_x),
+                  right = std::min(static_cast<int>(std::floor(point->position.x + radius)), film.crop_x + film.crop_width - 1),
+                  top = std::max(static_cast<int>(std::floor(point->position.y - radius)), film.crop_y),
+                  bottom = std::min(static_cast<int>(std::floor(point->position.y + radius)), film.crop_y + film.crop_height - 1);
+        for (int y = top; y <= bottom; ++y)
+            for (int x = left; x <= right; ++x) {
+                if (film.weight_across(point->position.x, x) * film.weight_down(point->position.y, y) == 0.0) continue;
+                Rgb& pixel = seen.at(x - film.crop_x, y - film.crop_y);
+                pixel = glm::max(pixel, radiance);
+            }
+    }
+    return seen;
+}
+
+}  // namespace neumann

@@ -1,0 +1,62 @@
+#include "operators/pictures/remedy.h"
+
+#include "operators/pictures/replay.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+// The reflections of the path that brought most of a quantity: of each, from the camera's side, whether it is by a delta; the last
+// is where the light was found from, or asked for.
+std::vector<bool> deltas_of_largest(const Replay& replay, std::size_t quantity) {
+    std::vector<bool> path, largest;
+    double most = 0.0;
+    for (const ReplayedStep& s : replay.steps) {
+        if (s.step.from_light) continue;
+        const auto reflections = static_cast<std::size_t>(s.step.bounce);
+        if (reflections > 0) {
+            path.resize(reflections);
+            path.back() = s.step.kind == PathStep::Kind::goes_on && s.step.pdf == delta_pdf;
+        }
+        for (const auto& found : s.found) {
+            if (found.quantity != quantity || found.pixel || max_component(found.value) <= most) continue;
+            most = max_component(found.value);
+            largest = path;
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+
+std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity) {
+    const SamplingSettings& settings = sampler.settings();
+    const bool rest = quantity == settings.quantities() - 1;
+    switch (settings.method) {
+        case Method::pointwise:
+            return {scene.hide_emitters ? Remedy::ask_lights : Remedy::bidirectional};
+        case Method::surface:
+        case Method::classic:
+            return {Remedy::ask_lights};
+        case Method::light:
+            return {Remedy::bidirectional};
+        case Method::bidirectional:
+            return rest ? std::vector{Remedy::more_bounces} : std::vector<Remedy>();
+        default:
+            break;
+    }
+    const std::vector<bool> is_delta = deltas_of_largest(replay(sampler, name), quantity);
+    const auto scatters = [](bool delta) { return !delta; };
+    const auto last = std::find_if(is_delta.rbegin(), is_delta.rend(), scatters).base();  // behind the last that scatters
+    if (last == is_delta.begin()) return {};
+    const bool is_asked = settings.walk.direct.direct == DirectLight::mis;
+    if (last == is_delta.end() && !is_asked) return {Remedy::ask_lights};
+    const auto neighbours = std::adjacent_find(is_delta.begin(), last, [](bool a, bool b) { return !a && !b; });
+    if (scene.hide_emitters || (is_delta.front() && neighbours == last)) return {};
+    if (rest) return {Remedy::bidirectional, Remedy::more_bounces};
+    return {Remedy::bidirectional};
+}
+
+}  // namespace neumann
