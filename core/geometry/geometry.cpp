@@ -338,7 +338,10 @@ std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
 }
 
 double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
-    if (!triangles_[shape].empty()) return triangles_[shape][primitive].area();
+    if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape])) {
+        const auto& t = mesh->triangles[primitive];
+        return Triangle::area(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]);
+    }
     if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape]))
         return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
     if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape]))

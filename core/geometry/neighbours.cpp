@@ -19,10 +19,7 @@ namespace index = boost::geometry::index;
 constexpr std::size_t largest_asked_one_by_one = 16;
 // Regions that reach no further from the edges than this are not kept one by one.
 constexpr double along_edges = 1.0 / 64.0;
-// Values of Triangle::clear() from here on are numbers of surroundings.
-constexpr float first_number = Triangle::unknown + 1.0f;
 constexpr double reach_in_errors = 64.0;
-constexpr std::size_t most_numbers = 1u << 23;  // that floats hold; faces beyond are looked at each time
 
 bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     if (!faces.triangle(a) || !faces.triangle(b)) return false;
@@ -47,7 +44,7 @@ bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
 }  // namespace
 
 Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster)
-    : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), clear_of_round_(faces.shapes().size(), Triangle::unknown) {
+    : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), round_(faces.shapes().size(), State::unknown) {
     if (large_.size() <= largest_asked_one_by_one) return;
     const auto rest = large_.begin() + largest_asked_one_by_one;
     std::nth_element(large_.begin(), rest, large_.end(), [&](const Face& a, const Face& b) {
@@ -96,33 +93,28 @@ bool Neighbours::Surroundings::may_hold(const Vec2& weights, const Vec3& positio
 bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
     const Triangle* t = faces_.triangle(f);
-    float clear = t ? t->clear() : std::atomic_ref(clear_of_round_[f.shape]).load(std::memory_order_acquire);
-    if (clear == Triangle::unknown) {
-        clear = examine(f);
-        if (t)
-            t->set_clear(clear);
-        else
-            std::atomic_ref(clear_of_round_[f.shape]).store(clear, std::memory_order_release);
-    }
     const Vec2 w = t ? t->weights(p.position) : Vec2(0.0);
-    const double from_edges = t ? std::min({w.x, w.y, 1.0 - w.x - w.y}) : 1.0;
-    if (clear >= first_number) {
-        const Surroundings& s = surroundings_[static_cast<std::size_t>(clear - first_number)];
-        if (from_edges >= s.clear && !s.may_hold(w, p.position)) return false;
-    } else if (from_edges >= clear) {
-        return false;
+    if (t) {
+        if (t->clear() == Triangle::unknown) examine(f);
+        if (t->is_clear(w)) return false;
+    } else {
+        const std::atomic_ref state(round_[f.shape]);
+        if (state.load(std::memory_order_acquire) == State::unknown) examine(f);
+        if (state.load(std::memory_order_acquire) == State::clear) return false;
     }
+    const bool in_middle = !t || std::min({w.x, w.y, 1.0 - w.x - w.y}) >= t->clear();
+    if (in_middle && !surroundings_.find(f)->second.may_hold(w, p.position)) return false;
     return around(p).size() > 1;
 }
 
-// Number of the surroundings, or how far from the edges all of the face is clear.
-float Neighbours::examine(const Face& f) const {
+void Neighbours::examine(const Face& f) const {
     const Bounds bounds = faces_.bounds(f);
     const double error = faces_.error(f);
     std::vector<Face> others;
     append_near(bounds.center(), bounds.radius() + reach_in_errors * error, others);
     double clear = 0.0;
-    WeightCells cells;
+    Triangle::Cells coarse;
+    WeightCells<32> cells;
     std::vector<Box> boxes;
     for (const Face& other : others) {
         if (other == f) continue;
@@ -139,16 +131,18 @@ float Neighbours::examine(const Face& f) const {
         } else {
             const Vec3 &low = region->bounds.low, &high = region->bounds.high;
             boxes.push_back({{low.x, low.y, low.z}, {high.x, high.y, high.z}});
+            coarse.mark(region->weights);
             cells.mark(region->weights);
         }
     }
+    const Triangle* t = faces_.triangle(f);
+    if (!t) cells.mark_all();
+    if (!boxes.empty()) surroundings_.emplace(f, Surroundings{cells, Boxes(boxes)});
     // Upwards, and above 0: points on an edge are looked at.
-    const float threshold = std::nextafter(static_cast<float>(clear), 1.0f);
-    if (boxes.empty()) return faces_.triangle(f) ? threshold : 0.0f;
-    if (surroundings_.size() >= most_numbers) return Triangle::unknown;
-    if (!faces_.triangle(f)) cells.mark_all();
-    const auto at = surroundings_.push_back({threshold, cells, Boxes(boxes)});
-    return first_number + static_cast<float>(at - surroundings_.begin());
+    if (t)
+        t->set_clear(std::nextafter(static_cast<float>(clear), 1.0f), coarse);
+    else
+        std::atomic_ref(round_[f.shape]).store(boxes.empty() ? State::clear : State::not_clear, std::memory_order_release);
 }
 
 bool Neighbours::is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const {

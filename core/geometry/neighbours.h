@@ -21,7 +21,7 @@
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
-#include <oneapi/tbb/concurrent_vector.h>
+#include <oneapi/tbb/concurrent_map.h>
 
 namespace neumann {
 
@@ -52,15 +52,13 @@ private:
     using Box = boost::geometry::model::box<Corner>;
     using Boxes = boost::geometry::index::rtree<Box, boost::geometry::index::linear<16>>;
 
-    // How a face lies among the others: from which barycentric distance from its edges it is clear, but for what is in the boxes,
-    // and for a first look, in the cells.
+    // What is close to the middle of a face is in the boxes and, for a first look, in the cells.
     struct Surroundings {
-        float clear;
-        WeightCells cells;
+        WeightCells<32> cells;
         Boxes boxes;
         bool may_hold(const Vec2& weights, const Vec3& position) const;
     };
-    float examine(const Face& f) const;
+    void examine(const Face& f) const;
     // Whether nothing of f is on the side of the plane of p's triangle that `direction` points to, where rays from p are.
     bool is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const;
     // How near to each other faces are that do not touch, and whose points are close.
@@ -72,9 +70,10 @@ private:
     const RayCaster* caster_;
     std::vector<Face> large_;   // asked one by one, so that the others are found in small spheres
     double error_of_rest_ = 0;  // the largest of them
-    // Of round faces, by shape, as Triangle::clear(): 0 where all of it is clear.
-    mutable std::vector<float> clear_of_round_;
-    mutable oneapi::tbb::concurrent_vector<Surroundings> surroundings_;
+    // Of round faces, by shape; of triangles, Triangle::is_clear() tells.
+    enum class State : std::uint8_t { unknown, clear, not_clear };
+    mutable std::vector<State> round_;
+    mutable oneapi::tbb::concurrent_map<Face, Surroundings> surroundings_;
 };
 
 }  // namespace neumann

@@ -6,23 +6,32 @@
 
 namespace neumann {
 
-Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : vertex_(a), error_(error) {
-    const Edges edges{b - a, c - a};
-    Vec3 across = glm::cross(edges.first, edges.second);
-    double twice = glm::length(across);
-    const Vec3 third = c - b;
-    const double lengths[] = {glm::length(edges.first), glm::length(edges.second), glm::length(third)};
+static_assert(sizeof(Triangle) == 128);
+
+namespace {
+
+struct Across {
+    Vec3 product;  // of two edges: along the normal, as long as twice the area
+    double longest;
+};
+
+Across across(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 first = b - a, second = c - a, third = c - b, product = glm::cross(first, second);
+    const double lengths[] = {glm::length(first), glm::length(second), glm::length(third)};
     const double longest = std::max({lengths[0], lengths[1], lengths[2]});
     // Of a thin triangle, two long edges are nearly parallel.
     constexpr double thin = 1.0 / 256.0;
-    if (twice < thin * longest * longest) {
-        across = longest == lengths[2]   ? across
-                 : longest == lengths[0] ? glm::cross(third, -edges.second)
-                                         : glm::cross(edges.first, third);
-        twice = glm::length(across);
-    }
-    normal_ = across / twice;
-    area_ = 0.5 * twice;
+    if (glm::length(product) >= thin * longest * longest || longest == lengths[2]) return {product, longest};
+    return {longest == lengths[0] ? glm::cross(third, -second) : glm::cross(first, third), longest};
+}
+
+}  // namespace
+
+Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : vertex_(a), error_(error) {
+    const Edges edges{b - a, c - a};
+    const auto [product, longest] = across(a, b, c);
+    const double twice = glm::length(product);
+    normal_ = product / twice;
     dual1_ = glm::cross(edges.second, normal_) / twice;
     dual2_ = glm::cross(normal_, edges.first) / twice;
     const double rounding = 4.0 * error * longest / twice;
@@ -30,6 +39,8 @@ Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : 
     const double margin = 64.0 * double_rounding(a, longest) * longest / twice;
     margin_ = margin < 1e-3 ? static_cast<float>(margin) : 0.0f;
 }
+
+double Triangle::area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * glm::length(across(a, b, c).product); }
 
 Vec3 Triangle::at_edge(double u, double v, const Edges& edges) const {
     const double margin = margin_, w = std::max(1.0 - u - v, margin);

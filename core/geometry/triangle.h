@@ -2,13 +2,16 @@
 #pragma once
 
 #include "core/base/vec.h"
+#include "core/geometry/weight_cells.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 
 namespace neumann {
 
-class Triangle {
+// Of two lines of a cache: a hit reads nearly all of it.
+class alignas(64) Triangle {
 public:
     // What the mesh knows and hits seldom need: from the first vertex to the second and to the third.
     struct Edges {
@@ -37,7 +40,7 @@ public:
     const Vec3& dual1() const { return dual1_; }
     const Vec3& dual2() const { return dual2_; }
     double error() const { return error_; }
-    double area() const { return area_; }
+    static double area(const Vec3& a, const Vec3& b, const Vec3& c);
 
     // Where a ray meets the triangle's plane, in double.
     struct Meeting {
@@ -54,12 +57,20 @@ public:
     bool is_hit(const Meeting& m) const { return is_inside(m.weights) && m.distance > 0.0 && rounding_ < 1.0f; }
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
-    // Neighbours tells and asks how far from the edges no other surface is within rounding, as a barycentric weight. Above 1 it is
-    // Neighbours' own: not known yet, or other surfaces are close in the middle, too.
-    bool is_clear(const Vec2& w) const { return std::min({w.x, w.y, 1.0 - w.x - w.y}) >= clear(); }
+    // Where no other surface is within rounding, as far as a first look tells: so far from the edges, as a barycentric weight, but
+    // for some cells. Neighbours finds it out when it is first asked for.
+    using Cells = WeightCells<8>;
+    static constexpr float unknown = 2.0f;  // no point is so far from the edges
+    bool is_clear(const Vec2& w) const {
+        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) < clear()) return false;
+        const std::uint64_t cells = std::atomic_ref(not_clear_).load(std::memory_order_relaxed);
+        return cells == 0 || (cells >> Cells::index(w) & 1u) == 0;
+    }
     float clear() const { return std::atomic_ref(clear_).load(std::memory_order_acquire); }
-    void set_clear(float clear) const { std::atomic_ref(clear_).store(clear, std::memory_order_release); }
-    static constexpr float unknown = 2.0f;
+    void set_clear(float from_edges, const Cells& but_for) const {
+        std::atomic_ref(not_clear_).store(but_for.bits().to_ullong(), std::memory_order_relaxed);
+        std::atomic_ref(clear_).store(from_edges, std::memory_order_release);
+    }
 
 private:
     bool is_inside(const Vec2& w) const { return std::min({w.x, w.y, 1.0 - w.x - w.y}) >= margin_; }
@@ -68,11 +79,12 @@ private:
     // A scene has millions of these: what the mesh tells is not kept.
     Vec3 vertex_, normal_;
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
-    double area_, error_;
+    double error_;
+    mutable std::uint64_t not_clear_ = 0;
     float rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
     float margin_;    // hits keep this barycentric distance from the edges, so that doubles tell on which side they are of a wall
                       // that meets the triangle there; 0 where the triangle is too thin for that
-    alignas(std::atomic_ref<float>::required_alignment) mutable float clear_ = unknown;
+    mutable float clear_ = unknown;
 };
 
 }  // namespace neumann

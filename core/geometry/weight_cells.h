@@ -10,6 +10,7 @@
 
 namespace neumann {
 
+template <int count>
 class WeightCells {
 public:
     // All cells that a convex polygon touches, and what rounding may make of it.
@@ -32,10 +33,11 @@ public:
         }
     }
     void mark_all() { cells_.set(); }
-    bool is_marked(const Vec2& weights) const { return cells_[index(cell(weights.x * count), cell(weights.y * count))]; }
+    static std::size_t index(const Vec2& weights) { return index(cell(weights.x * count), cell(weights.y * count)); }
+    bool is_marked(const Vec2& weights) const { return cells_[index(weights)]; }
+    const auto& bits() const { return cells_; }
 
 private:
-    static constexpr int count = 32;
     static constexpr double rounding = 1e-3;
     static int cell(double x) { return static_cast<int>(std::clamp(x, 0.0, count - 0.5)); }
     static std::size_t index(int column, int row) { return static_cast<std::size_t>(row * count + column); }

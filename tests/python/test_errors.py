@@ -37,7 +37,7 @@ class Errors(Case):
             ({"method": "photons"}, ["--method", "photons"]),
             ({"roulette": 2}, ["--roulette", "2"]),
             ({"bounces": 3, "tail": 0.1}, ["-n", "3", "--tail", "0.1"]),
-            ({"method": "matrix", "time": 1}, ["--method", "matrix", "--time", "1"]),
+            ({"method": "matrix", "sampler": "sobol"}, ["--method", "matrix", "--sampler", "sobol"]),
             ({"method": "light", "direct": "mis"}, ["--method", "light", "--direct", "mis"]),
             ({"importance": True}, ["--importance"]),
             ({"reference": "nowhere", "spp": 1}, ["--reference", "nowhere", "--spp", "1"]),
