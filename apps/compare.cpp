@@ -241,7 +241,7 @@ int compare_command(const CompareRequest& request) {
     const bool folders = a_is_folder && b_is_folder;
     if (!folders && !output.empty())
         throw InputError(fmt::format("-o: {} is a picture; a page is made of two folders of render", a));
-    const Comparison comparison = folders ? compare_folders(a, b) : Comparison{{compare_pictures("A against B", a, b)}, {}, {}};
+    const Comparison comparison = folders ? compare_folders(a, b) : Comparison{{compare_pictures("A against B", a, b)}, {}, {}, {}};
     const auto figures = json_of(a, b, comparison);
     if (!output.empty()) write_compare_page(output, a, b, figures);
     if (json) {
