@@ -5,8 +5,12 @@
 #include "core/sampling/warp.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neumann {
+
+// The mirror image of w on the upper side; w itself if it is there.
+inline Vec3 above(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 
 class Ggx {
 public:

@@ -18,8 +18,6 @@ double coat_alpha(double gloss) { return 0.1 + gloss * (0.001 - 0.1); }
 double glass_share(const PrincipledValues& v) { return (1.0 - v.metallic) * v.spec_trans; }
 double diffuse_share(const PrincipledValues& v) { return (1.0 - v.metallic) * (1.0 - v.spec_trans); }
 
-Vec3 above(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
-
 // The facet's normal, above the surface.
 Vec3 normal_between(const Vec3& wo, const Vec3& wi, double eta) {
     const Vec3 m = wi.z > 0.0 ? wo + wi : wo + eta * wi;

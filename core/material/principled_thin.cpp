@@ -11,8 +11,6 @@ namespace neumann {
 
 namespace {
 
-Vec3 above(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
-
 Ggx facets(const PrincipledValues& v, bool reflecting) { return Ggx(v.alpha(reflecting ? 1.0 : 0.65 * v.eta - 0.35)); }
 
 }  // namespace

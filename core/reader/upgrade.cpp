@@ -66,7 +66,7 @@ void gather_uv_transform(Element& parent, Warnings& warnings) {
 }
 
 // Of an object; nothing where it is a reference.
-std::string type_of(const Element& e) {
+std::string type_or_nothing(const Element& e) {
     const Attribute* type = e.find("type");
     return type ? type->value : "";
 }
@@ -89,7 +89,7 @@ bool drop(Element& e, const std::vector<std::string>& names) {
 
 // Pictures are linear here, and tone mapping is for viewers.
 void upgrade_film(Element& e, Warnings& warnings) {
-    if (type_of(e) == "ldrfilm") {
+    if (type_or_nothing(e) == "ldrfilm") {
         rename_type(e, "hdrfilm", warnings);
         drop(e, {"file_format", "pixel_format", "tonemap_method", "gamma", "exposure", "key", "burn"});
     }
@@ -100,7 +100,7 @@ void upgrade_film(Element& e, Warnings& warnings) {
 }
 
 void upgrade_sampler(Element& e, Warnings& warnings) {
-    const std::string type = type_of(e);
+    const std::string type = type_or_nothing(e);
     if (type != "sobol" && type != "halton" && type != "hammersley") return;
     rename_type(e, "ldsampler", warnings);
     drop(e, {"scramble", "dimension"});
@@ -124,7 +124,7 @@ void upgrade_gamma(Element& e, Warnings& warnings) {
 
 // The index of refraction of what is outside, or inside. Metals stand in air, as Mitsuba 3 has it.
 void upgrade_indices(Element& e, Warnings& warnings) {
-    const std::string type = type_of(e);
+    const std::string type = type_or_nothing(e);
     if (type == "conductor" || type == "roughconductor") {
         const Element* given = find(e, "ext_eta");
         if (!given) return;
@@ -186,7 +186,7 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
     }
     if (e.broken) return;
     if (e.tag == "bsdf") upgrade_indices(e, warnings);
-    if (e.tag == "bsdf" && type_of(e) == "diffuse")
+    if (e.tag == "bsdf" && type_or_nothing(e) == "diffuse")
         for (Element& child : e.children)
             for (Attribute& a : child.attributes)
                 if (a.name == "name" && a.value == "diffuse_reflectance") {
@@ -197,7 +197,7 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
     if (e.tag == "film") upgrade_film(e, warnings);
     if (e.tag == "sampler") upgrade_sampler(e, warnings);
     if (e.tag == "integrator") upgrade_integrator(e, warnings);
-    if (e.tag == "texture" && type_of(e) == "bitmap") upgrade_bitmap(e, warnings);
+    if (e.tag == "texture" && type_or_nothing(e) == "bitmap") upgrade_bitmap(e, warnings);
 }
 
 }  // namespace neumann::reader

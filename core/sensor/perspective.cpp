@@ -29,7 +29,7 @@ double tan_half_width(double fov, FovAxis axis, double aspect) {
 
 namespace {
 
-FilmPlane plane_of(const SensorOptions& options, const Film& film) {
+FilmPlane plane_ahead(const SensorOptions& options, const Film& film) {
     const double aspect = static_cast<double>(film.width) / film.height;
     const double x = tan_half_width(options.fov, options.fov_axis, aspect), y = x / aspect;
     const Vec2 shift(2.0 * options.principal_point_offset.x * x, 2.0 * options.principal_point_offset.y * y);
@@ -41,7 +41,7 @@ FilmPlane plane_of(const SensorOptions& options, const Film& film) {
 
 Perspective::Perspective(const SensorOptions& options, const Film& film)
     : origin_(options.to_world * glm::dvec4(0.0, 0.0, 0.0, 1.0)),
-      plane_(plane_of(options, film)),
+      plane_(plane_ahead(options, film)),
       axis_(glm::normalize(rotate(options.to_world, {0.0, 0.0, 1.0}))),
       near_(options.near_clip),
       far_(options.far_clip) {}

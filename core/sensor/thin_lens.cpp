@@ -7,7 +7,7 @@ namespace neumann {
 
 namespace {
 
-FilmPlane plane_of(const SensorOptions& options, const Film& film) {
+FilmPlane plane_in_focus(const SensorOptions& options, const Film& film) {
     const double aspect = static_cast<double>(film.width) / film.height;
     const double x = tan_half_width(options.fov, options.fov_axis, aspect), y = x / aspect;
     const Vec3 left(options.to_world[0]), up(options.to_world[1]), ahead(options.to_world[2]);
@@ -19,7 +19,7 @@ FilmPlane plane_of(const SensorOptions& options, const Film& film) {
 
 ThinLens::ThinLens(const SensorOptions& options, const Film& film)
     : origin_(options.to_world[3]),
-      plane_(plane_of(options, film)),
+      plane_(plane_in_focus(options, film)),
       lens_x_(Vec3(options.to_world[0]) * options.aperture_radius),
       lens_y_(Vec3(options.to_world[1]) * options.aperture_radius),
       axis_(glm::normalize(Vec3(options.to_world[2]))),

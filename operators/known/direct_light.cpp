@@ -11,7 +11,7 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double rho = 0.7, radiance = 3.0;
+constexpr double receiver_rho = 0.7, radiance = 3.0;
 
 struct Receiver {
     Vec3 point, normal;
@@ -24,12 +24,12 @@ void add_point(Cases& cases, const std::string& name, const Shape& light, const 
         cases.push_back({fmt::format("direct-light/{}/{}", name, short_name(way)), "rho Le F: closed form",
                          [=](Figures& figures, std::uint64_t seed) {
                              SceneMaker maker;
-                             maker.add(patch(receiver.point, receiver.normal, 0.01), matte(rho));
+                             maker.add(patch(receiver.point, receiver.normal, 0.01), matte(receiver_rho));
                              maker.add(light, lamp(radiance));
                              const Scene scene = maker.make();
                              const Estimates found = sharp_probe(scene, at(scene, receiver.point, receiver.normal), way,
                                                                  {.samples = 1024, .bounces = 2, .seed = seed});
-                             figures.terms(found, std::vector{rho * radiance * F, 0.0});
+                             figures.terms(found, std::vector{receiver_rho * radiance * F, 0.0});
                          }});
     }
 }
@@ -76,12 +76,12 @@ void add_pairs(Cases& cases) {
             if ((pair.touching && way == Way::light) || (pair.F < 0.1 && way == Way::bsdf)) continue;
             cases.push_back({name(short_name(way).c_str()), "rho Le F: closed form", [=](Figures& figures, std::uint64_t seed) {
                                  SceneMaker maker;
-                                 const std::uint32_t receiver = maker.add(pair.receiver, matte(rho));
+                                 const std::uint32_t receiver = maker.add(pair.receiver, matte(receiver_rho));
                                  maker.add(pair.light, lamp(radiance));
                                  const Scene scene = maker.make();
                                  figures.terms(sharp_probe(scene, anywhere_on(scene, receiver), way,
                                                            {.samples = 1024, .bounces = 2, .seed = seed}),
-                                               std::vector{rho * radiance * pair.F, 0.0});
+                                               std::vector{receiver_rho * radiance * pair.F, 0.0});
                              }});
         }
     }
@@ -115,7 +115,7 @@ void add_sky(Cases& cases) {
              [way](Figures& figures, std::uint64_t seed) {
                  const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
                  SceneMaker maker;
-                 maker.add(make_cube(Mat4(1.0)), matte(rho));
+                 maker.add(make_cube(Mat4(1.0)), matte(receiver_rho));
                  // It emits by direction alone, so it may be near.
                  maker.add(Sphere{{0, 0, 0}, 4.0, true},
                            {std::nullopt,
@@ -129,7 +129,7 @@ void add_sky(Cases& cases) {
                          sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
                                      {.samples = 1024, .bounces = 1, .seed = seed})
                              .terms[1],
-                         rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) + 0.25 * std::pow(glm::dot(q, n), 2)));
+                         receiver_rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) + 0.25 * std::pow(glm::dot(q, n), 2)));
              }});
 }
 
@@ -139,7 +139,7 @@ void add_point_lights(Cases& cases) {
         {"direct-light/point-and-parallel", "rho I cos/(pi d^2), rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {
              for (const bool parallel : {false, true}) {
                  SceneMaker maker;
-                 maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(rho));
+                 maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(receiver_rho));
                  const Vec3 from(0.3, -0.4, 1.2);
                  const double d = glm::length(from), cosine = from.z / d;
                  if (parallel)
@@ -150,7 +150,7 @@ void add_point_lights(Cases& cases) {
                  const Statistic found =
                      sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Way::mis, {.samples = 1024, .bounces = 1, .seed = seed})
                          .terms[1];
-                 const double exact = rho * 5.0 * cosine / pi / (parallel ? 1.0 : d * d);
+                 const double exact = receiver_rho * 5.0 * cosine / pi / (parallel ? 1.0 : d * d);
                  figures.near(parallel ? "K Le, parallel light" : "K Le, point light", found.mean.r, exact, 1e-14 * exact);
              }
          }});

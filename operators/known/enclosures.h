@@ -8,15 +8,15 @@
 
 namespace neumann::known {
 
-struct Enclosure {
+struct ClosedScene {
     std::string name;
     SceneMaker maker;
 };
 
 // All surfaces alike; the origin is inside and sees surfaces all around.
-inline std::vector<Enclosure> enclosures(const Surface& surface) {
-    std::vector<Enclosure> all;
-    const auto enclose = [&](const std::string& name) -> SceneMaker& { return all.emplace_back(Enclosure{name, {}}).maker; };
+inline std::vector<ClosedScene> enclosures(const Surface& surface) {
+    std::vector<ClosedScene> all;
+    const auto enclose = [&](const std::string& name) -> SceneMaker& { return all.emplace_back(ClosedScene{name, {}}).maker; };
     enclose("cube").add(make_cube(Mat4(1.0), true), surface);
     enclose("room of six rectangles").add(room({-1.1, -0.7, -0.4}, {0.9, 1.3, 0.8}), surface);
     enclose("sphere").add(Sphere{{0.1, -0.2, 0.3}, 1.7, true}, surface);

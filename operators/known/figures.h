@@ -16,6 +16,7 @@
 
 namespace neumann::known {
 
+inline constexpr double eps = std::numeric_limits<double>::epsilon(), infinity = std::numeric_limits<double>::infinity();
 inline constexpr double z_limit = 4.5;
 inline constexpr double largest_relative_error = 0.002;  // of a sampled value: its standard error over what is expected
 

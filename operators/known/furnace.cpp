@@ -37,10 +37,10 @@ void without_variance(Figures& figures, const Estimates& found, const Rgb& rho) 
 // rho^i for all i, whatever is sampled and wherever.
 void add_powers(Cases& cases) {
     const Rgb colour(0.25, 0.5, 0.75), bright(0.9, 0.99, 0.9999);
-    for (const Enclosure& enclosure : enclosures({})) {
+    for (const ClosedScene& enclosure : enclosures({})) {
         const std::string& name = enclosure.name;
         const auto scene_of = [name](const Rgb& rho) {
-            for (const Enclosure& e : enclosures({rho, grey(1.0)}))
+            for (const ClosedScene& e : enclosures({rho, grey(1.0)}))
                 if (e.name == name) return e.maker.make();
             throw std::logic_error("there is no enclosure of this name");
         };

@@ -13,7 +13,6 @@ namespace neumann::known {
 namespace {
 
 constexpr double n = 1.5;
-constexpr Way ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
 
 Surface glass(double eta = n) { return boundary(Dielectric(eta), Dielectric(1.0 / eta)); }
 // At 0, 45, 60, 80 and 89.9 degrees; Fresnel's equations in high precision.
@@ -117,7 +116,7 @@ void pane(Figures& figures, std::uint64_t seed, Way way) {
 }
 
 // Le = 1 − ρ on a wall of reflectance ρ gives L = 1 everywhere outside glass, whatever glass is in the room.
-void furnace(Figures& figures, std::uint64_t seed, Way way) {
+void glass_in_furnace(Figures& figures, std::uint64_t seed, Way way) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 2.0, true}, glowing(0.5, 0.5));
     maker.add(Sphere{{0.3, 0.1, 0}, 0.7, false}, glass());
@@ -134,7 +133,7 @@ void furnace(Figures& figures, std::uint64_t seed, Way way) {
 Cases glass_cases() {
     Cases cases;
     cases.push_back({"glass/fresnel", "Fresnel, Walsh's closed form", fresnel});
-    for (const Way way : ways) {
+    for (const Way way : specular_ways) {
         const std::string name = short_name(way);
         for (const auto& [degrees, R] : {reflected[2], reflected[3]})
             cases.push_back({fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact",
@@ -144,7 +143,7 @@ Cases glass_cases() {
         cases.push_back({"glass/pane/" + name, "2R/(1 + R): exact", [way](Figures& f, std::uint64_t seed) { pane(f, seed, way); }});
         if (way != Way::pointwise)
             cases.push_back(
-                {"glass/furnace/" + name, "L = 1: exact", [way](Figures& f, std::uint64_t seed) { furnace(f, seed, way); }});
+                {"glass/furnace/" + name, "L = 1: exact", [way](Figures& f, std::uint64_t seed) { glass_in_furnace(f, seed, way); }});
     }
     return cases;
 }

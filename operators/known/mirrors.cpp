@@ -13,10 +13,9 @@ namespace neumann::known {
 
 namespace {
 
-constexpr Way ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
-constexpr double rho = 0.9;
+constexpr double mirror_rho = 0.9;
 
-Conductor mirror() { return Conductor({}, grey(rho)); }
+Conductor mirror() { return Conductor({}, grey(mirror_rho)); }
 // Few samples are enough: all have to be the same. Operators start anew for every term.
 Effort effort(Way way, int bounces, std::uint64_t seed) {
     return {.samples = 2, .bounces = way == Way::pointwise ? std::min(bounces, 12) : bounces, .seed = seed};
@@ -56,7 +55,7 @@ void unfold(Figures& figures, Way way, std::uint64_t seed) {
     int wrong_faces = 0;
     for (std::size_t i = 0; i < found.terms.size(); ++i) {
         const Vec3 x = origin + direction * crossings.at(i), folded = glm::abs(x - 2.0 * glm::round(0.5 * x));
-        const double weight = std::pow(rho, static_cast<double>(i));
+        const double weight = std::pow(mirror_rho, static_cast<double>(i));
         worst = std::max(worst, max_component(glm::abs(found.terms[i].mean - weight * folded)));
         const int axis = faces[i] / 2, side = faces[i] % 2;
         wrong_faces += std::abs(found.terms[i].mean[axis] - side * weight) > 1e-12;
@@ -76,14 +75,14 @@ void rotate(Figures& figures, Way way, std::uint64_t seed) {
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, made_of(mirror(), AreaLight(emitted, grey(2.0))));
     const Scene scene = maker.make();
     const Vec3 towards(-std::cos(theta), std::sin(theta), 0.0);
-    const auto exact = [&](int i) { return std::pow(rho, i) * (1.0 + std::cos(3.0 * i * alpha)); };
+    const auto exact = [&](int i) { return std::pow(mirror_rho, i) * (1.0 + std::cos(3.0 * i * alpha)); };
     const Estimates found = probe(scene, seen(scene, Vec3(1, 0, 0) + 0.5 * towards, -towards), way, effort(way, 60, seed));
     add_terms(figures, found, exact, 1e-10);
     if (way == Way::pointwise) return;
     // Beyond term 60 there is at most 2 ρ^61/(1 − ρ).
     double sum = 0.0;
     for (const Statistic& term : found.terms) sum += term.mean.r;
-    figures.near("sum of 61 terms of the total", sum, 10.701126599366, 2.0 * std::pow(rho, 61) / (1.0 - rho));
+    figures.near("sum of 61 terms of the total", sum, 10.701126599366, 2.0 * std::pow(mirror_rho, 61) / (1.0 - mirror_rho));
 }
 
 // In a prism over an equilateral triangle the path through the middles of the sides closes after three bounces.
@@ -99,7 +98,7 @@ void go_round(Figures& figures, Way way, std::uint64_t seed) {
     const Vec3 middle = 0.5 * (corner[0] + corner[1]), before = 0.5 * (corner[2] + corner[0]);
     add_terms(
         figures, probe(scene, seen(scene, before + 0.1 * (middle - before), middle - before), way, effort(way, 36, seed)),
-        [](int i) { return i % 3 == 0 ? std::pow(rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
+        [](int i) { return i % 3 == 0 ? std::pow(mirror_rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
 }
 
 // m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le.
@@ -117,7 +116,7 @@ void look_round_corners(Figures& figures, Way way, std::uint64_t seed, int m) {
     const Estimates found = probe(scene, seen(scene, {-1, 0.01, 0.02}, {1, 0, 0}), way, effort(way, 8, seed));
     for (int i = 0; i <= 8; ++i)
         figures.near(fmt::format("K^{} Le", i), found.terms.at(static_cast<std::size_t>(i)).mean.r,
-                     i == m ? 2.0 * std::pow(rho, m) : 0.0, i == m ? 64.0 * std::numeric_limits<double>::epsilon() : 0.0);
+                     i == m ? 2.0 * std::pow(mirror_rho, m) : 0.0, i == m ? 64.0 * std::numeric_limits<double>::epsilon() : 0.0);
 }
 
 // Retroreflectors: K = ρ T, so that K² = ρ² I shows T² = I, wherever and along whatever direction.
@@ -125,7 +124,7 @@ void go_back(Figures& figures, Way way, std::uint64_t seed) {
     SceneMaker maker;
     const auto emitted = [](const ShadingPoint& p, const Vec3& w) { return grey(2.0 + p.position.x * p.position.y + 0.5 * w.z); };
     for (const TriangleMesh& face : room({-0.7, -1.1, -0.9}, {0.8, 1.2, 1.3}))
-        maker.add(face, made_of(Retroreflector(grey(rho)), AreaLight(emitted, grey(5.0))));
+        maker.add(face, made_of(Retroreflector(grey(mirror_rho)), AreaLight(emitted, grey(5.0))));
     const Scene scene = maker.make();
     const Vec3 origin(0.1, 0.2, 0.3), d = glm::normalize(Vec3(0.3, -0.5, 0.7));
     SurfacePoint here, there;
@@ -135,7 +134,7 @@ void go_back(Figures& figures, Way way, std::uint64_t seed) {
     const double first = Le(here, -d), second = Le(there, d);
     add_terms(
         figures, probe(scene, seen(scene, origin, d), way, effort(way, 30, seed)),
-        [=](int i) { return std::pow(rho, i) * (i % 2 ? second : first); }, 1e-12);
+        [=](int i) { return std::pow(mirror_rho, i) * (i % 2 ? second : first); }, 1e-12);
 }
 
 // Facing convex mirrors: an error grows by 1 + L/R + √((1 + L/R)² − 1) a bounce, 2 + √3 here, until it is the size of the mirrors.
@@ -169,7 +168,7 @@ void diverge(Figures& figures, std::uint64_t) {
 
 Cases mirror_cases() {
     Cases cases;
-    for (const Way way : ways) {
+    for (const Way way : specular_ways) {
         const std::string name = short_name(way);
         cases.push_back(
             {"mirrors/cube/" + name, "unfolding: exact", [way](Figures& f, std::uint64_t seed) { unfold(f, way, seed); }});

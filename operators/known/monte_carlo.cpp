@@ -22,21 +22,21 @@ Scene cube() {
 Effort independent(std::uint32_t samples, int bounces, std::uint64_t seed) {
     return {.samples = samples, .bounces = bounces, .sampler = SamplerKind::independent, .seed = seed};
 }
-StartPicker floor_center(const Scene& scene) { return at(scene, {0.5, 0.5, 0}, {0, 0, 1}); }
+StartPicker middle_of_floor(const Scene& scene) { return at(scene, {0.5, 0.5, 0}, {0, 0, 1}); }
 
 // A walk finds the light or does not, so the variance is g (1 − g); by uniform directions and by points on the light, quadrature.
 void variances(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
-    const Estimates by_walk = probe(scene, floor_center(scene), Way::bsdf, independent(65536, 2, seed));
+    const Estimates by_walk = probe(scene, middle_of_floor(scene), Way::bsdf, independent(65536, 2, seed));
     figures.sampled("K Le by cosine", by_walk.variance[1], g1 * (1.0 - g1));
     figures.sampled("K^2 Le by cosine", by_walk.variance[2], g2 * (1.0 - g2));
     figures.sampled("K Le by points on the light",
-                    probe(scene, floor_center(scene), Way::light, independent(16384, 1, seed)).variance[1], 0.0017405096111192883);
+                    probe(scene, middle_of_floor(scene), Way::light, independent(16384, 1, seed)).variance[1], 0.0017405096111192883);
     Effort uniform = independent(32768, 1, seed);
     uniform.direct = DirectLightSettings{.direct = DirectLight::hemisphere};
-    figures.sampled("K Le by uniform directions", probe(scene, floor_center(scene), Way::mis, uniform).variance[1],
+    figures.sampled("K Le by uniform directions", probe(scene, middle_of_floor(scene), Way::mis, uniform).variance[1],
                     0.39080403967926547);
-    figures.sampled("K Le by operators", probe(scene, floor_center(scene), Way::pointwise, independent(65536, 1, seed)).variance[1],
+    figures.sampled("K Le by operators", probe(scene, middle_of_floor(scene), Way::pointwise, independent(65536, 1, seed)).variance[1],
                     g1 * (1.0 - g1));
 }
 
@@ -101,17 +101,17 @@ void touching_light(Figures& figures, std::uint64_t seed) {
         const auto tail = tail_index(largest);
         return tail ? tail->upper : 1e9;
     };
-    const Estimates by_light = probe(scene, floor_center(scene), Way::light, independent(16384, 2, seed));
+    const Estimates by_light = probe(scene, middle_of_floor(scene), Way::light, independent(16384, 2, seed));
     figures.at_most("K^2 Le by points: tail index", upper(by_light.largest[2]), 2.0);
     figures.at_least("K Le by points: tail index", upper(by_light.largest[1]), 2.0);
     for (const Way way : {Way::mis, Way::bsdf}) {
-        const Estimates found = probe(scene, floor_center(scene), way, independent(16384, 2, seed));
+        const Estimates found = probe(scene, middle_of_floor(scene), way, independent(16384, 2, seed));
         figures.at_least(fmt::format("K^2 Le by {}: tail index", short_name(way)), upper(found.largest[2]), 2.0);
     }
     // 4e6 paths of another program: its own error as ours for as many.
     Effort balance = independent(65536, 2, seed);
     balance.direct = DirectLightSettings{.direct = DirectLight::mis, .heuristic = Heuristic::balance};
-    const Estimates mixed = probe(scene, floor_center(scene), Way::mis, balance);
+    const Estimates mixed = probe(scene, middle_of_floor(scene), Way::mis, balance);
     const double error = mixed.variance[2].standard_error.r;
     figures.sampled("K^2 Le by MIS, balance", mixed.terms[2], g2);
     figures.near("its variance", mixed.variance[2].mean.r, 0.03543286681558638,
@@ -126,7 +126,7 @@ void slope(Figures& figures, std::uint64_t seed) {
     for (int k = 0; k < sizes; ++k) {
         const auto samples = static_cast<std::uint32_t>(64) << (2 * k);
         const Statistic found =
-            probe(scene, floor_center(scene), Way::bsdf, independent(samples, 1, seed + static_cast<std::uint64_t>(k))).terms[1];
+            probe(scene, middle_of_floor(scene), Way::bsdf, independent(samples, 1, seed + static_cast<std::uint64_t>(k))).terms[1];
         const double n = batch_count, spread = found.standard_error.r * found.standard_error.r * (n - 1.0),
                      mse = spread + std::pow(found.mean.r - g1, 2), x = std::log(static_cast<double>(samples)), y = std::log(mse);
         x1 += x / sizes;

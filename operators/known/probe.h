@@ -36,6 +36,8 @@ StartPicker anywhere(const Scene& scene);
 // How the terms are estimated: by the walk with its three kinds of direct light, or by the series of operators, with R as an
 // integral over directions or over surfaces.
 enum class Way { mis, bsdf, light, pointwise, surfaces };
+// Those that also go by mirrors and glass.
+inline constexpr Way specular_ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
 std::string name(Way way);
 // In a word, for names of cases.
 std::string short_name(Way way);

@@ -18,8 +18,8 @@ struct Corners {
 bool before(const Vec3& x, const Vec3& y) { return std::array{x.x, x.y, x.z} < std::array{y.x, y.y, y.z}; }
 
 // An edge by the places of its ends: files often repeat vertices.
-using Edge = std::array<double, 6>;
-Edge edge_between(Vec3 x, Vec3 y) {
+using EdgeEnds = std::array<double, 6>;
+EdgeEnds edge_between(Vec3 x, Vec3 y) {
     if (before(y, x)) std::swap(x, y);
     return {x.x, x.y, x.z, y.x, y.y, y.z};
 }
@@ -78,7 +78,7 @@ void Atlas::add_mesh(std::uint32_t shape, const TriangleMesh& mesh, double patch
 
 void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector<bool>& has_chart) {
     // Longest shared edges first: a rectangle's diagonal.
-    std::map<Edge, std::vector<std::uint32_t>> at_edge;
+    std::map<EdgeEnds, std::vector<std::uint32_t>> at_edge;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Corners t(mesh, i);
         for (const auto& [x, y] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)})

@@ -16,8 +16,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 // A film of one box-filtered 4 × 4 picture.
 Pictures picture_from(SceneMaker maker, const Mat4& camera, int bounces, std::uint64_t seed, double fov = 1.0) {
     maker.parts.camera.to_world = camera;

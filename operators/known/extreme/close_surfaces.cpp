@@ -11,8 +11,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 struct Place {
     const char* name;
     Vec3 to;

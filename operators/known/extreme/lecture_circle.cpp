@@ -13,8 +13,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 }  // namespace
 
 void lecture_circle(Figures& figures, std::uint64_t seed) {

@@ -16,8 +16,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon(), infinity = std::numeric_limits<double>::infinity();
-
 }  // namespace
 
 Cases extreme_material_cases() {

@@ -11,8 +11,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 }  // namespace
 
 void numbers_that_are_none(Figures& figures, std::uint64_t seed) {

@@ -10,8 +10,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 }  // namespace
 
 Cases extreme_place_cases() {

@@ -12,8 +12,6 @@ namespace neumann::known {
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 }  // namespace
 
 Cases extreme_shape_cases() {
