@@ -1,9 +1,8 @@
 #include "python/job.h"
 
-#include "apps/interrupt.h"
+#include "apps/commands/interrupt.h"
+#include "apps/commands/limits.h"
 #include "core/base/error.h"
-
-#include "apps/options.h"
 
 #include <chrono>
 

@@ -1,8 +1,8 @@
 // A scene as matrices: T, R and Le, the camera, the spectrum of K, and all solvers.
-#include "apps/export.h"
-#include "apps/solve.h"
-#include "apps/spectrum.h"
-#include "apps/spectrum_report.h"
+#include "apps/commands/export.h"
+#include "apps/commands/solve.h"
+#include "apps/commands/spectrum.h"
+#include "apps/commands/spectrum_report.h"
 #include "operators/matrix/camera_vector.h"
 #include "operators/matrix/scene_patches.h"
 #include "python/module.h"

@@ -1,15 +1,14 @@
 // The parts of the compiled module _neumann, and what they share. The package `neumann` is made of it.
 #pragma once
 
+#include "apps/command_line/commands.h"
 #include "core/image/pixel_estimate.h"
 #include "core/scene/scene.h"
 #include "operators/statistics/picture_statistics.h"
 #include "python/job.h"
 
 #include <pybind11/numpy.h>
-#include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -57,17 +56,10 @@ template <class Request>
 Request parse(const std::string& command, CLI::App* (*add)(CLI::App&, Request&), const LoadedScene& scene,
               const std::vector<std::string>& arguments) {
     Request request;
-    CLI::App app;
-    add(app, request);
     std::vector<std::string> line{command};
     line.insert(line.end(), arguments.begin(), arguments.end());
     line.insert(line.end(), {"--", scene.path});
-    std::reverse(line.begin(), line.end());  // as CLI11 wants them
-    try {
-        app.parse(line);
-    } catch (const CLI::ParseError& e) {
-        throw InputError(e.what());
-    }
+    read_arguments([&](CLI::App& app) { add(app, request); }, line);
     return request;
 }
 

@@ -1,5 +1,5 @@
 // Pictures as arrays, files, and for the screen; and how far one is from another.
-#include "apps/rendered_picture.h"
+#include "apps/files/rendered_picture.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"
 #include "operators/statistics/metrics.h"

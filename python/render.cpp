@@ -1,9 +1,9 @@
 // Renders, as `neumann render` makes and writes them.
-#include "apps/patch_options.h"
-#include "apps/progress_line.h"
-#include "apps/rendering.h"
-#include "apps/run_json.h"
-#include "apps/series_files.h"
+#include "apps/commands/patch_scene.h"
+#include "apps/commands/progress_line.h"
+#include "apps/rendering/rendering.h"
+#include "apps/files/run_json.h"
+#include "apps/files/series_files.h"
 #include "python/module.h"
 
 #include <pybind11/stl.h>

@@ -1,6 +1,6 @@
 // Scenes: read, and looked at.
-#include "apps/patch_options.h"
-#include "apps/plan.h"
+#include "apps/commands/patch_scene.h"
+#include "apps/commands/plan.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 #include "python/module.h"

@@ -1,5 +1,5 @@
 // The series and its solvers on any K: matrices of a scene, of a book, or of the unit cube.
-#include "apps/interrupt.h"
+#include "apps/commands/interrupt.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "operators/known/cube.h"

@@ -1,5 +1,5 @@
 // `neumann study`.
-#include "apps/study_data.h"
+#include "apps/commands/study_data.h"
 #include "core/base/error.h"
 #include "python/module.h"
 

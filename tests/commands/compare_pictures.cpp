@@ -1,6 +1,6 @@
 // `neumann compare`: tables, JSON, and what cannot be compared.
-#include "apps/compare.h"
-#include "apps/rendered_picture.h"
+#include "apps/commands/compare.h"
+#include "apps/files/rendered_picture.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 

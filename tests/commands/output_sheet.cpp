@@ -1,7 +1,7 @@
 // The contact sheet, the flip-book and the strips: what is on them, and what fits where.
-#include "apps/contact_sheet.h"
-#include "apps/flip_book.h"
-#include "apps/strips.h"
+#include "apps/sheets/contact_sheet.h"
+#include "apps/sheets/flip_book.h"
+#include "apps/sheets/strips.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>

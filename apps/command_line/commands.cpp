@@ -1,0 +1,54 @@
+#include "apps/command_line/commands.h"
+
+#include "apps/commands/compare.h"
+#include "apps/commands/conform.h"
+#include "apps/commands/export.h"
+#include "apps/commands/plan.h"
+#include "apps/commands/render.h"
+#include "apps/commands/replay.h"
+#include "apps/commands/solve.h"
+#include "apps/commands/spectrum.h"
+#include "apps/commands/stress.h"
+#include "apps/commands/study.h"
+#include "core/base/error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace neumann {
+
+namespace {
+
+template <class Request>
+Command command(CLI::App& app, const std::string& line, CLI::App* (&add)(CLI::App&, Request&), int (&run)(const Request&)) {
+    auto request = std::make_shared<Request>();
+    if constexpr (requires { request->command_line; }) request->command_line = line;
+    if constexpr (requires { request->patches.command_line; }) request->patches.command_line = line;
+    return {add(app, *request), [request, &run] { return run(*request); }};
+}
+
+}  // namespace
+
+std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
+    return {command(app, line, add_render, render_command),     command(app, line, add_compare, compare_command),
+            command(app, line, add_spectrum, spectrum_command), command(app, line, add_solve, solve_command),
+            command(app, line, add_export, export_command),     command(app, line, add_conform, conform_command),
+            command(app, line, add_study, study_command),       command(app, line, add_replay, replay_command),
+            command(app, line, add_stress, stress_command),     command(app, line, add_plan, plan_command)};
+}
+
+void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments) {
+    CLI::App app;
+    app.set_help_flag();
+    add(app);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    try {
+        app.parse(arguments);
+    } catch (const CLI::ParseError& e) {
+        throw InputError(e.what());
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,19 @@
+// The options of `neumann compare`.
+#include "apps/command_line/commands.h"
+#include "apps/command_line/options.h"
+#include "apps/commands/compare.h"
+
+namespace neumann {
+
+CLI::App* add_compare(CLI::App& app, CompareRequest& request) {
+    auto* compare = app.add_subcommand(
+        "compare", "Print error metrics between two pictures or two output folders; the second is the reference");
+    compare->add_option("A", request.a, "Picture or folder")->required();
+    compare->add_option("B", request.b, "Reference picture or folder")->required();
+    compare->add_option("-o", request.output, "Of two folders: write a page there that shows both, bounce by bounce")
+        ->type_name("DIR");
+    compare->add_flag("--json", request.json, "Print JSON");
+    return compare;
+}
+
+}  // namespace neumann

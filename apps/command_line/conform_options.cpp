@@ -1,0 +1,26 @@
+// The options of `neumann conform`.
+#include "apps/command_line/commands.h"
+#include "apps/command_line/options.h"
+#include "apps/commands/conform.h"
+
+namespace neumann {
+
+CLI::App* add_conform(CLI::App& app, ConformRequest& request) {
+    auto* conform =
+        app.add_subcommand("conform", "Render a folder of Mitsuba's regression scenes and test it against their references");
+    conform->add_option("DIR", request.folder, "Folder with tests/scenes in it, as Mitsuba's data are laid out")->required();
+    conform->add_option("--only", request.only, "Scenes whose folder/name holds this")->type_name("TEXT");
+    conform->add_option("-o", request.output, "Folder for the pictures of what is rejected")
+        ->type_name("DIR")
+        ->capture_default_str();
+    conform->add_option("--samples", request.budget, "Of a scene, over all its pixels")
+        ->type_name("N")
+        ->check(whole_from(1, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    add_seed(*conform, request.seed);
+    add_threads(*conform, request.threads);
+    conform->add_flag("--json", request.json, "Print JSON");
+    return conform;
+}
+
+}  // namespace neumann

@@ -1,0 +1,85 @@
+// The command line.
+#include "apps/command_line/command_manual.h"
+#include "apps/command_line/commands.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+
+namespace {
+
+constexpr int failed_while_running = 1, wrong_input = 2;
+
+// Not fmt::print, which throws where stderr cannot be written.
+void complain(const std::string& what) { std::fputs((what + "\n").c_str(), stderr); }
+
+// What was printed must have arrived.
+int finish(int code) {
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    throw neumann::RunError(std::string("standard output cannot be written: ") + std::strerror(errno));
+}
+
+std::string join(int argc, char** argv) {
+    std::string line = "neumann";
+    for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
+    return line;
+}
+
+// The command of this name; of none, the program itself.
+const CLI::App& find(const CLI::App& app, const std::string& name) {
+    if (name.empty()) return app;
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) return *command;
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    throw neumann::InputError(fmt::format("no command is called '{}'; there are {}", name, names));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
+    CLI::App app("makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors");
+    app.name("neumann");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "neumann " NEUMANN_VERSION);
+    app.formatter(std::make_shared<neumann::ManualFormatter>());
+
+    const std::vector<neumann::Command> commands = neumann::add_commands(app, join(argc, argv));
+    auto* help = app.add_subcommand("help", "Show the manual page of a command, or of the program");
+    std::string topic;
+    bool roff = false;
+    help->add_option("COMMAND", topic, "Command");
+    help->add_flag("--roff", roff, "Print the page as man reads it");
+
+    if (argc > 1 && argv[1][0] != '-') find(app, argv[1]);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? finish(0) : wrong_input;
+    }
+    if (*help) {
+        const neumann::ManualPage page = neumann::manual_page(find(app, topic));
+        fmt::print("{}", roff ? as_roff(page) : as_text(page));
+        return finish(0);
+    }
+    const auto given = std::ranges::find_if(commands, [](const neumann::Command& command) { return bool(*command.app); });
+    return finish(given->run());
+} catch (const neumann::InputError& e) {
+    complain(e.what());
+    return wrong_input;
+} catch (const std::bad_alloc&) {
+    complain("neumann: not enough memory");
+    return failed_while_running;
+} catch (const std::exception& e) {
+    complain(std::string("neumann: ") + e.what());
+    return failed_while_running;
+}

@@ -1,0 +1,70 @@
+#include "apps/command_line/options.h"
+
+#include "apps/commands/patch_scene.h"
+
+#include <fmt/format.h>
+#include <charconv>
+#include <cmath>
+
+namespace neumann {
+
+CLI::Validator above_zero() {
+    return CLI::Validator(
+        [](std::string& text) {
+            double value = 0.0;
+            const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+            return good ? std::string() : "'" + text + "' is not a number above 0";
+        },
+        "", "above_zero");
+}
+
+CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            std::uint64_t value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+            return good ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+        },
+        "", "whole");
+}
+
+void add_scene(CLI::App& command, std::string& scene) { command.add_option("SCENE", scene, "Mitsuba 3 scene file")->required(); }
+
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning) {
+    command.add_option("--seed", seed, meaning)->type_name("N")->check(whole_from(0, ~std::uint64_t{0}))->capture_default_str();
+}
+
+void add_threads(CLI::App& command, int& threads) {
+    command.add_option("-t", threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+}
+
+void add_memory(CLI::App& command, std::optional<double>& gibibytes) {
+    command.add_option("--memory", gibibytes, "Memory that may be taken, about, in GiB; half of the machine's without it")
+        ->type_name("GIB")
+        ->check(above_zero());
+}
+
+void add_definitions(CLI::App& command, std::vector<std::string>& texts) {
+    command.add_option("-D", texts, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
+}
+
+void add_patch_options(CLI::App& command, PatchOptions& options) {
+    add_scene(command, options.scene);
+    command.add_option("--patches", options.patches, "Patches that the surfaces are cut into, about")
+        ->type_name("N")
+        ->check(whole_from(0, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    command.add_option("--directions", options.rays, "Rays of T for each side of a patch, a power of two")
+        ->type_name("M")
+        ->check(whole_from(0, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    add_seed(command, options.seed);
+    add_threads(command, options.threads);
+    add_memory(command, options.memory);
+    add_definitions(command, options.definitions);
+    command.add_flag("--quiet", options.quiet, "Print no warnings");
+    command.add_flag("--json", options.json, "Print JSON");
+}
+
+}  // namespace neumann

@@ -1,0 +1,31 @@
+// What the options of several commands share. Validators have no description of their own, which CLI11 would put into the help.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct PatchOptions;
+
+CLI::Validator above_zero();
+CLI::Validator whole_from(std::uint64_t low, std::uint64_t high);
+
+// SCENE, --seed N and -t THREADS.
+void add_scene(CLI::App& command, std::string& scene);
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning = "Seed of the random numbers");
+void add_threads(CLI::App& command, int& threads);
+
+// --memory, in GiB; without it half of what there is.
+void add_memory(CLI::App& command, std::optional<double>& gibibytes);
+// -D name=value, repeatable.
+void add_definitions(CLI::App& command, std::vector<std::string>& texts);
+
+// SCENE, and all that the commands share that take it as matrices.
+void add_patch_options(CLI::App& command, PatchOptions& options);
+
+}  // namespace neumann

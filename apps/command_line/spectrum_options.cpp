@@ -1,0 +1,28 @@
+// The options of `neumann spectrum`.
+#include "apps/command_line/commands.h"
+#include "apps/command_line/options.h"
+#include "apps/commands/spectrum.h"
+
+namespace neumann {
+
+CLI::App* add_spectrum(CLI::App& app, SpectrumRequest& request) {
+    auto* command =
+        app.add_subcommand("spectrum", "Print norms and leading eigenvalues of K: whether, and how fast, the series ends");
+    add_patch_options(*command, request.patches);
+    command->add_option("--eigenvalues", request.eigenvalues, "So many leading eigenvalues")
+        ->type_name("N")
+        ->check(whole_from(1, 100))
+        ->capture_default_str();
+    command->add_option("--time", request.seconds, "Look for them for so many seconds at most")
+        ->type_name("S")
+        ->check(above_zero())
+        ->capture_default_str();
+    command->add_option("--most", request.most, "Applications of K that a search for eigenvalues may take")
+        ->type_name("N")
+        ->check(whole_from(1, 1000000000))
+        ->capture_default_str();
+    command->add_flag("--csv", request.csv, "Print the eigenvalues as CSV")->excludes("--json");
+    return command;
+}
+
+}  // namespace neumann

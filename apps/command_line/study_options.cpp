@@ -1,0 +1,57 @@
+// The options of `neumann study`.
+#include "apps/command_line/options.h"
+#include "apps/commands/study.h"
+
+namespace neumann {
+
+CLI::App* add_study(CLI::App& app, StudyRequest& request) {
+    auto* study = app.add_subcommand("study", "Compare methods: error against time, bounce by bounce");
+    add_scene(*study, request.scene);
+    study
+        ->add_option("--methods", request.methods,
+                     "Methods with options of render after colons: walk,walk:direct=light:sampler=independent,matrix")
+        ->type_name("A,B,...")
+        ->delimiter(',')
+        ->required();
+    study->add_option("-o", request.output, "Folder for tables and page; out/NAME-study without it")->type_name("DIR");
+    study
+        ->add_option("--reference", request.reference,
+                     "What is true: the folder of an earlier render, values:A,B,... for bounces of one colour each, or an unbiased "
+                     "method that makes a reference with a seed of its own, which is kept in the cache; without it walk or "
+                     "bidirectional, whichever has less variance for as many rays in the bounce where it is worst")
+        ->type_name("R");
+    study
+        ->add_option("--reference-spp", request.reference_samples,
+                     "Samples a pixel of a reference that is made; 16 times those of walk at the largest budget without it")
+        ->type_name("N")
+        ->check(whole_from(4, std::uint64_t{1} << 40));
+    study->add_option("--budgets", request.budgets, "Seconds of a run, growing; chosen without it")
+        ->type_name("S,S,...")
+        ->delimiter(',')
+        ->check(above_zero());
+    study->add_option("--samples", request.samples, "Instead of --budgets: samples a pixel of a run, growing")
+        ->type_name("N,N,...")
+        ->delimiter(',')
+        ->check(whole_from(1, std::uint64_t{1} << 40));
+    study->add_option("--repeats", request.repeats, "Runs of each method at each budget, with other seeds")
+        ->type_name("N")
+        ->check(whole_from(1, 100000))
+        ->capture_default_str();
+    study->add_option("-n", request.bounces, "The last bounce that is looked at")
+        ->type_name("BOUNCES")
+        ->check(whole_from(0, 100000));
+    study
+        ->add_option("--error", request.error,
+                     "Relative RMSE for the time to a given error; without it the smallest that all methods reach")
+        ->type_name("REL")
+        ->check(above_zero());
+    study->add_flag("--resume", request.resume, "Go on with a study that was cut off");
+    add_seed(*study, request.seed, "Seed that the seeds of all runs come from");
+    add_threads(*study, request.threads);
+    add_definitions(*study, request.definition_texts);
+    study->add_flag("--quiet", request.quiet, "Print nothing but errors");
+    study->add_flag("--json", request.json, "Print study.json");
+    return study;
+}
+
+}  // namespace neumann

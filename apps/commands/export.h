@@ -1,0 +1,26 @@
+// `neumann export SCENE`: T, R, Le and the measures as files that SciPy reads.
+#pragma once
+
+#include "apps/commands/patch_scene.h"
+
+#include <string>
+
+namespace neumann {
+
+struct ExportRequest {
+    PatchOptions patches;
+    std::string output;  // a folder; empty: out/NAME-matrices
+    bool with_K = false;
+};
+
+// Throws InputError where T and R of the system are too large to be held as matrices.
+void check_matrix_memory(const PatchOptions& options, const TracedSystem& system);
+// patches.csv: a row for each side of a patch, with its first unknown.
+std::string patches_table(const PatchSpace& space);
+// n² times area times projected solid angle, of each ray.
+Vector ray_measures(const RayTable& table);
+
+// All files or none. Exit code 0. Throws InputError, and RunError where a disk is full or Ctrl-C ended it.
+int export_command(const ExportRequest& request);
+
+}  // namespace neumann

@@ -1,0 +1,102 @@
+#include "apps/commands/patch_scene.h"
+
+#include "apps/commands/definitions.h"
+#include "apps/commands/interrupt.h"
+#include "apps/commands/limits.h"
+#include "core/base/error.h"
+#include "core/geometry/ray_caster.h"
+#include "core/reader/read_scene.h"
+#include "core/scene/shading_normals.h"
+
+#include <fmt/format.h>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t most_rays = 1 << 20;
+
+TracedSettings settings(const PatchOptions& options) {
+    if (options.patches == 0) throw InputError("--patches 0: expected at least 1");
+    const std::uint64_t rays = options.rays;
+    if (rays > most_rays) throw InputError(fmt::format("--directions {}: expected at most {}", rays, most_rays));
+    if (rays == 0) throw InputError("--directions 0: expected a power of two, such as 64");
+    if (!std::has_single_bit(rays))
+        throw InputError(fmt::format("--directions {}: expected a power of two, such as {} or {}", rays, std::bit_floor(rays),
+                                     std::bit_ceil(rays)));
+    return {options.patches, static_cast<std::uint32_t>(rays), options.seed, memory_limit(options.memory)};
+}
+
+std::shared_ptr<const Scene> read(const PatchOptions& options) {
+    settings(options);  // before anything is read
+    return std::make_shared<const Scene>(read_scene(options.scene, parse_definitions(options.definitions)));
+}
+
+}  // namespace
+
+PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(options), parse_definitions(options.definitions)) {}
+
+PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
+                       std::map<std::string, std::string> definitions)
+    : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
+    const TracedSettings traced = settings(options);
+    try {
+        system_ = std::make_unique<TracedSystem>(*scene_, traced, [] {
+            if (interrupted()) throw RunError("interrupted");
+        });
+    } catch (const InputError& e) {
+        throw InputError(options.scene + ": " + e.what());
+    }
+}
+
+const char* PatchScene::channel_name(int c) const {
+    constexpr const char* names[] = {"red", "green", "blue"};
+    return system_->channels() == 1 ? "grey" : names[c];
+}
+const char* PatchScene::channel_letter(int c) const {
+    constexpr const char* letters[] = {"r", "g", "b"};
+    return system_->channels() == 1 ? "" : letters[c];
+}
+
+std::vector<std::string> PatchScene::warnings() const {
+    Warnings all = scene_->warnings;
+    if (has_shading_normals(*scene_)) all.add(patches_are_flat);
+    return texts(all);
+}
+
+std::string PatchScene::title() const {
+    return fmt::format("{}: {} patches, {} unknowns, {} rays each, seed {}", options_.scene, system_->space().patches().size(),
+                       system_->space().size(), options_.rays, options_.seed);
+}
+
+nlohmann::ordered_json PatchScene::json() const {
+    nlohmann::ordered_json json;
+    json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
+    json["command"] = options_.command_line;
+    json["scene"] = {{"file", options_.scene}, {"hash", scene_->hash}, {"definitions", definitions_}};
+    json["options"] = {{"patches", options_.patches}, {"directions", options_.rays}, {"seed", options_.seed}};
+    json["patches"] = system_->space().patches().size();
+    json["unknowns"] = system_->space().size();
+    json["rays"] = system_->rays();
+    return json;
+}
+
+nlohmann::ordered_json number(double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); }
+
+void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
+    for (const std::string& text : warnings) {
+        if (!quiet) fmt::print(stderr, "warning: {}\n", text);
+    }
+}
+
+std::vector<std::string> texts(const Warnings& warnings) {
+    std::vector<std::string> result;
+    for (const auto& [text, count] : warnings.counts())
+        result.push_back(text + (count > 1 ? fmt::format(" ({} times)", count) : ""));
+    return result;
+}
+
+}  // namespace neumann

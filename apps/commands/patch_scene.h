@@ -1,0 +1,68 @@
+// What the commands that take a scene as matrices share: their options, and how a scene becomes space, table, R and channels.
+#pragma once
+
+#include "apps/commands/limits.h"
+#include "core/base/warnings.h"
+#include "operators/matrix/traced_system.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct PatchOptions {
+    std::string scene;
+    std::vector<std::string> definitions;  // -D name=value
+    std::uint64_t patches = 2000;
+    std::uint64_t rays = 64;  // of a facet
+    std::uint64_t seed = 0;
+    int threads = 0;  // 0: all
+    std::optional<double> memory;  // GiB
+    bool quiet = false;
+    bool json = false;
+    std::string command_line;  // as typed
+};
+
+// The scene of a command, read and traced; while it lives it holds the number of threads.
+class PatchScene {
+public:
+    // Throws InputError, with the option or the scene that is wrong, and what would do.
+    explicit PatchScene(const PatchOptions& options);
+    // Of a scene that was read before, with these definitions.
+    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions);
+
+    const Scene& scene() const { return *scene_; }
+    const TracedSystem& system() const { return *system_; }
+
+    // "grey", or "red", "green", "blue"; and "", or "r", "g", "b", as in names of files.
+    const char* channel_name(int c) const;
+    const char* channel_letter(int c) const;
+
+    std::vector<std::string> warnings() const;
+
+    // One line: "scene.xml: 1994 patches, 2006 unknowns, 64 rays each, seed 0".
+    std::string title() const;
+    // Program, command, scene, options and sizes.
+    nlohmann::ordered_json json() const;
+
+private:
+    PatchOptions options_;
+    ThreadLimit threads_;
+    std::map<std::string, std::string> definitions_;
+    std::shared_ptr<const Scene> scene_;
+    std::unique_ptr<TracedSystem> system_;
+};
+
+// JSON has no infinity: null.
+nlohmann::ordered_json number(double x);
+
+// On stderr, unless `quiet`.
+void print_warnings(const std::vector<std::string>& warnings, bool quiet);
+std::vector<std::string> texts(const Warnings& warnings);
+
+}  // namespace neumann

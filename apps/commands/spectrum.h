@@ -1,0 +1,20 @@
+// `neumann spectrum SCENE`: norms and leading eigenvalues of K, whether the series converges, and how fast.
+#pragma once
+
+#include "apps/commands/patch_scene.h"
+
+namespace neumann {
+
+struct SpectrumRequest {
+    PatchOptions patches;
+    int eigenvalues = 4;
+    double seconds = 60.0;
+    int most = 10000;  // applications of K, of a search
+    bool csv = false;
+};
+
+// Prints what T keeps, then for each channel norms, eigenvalues, bounces and rounding, then the eigenvalues on coarser patches and
+// with fewer rays. Exit code 0, also where the series diverges. Throws InputError.
+int spectrum_command(const SpectrumRequest& request);
+
+}  // namespace neumann

@@ -1,0 +1,52 @@
+// What `neumann spectrum` finds out, before it is printed in one form or another.
+#pragma once
+
+#include "apps/commands/spectrum.h"
+#include "operators/matrix/refinement.h"
+#include "operators/spectrum/convergence.h"
+#include "operators/spectrum/radius_bounds.h"
+#include "operators/spectrum/spectrum.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+
+namespace neumann {
+
+struct ChannelSpectrum {
+    const char* name = "";
+    double largest_albedo = 0.0;
+    OperatorNorms norms;
+    double one_error = 0.0, one_part = 0.0;  // of ‖K‖₁: standard error by the rays, and the part of all measure of that unknown
+    Eigenpairs leading;
+    double radius = 0.0, shift = 0.0;  // and how far it moves when patches or rays are quartered
+    std::optional<RadiusBounds> bounds;  // of the radius, where the eigenvalues were not found
+    Convergence convergence = Convergence::undecided;
+    std::array<std::optional<int>, 3> bounces;       // until the part `remaining` is left
+    bool bounces_stopped = false;                    // out of time, before they were known
+    std::array<double, 2> rounding{}, stagnation{};  // in float and in double
+};
+
+struct SpectrumReport {
+    static constexpr std::array<double, 3> remaining{0.1, 0.01, 0.001};
+    static constexpr int most_bounces = 10000;
+
+    double row_min = 0.0, row_mean = 0.0, row_max = 0.0;  // sums of rows of T
+    double rays_without_hit = 0.0;                        // part of all
+    double reciprocity_defect = 0.0;
+    bool emits = false;
+    std::vector<ChannelSpectrum> channels;
+    std::vector<RefinementRow> coarser;
+    std::vector<std::string> warnings;
+};
+
+// `tell`: how far it is, from time to time. Out of time, or interrupted, it has what was found until then, and warns.
+SpectrumReport spectrum_report(
+    const PatchScene& scene, const SpectrumRequest& request,
+    const std::function<void(const std::function<std::string()>&)>& tell = [](const auto&) {});
+
+void print_spectrum(const PatchScene& scene, const SpectrumReport& report);
+void print_spectrum_csv(const PatchScene& scene, const SpectrumReport& report);
+nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumReport& report);
+
+}  // namespace neumann

@@ -1,0 +1,151 @@
+#include "apps/commands/study_plan.h"
+
+#include "apps/commands/interrupt.h"
+#include "apps/command_line/method_options.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace neumann {
+
+namespace {
+
+// Of the runs that measure speed, seconds: shorter ones are too uncertain, and those of this part of the largest budget too unlike
+// it; longer ones, of methods whose time grows with their samples alone, tell no more.
+constexpr double shortest_measurement = 0.05, part_of_budget = 0.25, longest_measurement = 2.0;
+// Without --budgets: so many, each twice the one before; the first one, seconds, at least, and what gives every method 4 samples.
+constexpr int default_budgets = 4;
+constexpr double least_default_budget = 0.1;
+// A reference has so many times the samples of the largest budget.
+constexpr std::uint64_t reference_factor = 16, least_reference_samples = 256;
+
+Effort effort_of(const StudyMethod& method, int level) {
+    return is_field_method(method.request.method) ? field_effort(level) : sampling_effort(level);
+}
+
+// What runs take: what grows with the level, of the first levels, and what does not, of one run.
+struct Measurement {
+    std::vector<double> seconds;
+    double setup = 0.0;
+    bool fields = false;
+
+    double level(double budget) const {
+        return affordable_level(seconds, fields ? field_growth(seconds) : 2.0, std::max(budget - setup, seconds.front()));
+    }
+};
+
+// Until the seconds are `enough`. What fields set up grows with their patches.
+std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
+                                   const Pilot& pilot) {
+    Measurement result{{}, 0.0, is_field_method(method.request.method)};
+    auto& [seconds, setup, fields] = result;
+    do {
+        const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot);
+        if (!run) return std::nullopt;
+        setup = fields ? 0.0 : run->series.setup_seconds;
+        seconds.push_back(run->series.seconds - setup);
+    } while (seconds.back() < enough && static_cast<int>(seconds.size()) < largest_effort);
+    return result;
+}
+
+}  // namespace
+
+std::vector<StudyMethod> study_methods(const StudyRequest& request) {
+    std::vector<StudyMethod> methods;
+    for (const std::string& name : request.methods) {
+        if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
+            throw InputError(fmt::format("--methods: '{}' is given twice", name));
+        try {
+            methods.push_back({name, parse_method(name)});
+        } catch (const InputError& e) {
+            throw InputError(fmt::format("--methods {}", e.what()));
+        }
+    }
+    return methods;
+}
+
+RenderRequest run_request(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed) {
+    RenderRequest request = method.request;
+    request.bounces = bounces;
+    request.samples = effort.samples;
+    if (!request.patches) request.patches = effort.patches;
+    if (!request.directions) request.directions = effort.directions;
+    request.seed = seed;
+    request.only_pictures = request.quiet = true;
+    return request;
+}
+
+std::optional<RenderResult> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
+                                       const Scene& scene, const Pilot& pilot) {
+    try {
+        const RenderRequest request = run_request(method, effort, bounces, seed);
+        RenderResult result = render_by_method({request, scene, pilot, plan_of(request, scene)});
+        if (result.series.outcome == Outcome::interrupted) return std::nullopt;
+        return result;
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", method.name, e.what()));
+    } catch (const RunError& e) {
+        if (interrupted()) return std::nullopt;
+        throw RunError(fmt::format("{}: {}", method.name, e.what()));
+    }
+}
+
+std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vector<StudyMethod>& methods, const Scene& scene,
+                                    const Pilot& pilot, int bounces) {
+    StudyPlan plan;
+    plan.budgets_are_samples = !request.samples.empty();
+    std::uint64_t most_samples = 0;
+    if (plan.budgets_are_samples) {
+        plan.budgets.assign(request.samples.begin(), request.samples.end());
+        for (const StudyMethod& method : methods) {
+            std::vector<Effort>& efforts = plan.efforts.emplace_back();
+            for (const std::uint64_t n : request.samples)
+                efforts.push_back(is_field_method(method.request.method) ? field_effort_of_samples(n) : Effort{n});
+            if (!run_method(method, effort_of(method, 0), bounces, request.seed, scene, pilot)) return std::nullopt;
+        }
+        most_samples = request.samples.back();
+    } else {
+        const double largest =
+            request.budgets.empty() ? std::ldexp(least_default_budget, default_budgets - 1) : request.budgets.back();
+        std::vector<Measurement> measured;
+        double least = least_default_budget;
+        for (const StudyMethod& method : methods) {
+            const bool fields = is_field_method(method.request.method);
+            const double part = part_of_budget * largest;
+            auto run = measure(method, std::max(shortest_measurement, fields ? part : std::min(part, longest_measurement)), bounces,
+                               request.seed, scene, pilot);
+            if (!run) return std::nullopt;
+            const double first = run->seconds.front();
+            least = std::max(least, fields ? first : run->setup + 4.0 * first);
+            measured.push_back(std::move(*run));
+        }
+        plan.budgets = request.budgets;
+        if (plan.budgets.empty())
+            for (int b = 0; b < default_budgets; ++b) plan.budgets.push_back(std::ldexp(least, b));
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+            const bool patches_given = methods[m].request.patches.has_value();
+            std::vector<double> levels;
+            for (const double budget : plan.budgets) {
+                levels.push_back(measured[m].level(budget));
+                if (!measured[m].fields || patches_given || levels.back() == 0.0) continue;
+                const auto run = run_method(methods[m], field_effort(levels.back()), bounces, request.seed, scene, pilot);
+                if (!run) return std::nullopt;
+                levels.back() = corrected_level(levels.back(), run->series.seconds, budget);
+            }
+            plan.efforts.push_back(measured[m].fields ? field_efforts(levels, patches_given) : sampling_efforts(levels));
+        }
+        const StudyMethod walk{"walk", {}};
+        const auto measured_walk = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
+        if (!measured_walk) return std::nullopt;
+        most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;
+    }
+    plan.reference_samples =
+        request.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
+    return plan;
+}
+
+}  // namespace neumann

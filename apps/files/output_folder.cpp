@@ -1,0 +1,213 @@
+#include "apps/files/output_folder.h"
+
+#include "core/base/error.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <map>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+#include <system_error>
+
+namespace neumann {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cannot_be_written(const fs::path& path, int error) {
+    return fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(error));
+}
+
+bool is_numbered(std::string_view name, std::string_view prefix) {
+    constexpr std::string_view suffix = ".exr";
+    if (!name.starts_with(prefix) || !name.ends_with(suffix) || name.size() < prefix.size() + 3 + suffix.size()) return false;
+    const std::string_view digits = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+    return digits.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// "way_s1_t3.exr", "way_s1_t3_unweighted.exr"
+bool is_way(std::string_view name) {
+    static const std::regex pattern("way_s[0-9]+_t[0-9]+(_unweighted)?\\.exr");
+    return std::regex_match(name.begin(), name.end(), pattern);
+}
+
+// 0, or the error number.
+int write_all(int file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return errno;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return ::fsync(file) == 0 ? 0 : errno;
+}
+
+int write_file(const fs::path& path, std::string_view bytes) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) return errno;
+    const int written = write_all(file, bytes);
+    const int closed = ::close(file) == 0 ? 0 : errno;
+    return written != 0 ? written : closed;
+}
+
+// The names in `folder` that `wanted` takes.
+template <typename Predicate>
+std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        std::string name = entry->path().filename().string();
+        if (wanted(name)) names.push_back(std::move(name));
+    }
+    return names;
+}
+
+// The command that writes a file of this name; "any" of several.
+std::optional<std::string_view> writer_of(std::string_view name) {
+    static const std::map<std::string_view, std::vector<std::string_view>> names = {
+        {"any", {"run.json", "index.html"}},
+        {"render",
+         {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
+          "strip-terms.gif", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
+        {"study", {"study.csv", "study.json"}},
+        {"compare", {"compare.json"}},
+        {"export",
+         {"T.mtx", "R.mtx", "R_r.mtx", "R_g.mtx", "R_b.mtx", "K.mtx", "K_r.mtx", "K_g.mtx", "K_b.mtx", "Le.mtx", "b.mtx",
+          "measure.mtx", "ray_measure.mtx", "patches.csv"}},
+        {"conform", {"picture.exr", "reference.exr", "p-reference.exr", "p-error.exr", "difference.exr"}}};
+    if (is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name)) return "render";
+    for (const auto& [command, its] : names)
+        if (std::find(its.begin(), its.end(), name) != its.end()) return command;
+    return std::nullopt;
+}
+
+std::string size_text(double bytes) {
+    return bytes < 0x1p30 ? fmt::format("{:.3g} MiB", bytes / 0x1p20) : fmt::format("{:.3g} GiB", bytes / 0x1p30);
+}
+
+}  // namespace
+
+bool is_output_name(std::string_view name) { return writer_of(name).has_value(); }
+
+void OutputFolder::expect_no_other_files(std::string_view command) const {
+    const auto others = names_in(path_, [&](std::string_view name) {
+        const auto writer = writer_of(name);
+        return writer && *writer != "any" && *writer != command;
+    });
+    if (!others.empty())
+        throw InputError(fmt::format("{} holds {} of {}, which would be lost; expected another folder", path_.string(),
+                                     others.front(), *writer_of(others.front())));
+}
+
+OutputFolder::OutputFolder(const fs::path& path, std::string_view command) : path_(path) {
+    if (path.empty()) throw InputError("the output folder has no name");
+    expect_no_other_files(command);
+    try {
+        create();
+        lock();
+        remove_leftovers();
+        // Finds read-only file systems and the like before anything is computed.
+        const fs::path probe = partial("probe");
+        const int error = write_file(probe, "");
+        ::unlink(probe.c_str());
+        if (error != 0) throw InputError(cannot_be_written(path_, error));
+    } catch (...) {
+        discard();
+        throw;
+    }
+}
+
+OutputFolder::~OutputFolder() { discard(); }
+
+void OutputFolder::create() {
+    std::vector<fs::path> missing;
+    for (fs::path folder = path_.has_filename() ? path_ : path_.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+        struct stat found {};
+        if (::stat(folder.c_str(), &found) == 0 || errno != ENOENT) break;
+        missing.push_back(folder);
+    }
+    std::reverse(missing.begin(), missing.end());
+    for (const fs::path& folder : missing) {
+        if (::mkdir(folder.c_str(), 0777) == 0) {
+            created_.push_back(folder);
+        } else if (errno != EEXIST) {
+            throw InputError(cannot_be_written(path_, errno));
+        }
+    }
+}
+
+void OutputFolder::lock() {
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0) throw InputError(cannot_be_written(path_, errno));
+    // File systems without locks are taken as they are.
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        throw InputError(path_.string() + ": another run is writing there");
+    }
+}
+
+void OutputFolder::remove_leftovers() {
+    constexpr std::string_view suffix = ".partial";
+    const auto is_leftover = [&](std::string_view name) {
+        return name.starts_with('.') && name.ends_with(suffix) && name.size() > suffix.size() + 1 &&
+               is_output_name(name.substr(1, name.size() - 1 - suffix.size()));
+    };
+    for (const std::string& name : names_in(path_, is_leftover)) ::unlink((path_ / name).c_str());
+}
+
+void OutputFolder::discard() noexcept {
+    for (const std::string& name : written_) ::unlink(partial(name).c_str());
+    written_.clear();
+    // Folders that hold anything stay.
+    for (auto folder = created_.rbegin(); folder != created_.rend() && ::rmdir(folder->c_str()) == 0; ++folder) {
+    }
+    created_.clear();
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+}
+
+void OutputFolder::write(const std::string& name, std::string_view bytes) {
+    if (!is_output_name(name)) throw std::invalid_argument("OutputFolder::write: " + name + " is not a name of an output file");
+    if (std::find(written_.begin(), written_.end(), name) == written_.end()) written_.push_back(name);
+    const int error = write_file(partial(name), bytes);
+    if (error == 0) return;
+    ::unlink(partial(name).c_str());
+    throw RunError(cannot_be_written(path_ / name, error));
+}
+
+void OutputFolder::expect_space(double bytes) const {
+    std::error_code unknown;
+    const fs::space_info space = fs::space(path_, unknown);
+    if (unknown || static_cast<double>(space.available) >= bytes) return;
+    throw InputError(fmt::format("{}: about {} are needed there, and {} are free; take another folder, a smaller film or fewer bounces",
+                                 path_.string(), size_text(bytes), size_text(static_cast<double>(space.available))));
+}
+
+void OutputFolder::commit() {
+    const std::vector<std::string> names = written_;
+    const auto put = [&](const std::string& name) {
+        if (::rename(partial(name).c_str(), (path_ / name).c_str()) != 0) throw RunError(cannot_be_written(path_ / name, errno));
+        std::erase(written_, name);
+    };
+    const auto is_new = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    const std::string last = "run.json";
+
+    ::unlink((path_ / last).c_str());
+    for (const std::string& name : names) {
+        if (name != last) put(name);
+    }
+    for (const std::string& stale : names_in(path_, [&](std::string_view name) { return is_output_name(name) && !is_new(name); })) {
+        ::unlink((path_ / stale).c_str());
+    }
+    if (is_new(last)) put(last);
+    ::fsync(descriptor_);
+    created_.clear();
+}
+
+}  // namespace neumann

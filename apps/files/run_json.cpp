@@ -1,0 +1,144 @@
+#include "apps/files/run_json.h"
+
+#include "apps/commands/plan.h"
+#include "core/geometry/ray_caster.h"
+
+#include <cmath>
+
+namespace neumann {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json mean_json(const MeanWithError& mean, bool infinite_variance, bool rare_large_samples = false, bool unmet = false) {
+    Json json = {{"mean", number(mean.mean)}};
+    if (infinite_variance) {
+        json["interval95"] = "none: the variance is infinite";
+        return json;
+    }
+    json["stderr"] = number(mean.standard_error);
+    json["degrees_of_freedom"] = number(mean.degrees_of_freedom);
+    json["interval95"] = number(mean.interval());
+    if (unmet) json["unmet"] = "no sample met it: interval95 is an upper bound";
+    if (rare_large_samples) json["rare_large_samples"] = true;
+    return json;
+}
+
+const char* name(Outcome outcome) {
+    switch (outcome) {
+        case Outcome::samples_reached:
+            return "samples reached";
+        case Outcome::time_reached:
+            return "time reached";
+        case Outcome::error_reached:
+            return "error reached";
+        case Outcome::interrupted:
+            return "interrupted";
+        case Outcome::memory_reached:
+            return "memory reached";
+        case Outcome::does_not_pay:
+            return "more does not pay";
+    }
+    return "";
+}
+
+const char* name(Paths paths) {
+    switch (paths) {
+        case Paths::all:
+            return "all";
+        case Paths::without_specular:
+            return "a subset: those without specular reflections";
+        case Paths::seen_directly:
+            return "a subset: those that the camera sees on surfaces, and not in a mirror or through glass";
+        case Paths::specular:
+            return "a subset: those whose reflections are specular but for the last one, which looks for light";
+    }
+    return "";
+}
+
+Json rest_json(const Scene& scene, const RenderResult& result) {
+    const SeriesReport& report = result.series.report;
+    const double bound = report.bounces.back().bound;
+    Json json;
+    switch (report.rest_verdict) {
+        case RestVerdict::measured:
+            json = mean_json(report.rest, report.rest_infinite_variance, false, report.rest_unmet);
+            json["verdict"] = "measured";
+            json["fraction_of_sum_with_interval"] = number(report.tail_fraction());
+            break;
+        case RestVerdict::not_converging:
+            json["verdict"] = "not converging";
+            break;
+        case RestVerdict::not_sampled:
+            json["verdict"] = "not sampled by this method";
+            break;
+    }
+    if (!result.rest.is_null()) json.update(result.rest);
+    json["a_priori_bound"] = number(bound);
+    json["a_priori_bound_note"] =
+        report.importance      ? "there is no bound: the largest importance is infinite"
+        : std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
+                               : "there is no bound: the largest albedo is at least 1";
+    if (report.bounces.back().ratio) json["ratio_estimate"] = *report.bounces.back().ratio;
+    const Rgb albedo = scene.materials.largest_albedo();
+    json["largest_albedo"] = {albedo.r, albedo.g, albedo.b};
+    return json;
+}
+
+void add_discretisation(Json& json, const std::optional<DiscretisationReport>& report) {
+    if (!report) return;
+    json["discretisation"] = {{"mean", report->mean},
+                              {"worst", report->worst},
+                              {"worst_pixel", {report->worst_x, report->worst_y}},
+                              {"relative", report->relative}};
+}
+
+}  // namespace
+
+Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, const std::string& folder,
+              double seconds_total) {
+    const auto& [request, scene, pilot, plan, progress, chosen] = job;
+    const BounceSeries& series = result.series;
+    const SeriesReport& report = series.report;
+    Json json;
+    json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
+    json["command"] = request.command_line;
+    json["scene"] = {{"file", request.scene}, {"hash", scene.hash}, {"definitions", request.definitions}};
+    json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
+    json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
+                                         : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
+    json["options"] = result.options;
+    json["plan"] = plan.parts.empty() ? Json("full") : plan_json(plan);
+    json["paths"] = name(series.paths);
+    json["samples"] = result.samples;
+    json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;
+    json["samples"]["outcome"] = name(series.outcome);
+    json["timing"] = {
+        {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
+    if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
+    json["sum"] = mean_json(report.sum, report.infinite_variance(), report.rare_large_samples());
+    add_discretisation(json["sum"], report.sum_discretisation);
+    json["bounces"] = Json::array();
+    for (const BounceReport& b : report.bounces) {
+        Json bounce = mean_json(b.mean, b.infinite_variance, b.rare_large_samples, b.unmet);
+        add_discretisation(bounce, b.discretisation);
+        if (b.missing) bounce["missing"] = mean_json(*b.missing, b.infinite_variance, b.rare_large_samples);
+        if (b.ratio) bounce["ratio_estimate"] = *b.ratio;
+        bounce["tail_bound"] = number(b.bound);
+        if (b.tail) bounce["tail_index"] = {{"estimate", b.tail->alpha}, {"upper_99.9", b.tail->upper}};
+        bounce["rays"] = b.rays;
+        json["bounces"].push_back(bounce);
+    }
+    json["rest"] = rest_json(scene, result);
+    if (result.ways) json["ways"] = as_json(*result.ways);
+    json["health"] = result.health ? result.health(folder) : Json(nullptr);
+    json["warnings"] = Json::array();
+    for (const auto& [text, count] : warnings.counts()) json["warnings"].push_back({{"text", text}, {"count", count}});
+    return json;
+}
+
+}  // namespace neumann

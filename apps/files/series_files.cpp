@@ -1,0 +1,181 @@
+#include "apps/files/series_files.h"
+
+#include "apps/sheets/contact_sheet.h"
+#include "apps/sheets/flip_book.h"
+#include "apps/files/rendered_picture.h"
+#include "apps/sheets/strips.h"
+#include "core/base/error.h"
+#include "core/image/image_io.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+namespace neumann {
+
+std::string bounce_file(std::size_t i) { return fmt::format("bounce_{:03}.exr", i); }
+std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
+
+namespace {
+
+Attributes attributes_of(const BounceSeries& series, const std::string& quantity, std::size_t bounce, const PixelEstimate& picture,
+                         const PictureMeans& means, bool infinite_variance) {
+    Attributes all{{"neumann:quantity", quantity},
+                   {"neumann:bounce", static_cast<std::int64_t>(bounce)},
+                   {"neumann:samples", static_cast<std::int64_t>(series.samples)},
+                   {"neumann:degrees_of_freedom", series.degrees_of_freedom},
+                   {"neumann:variance", std::string(infinite_variance ? "infinite: stderr gives no interval" : "finite")}};
+    if (series.paths != Paths::all) all["neumann:paths"] = std::string("a subset");
+    if (!picture.least_error.pixels.empty())
+        all["neumann:stderr"] = std::string("not below what few samples leave open; spread, where it differs, is for means");
+    if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
+    all.merge(mean_attributes(means));
+    return all;
+}
+
+std::string power(const BounceSeries& series, const std::string& n) {
+    return series.report.importance ? "K*^" + n + " We" : "K^" + n + " Le";
+}
+
+std::string term_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& term) {
+    return encode_exr(term, attributes_of(series, power(series, "i"), i, term, series.means_of_term(i),
+                                          series.report.bounces[i].infinite_variance));
+}
+
+std::string rest_exr(const BounceSeries& series) {
+    return encode_exr(*series.rest, attributes_of(series, "sum of " + power(series, "k") + " for k > i",
+                                                  series.report.bounces.size() - 1, *series.rest, *series.means_of_rest,
+                                                  series.report.rest_infinite_variance));
+}
+
+}  // namespace
+
+double estimated_bytes(const Film& film, int bounces, bool has_discretisation) {
+    const double pixels = static_cast<double>(film.crop_width) * film.crop_height, pictures = 2.0 * bounces + 3.0;
+    const double exr = pictures * pixels * sizeof(float) * (has_discretisation ? 9.0 : 6.0);
+    // The page holds half floats in base 64; the slides and what pages are made of do not grow with the film.
+    return 1.25 * exr + 0x1p20;
+}
+
+std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series) {
+    std::vector<std::string> missing;
+    const auto write = [&](const std::string& name, const std::string& bytes) {
+        try {
+            folder.write(name, bytes);
+        } catch (const RunError&) {
+            missing.push_back(name);
+        }
+    };
+    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) write(bounce_file(i), term_exr(series, i, series.term(i)));
+    if (series.rest) write("rest.exr", rest_exr(series));
+    write("series.csv", series_table(series.report));
+    return missing;
+}
+
+WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed) {
+    const SeriesReport& report = series.report;
+    const std::size_t N = report.bounces.size() - 1;
+    std::vector<Image> terms, sums;
+    bool any_infinite = false;
+    for (std::size_t i = 0; i <= N; ++i) {
+        PixelEstimate term = series.term(i), sum = series.sum(i);
+        any_infinite = any_infinite || report.bounces[i].infinite_variance;
+        folder.write(bounce_file(i), term_exr(series, i, term));
+        folder.write(sum_file(i), encode_exr(sum, attributes_of(series, "sum of " + power(series, "k") + " for k <= i", i, sum,
+                                                                series.means_of_sum(i), any_infinite)));
+        packed.add(term, &sum);
+        terms.push_back(std::move(term.mean));
+        sums.push_back(std::move(sum.mean));
+    }
+    if (series.rest) {
+        folder.write("rest.exr", rest_exr(series));
+        packed.add(*series.rest, nullptr);
+        terms.push_back(series.rest->mean);
+    }
+    packed.pack();
+
+    const char* const kind = report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths";
+    std::vector<LabelledPicture> term_pictures, sum_pictures;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
+    // All that is seen has importance at once.
+    const Image& emission = report.importance ? sums.back() : terms.front();
+    const double exposure = exposure_for(sums.back(), emission);
+    const auto font = find_label_font();
+    folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
+
+    Image limit = sums.back();
+    for (std::size_t p = 0; series.rest && p < limit.pixels.size(); ++p) limit.pixels[p] += series.rest->mean.pixels[p];
+    const SeriesPictures pictures{std::span(terms).first(N + 1),
+                                  sums,
+                                  series.rest ? &terms.back() : nullptr,
+                                  series.rest ? &limit : nullptr,
+                                  report.importance ? "K*" : "K",
+                                  report.importance ? "We" : "Le",
+                                  series.paths == Paths::all ? "" : ", some paths"};
+    const FlipBook book(pictures.all(), exposure, font);
+    const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
+                doubling = strip_of_doubling(pictures);
+    folder.write("bounces.gif", book.gif());
+    folder.write("strip-terms.png", strip_png(of_terms, exposure, font));
+    folder.write("strip-terms.gif", strip_gif(of_terms, exposure, font));
+    folder.write("strip-sums.png", strip_png(of_sums, exposure, font));
+    folder.write("strip-sums.gif", book.gif(of_sums.front()));
+    if (!doubling.empty()) {
+        folder.write("strip-doubling.png", strip_png(doubling, exposure, font));
+        folder.write("strip-doubling.gif", book.gif(doubling.front()));
+    }
+    return {font ? ""
+                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
+                   "bounces.gif are unlabelled",
+            exposure};
+}
+
+std::string series_table(const SeriesReport& report) {
+    std::string csv = "bounce,mean,mean_stderr,ratio,bound,rays,seconds,interval95";
+    const bool discretised = report.sum_discretisation.has_value();
+    const bool subset = report.bounces.front().missing.has_value();
+    if (discretised) csv += ",discretisation_mean,discretisation_worst,worst_x,worst_y";
+    if (subset) csv += ",missing,missing_stderr";
+    csv += "\n";
+    for (std::size_t i = 0; i < report.bounces.size(); ++i) {
+        const BounceReport& b = report.bounces[i];
+        const double infinity = std::numeric_limits<double>::infinity();
+        csv += fmt::format("{},{:.9g},{:.4g},{},{:.9g},{},{:.4g},{:.4g}", i, b.mean.mean,
+                           b.infinite_variance ? infinity : b.mean.standard_error, b.ratio ? fmt::format("{:.6g}", *b.ratio) : "",
+                           b.bound, b.rays, b.seconds, b.infinite_variance ? infinity : b.mean.interval());
+        if (const auto& d = b.discretisation) csv += fmt::format(",{:.4g},{:.4g},{},{}", d->mean, d->worst, d->worst_x, d->worst_y);
+        if (b.missing)
+            csv += fmt::format(",{:.9g},{:.4g}", b.missing->mean, b.infinite_variance ? infinity : b.missing->standard_error);
+        if (subset && !b.missing) csv += ",,";
+        csv += "\n";
+    }
+    return csv;
+}
+
+std::string convergence_table(const std::vector<Checkpoint>& convergence) {
+    const std::size_t terms = convergence.front().term_error.size();
+    const bool judged = convergence.front().true_sum_error.has_value();
+    std::string csv = "samples,seconds,rays";
+    for (std::size_t i = 0; i < terms; ++i) csv += fmt::format(",relative_stderr_{:03}", i);
+    csv += ",relative_stderr_sum";
+    if (judged) {
+        for (std::size_t i = 0; i < terms; ++i) csv += fmt::format(",relative_error_{:03}", i);
+        csv += ",relative_error_sum";
+    }
+    csv += "\n";
+    for (const Checkpoint& c : convergence) {
+        csv += fmt::format("{},{:.4f},{}", c.samples, c.seconds, c.rays);
+        for (const double e : c.term_error) csv += fmt::format(",{:.5g}", e);
+        csv += fmt::format(",{:.5g}", c.sum_error);
+        if (judged) {
+            for (const double e : c.true_term_error) csv += fmt::format(",{:.5g}", e);
+            csv += fmt::format(",{:.5g}", *c.true_sum_error);
+        }
+        csv += "\n";
+    }
+    return csv;
+}
+
+}  // namespace neumann

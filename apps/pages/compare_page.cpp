@@ -1,0 +1,105 @@
+#include "apps/pages/compare_page.h"
+
+#include "apps/files/output_folder.h"
+#include "apps/pages/explorer_page.h"
+#include "apps/files/rendered_picture.h"
+#include "apps/files/series_files.h"
+#include "core/base/error.h"
+#include "core/image/display.h"
+
+#include <fmt/format.h>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace neumann {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf())) throw InputError(path.string() + ": cannot be read; -o takes folders that render wrote");
+    return text.str();
+}
+
+// What the page shows has to be there.
+Json read_run(const fs::path& path) {
+    Json run;
+    try {
+        run = Json::parse(text_of(path));
+        for (const char* part :
+             {"command", "scene", "picture", "quantity", "options", "samples", "timing", "sum", "bounces", "rest", "warnings"})
+            static_cast<void>(run.at(part));
+        for (const char* side : {"width", "height"}) static_cast<void>(run["picture"].at(side).get<int>());
+        if (run["bounces"].empty()) throw InputError(path.string() + ": no bounces");
+    } catch (const Json::exception& error) {
+        throw InputError(fmt::format("{}: not a run.json of this version: {}", path.string(), error.what()));
+    }
+    return run;
+}
+
+struct Size {
+    int width, height;
+    auto operator<=>(const Size&) const = default;
+};
+
+PixelEstimate read_picture(const fs::path& path, Size size) {
+    RenderedPicture read = read_rendered_picture(path.string());
+    const Image& mean = read.picture.mean;
+    if (Size{mean.width, mean.height} != size)
+        throw InputError(
+            fmt::format("{}: {}×{} pixels, expected {}×{}", path.string(), mean.width, mean.height, size.width, size.height));
+    return std::move(read.picture);
+}
+
+struct RenderedFolder {
+    fs::path path;
+    Json run;
+    Size size;
+
+    explicit RenderedFolder(const std::string& folder)
+        : path(folder), run(read_run(path / "run.json")), size{run["picture"].at("width"), run["picture"].at("height")} {}
+    std::size_t bounces() const { return run["bounces"].size(); }
+    bool has_rest() const { return fs::exists(path / "rest.exr"); }
+    std::size_t pictures() const { return bounces() + (has_rest() ? 1 : 0); }
+};
+
+// With as many pixels as a page holds of `pictures`.
+ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
+    ExploredRun out{folder.run, text_of(folder.path / "convergence.csv"), 1.0,
+                    PackedSeries(folder.size.width, folder.size.height, pictures), folder.has_rest()};
+    const bool importance = folder.run["quantity"].value("name", "").starts_with("importance");
+    Image emission;
+    for (std::size_t i = 0; i < folder.bounces(); ++i) {
+        PixelEstimate term = read_picture(folder.path / bounce_file(i), folder.size);
+        const PixelEstimate sum = read_picture(folder.path / sum_file(i), folder.size);
+        out.pictures.add(term, &sum);
+        if (i == 0) emission = std::move(term.mean);
+        if (i + 1 == folder.bounces()) out.exposure = exposure_for(sum.mean, importance ? sum.mean : emission);
+    }
+    if (out.has_rest) out.pictures.add(read_picture(folder.path / "rest.exr", folder.size), nullptr);
+    out.pictures.pack();
+    return out;
+}
+
+}  // namespace
+
+void write_compare_page(const std::string& output, const std::string& a, const std::string& b, const Json& figures) {
+    const RenderedFolder folder_a(a), folder_b(b);
+    if (folder_a.size != folder_b.size)
+        throw InputError(fmt::format("{} and {}: {}×{} and {}×{} pixels; expected one size", a, b, folder_a.size.width,
+                                     folder_a.size.height, folder_b.size.width, folder_b.size.height));
+    OutputFolder folder(output, "compare");
+    const std::size_t pictures = folder_a.pictures() + folder_b.pictures();
+    const ExploredRun run_a = explored(folder_a, pictures), run_b = explored(folder_b, pictures);
+    if (run_a.pictures.factor() > 1) fmt::print(stderr, "note: {}\n", run_a.pictures.reduction());
+    folder.write("index.html", explorer_page({&run_a, &run_b}, figures));
+    folder.write("compare.json", figures.dump(2) + "\n");
+    folder.commit();
+}
+
+}  // namespace neumann

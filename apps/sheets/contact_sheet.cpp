@@ -1,0 +1,78 @@
+#include "apps/sheets/contact_sheet.h"
+
+#include "core/image/image_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace neumann {
+namespace {
+
+constexpr int sheet_side = 2400, largest_thumbnail = 480;
+constexpr int margin = 24, gap = 12, heading_height = 44;
+constexpr int label_size = 16, heading_size = 22;
+
+int rows_of(int pictures, int columns) { return (pictures + columns - 1) / columns; }
+
+SheetLayout with_columns(int columns, int terms, int sums, int width, int height) {
+    SheetLayout layout{columns, rows_of(terms, columns), rows_of(sums, columns), 0, 0};
+    const int rows = layout.term_rows + layout.sum_rows;
+    const double wide = static_cast<double>(sheet_side - 2 * margin - (columns - 1) * gap) / columns;
+    const double high = static_cast<double>(sheet_side - 2 * margin - 2 * heading_height) / rows - label_height(label_size) - gap;
+    const double longer = std::max(width, height);
+    const double scale = scale_shown(width, height, std::min({wide / width, high / height, largest_thumbnail / longer}));
+    layout.thumbnail_width = std::max(1, static_cast<int>(width * scale));
+    layout.thumbnail_height = std::max(1, static_cast<int>(height * scale));
+    return layout;
+}
+
+int sheet_width(const SheetLayout& layout) { return 2 * margin + layout.columns * (layout.thumbnail_width + gap) - gap; }
+
+int block_height(const SheetLayout& layout, int rows) {
+    return rows == 0 ? 0 : heading_height + rows * (layout.thumbnail_height + label_height(label_size) + gap);
+}
+
+void paste_block(DisplayImage& sheet, int top, const SheetLayout& layout, const std::string& heading,
+                 std::span<const LabelledPicture> pictures, double exposure, const std::optional<std::string>& font) {
+    if (pictures.empty()) return;
+    sheet.paste(caption(heading, sheet.width - 2 * margin, heading_height, heading_size, font, false), margin, top);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const int column = static_cast<int>(i) % layout.columns, row = static_cast<int>(i) / layout.columns;
+        const int x = margin + column * (layout.thumbnail_width + gap);
+        const int y = top + heading_height + row * (layout.thumbnail_height + label_height(label_size) + gap);
+        sheet.paste(with_label(pictures[i], layout.thumbnail_width, layout.thumbnail_height, exposure, label_size, font), x, y);
+    }
+}
+
+}  // namespace
+
+SheetLayout layout_sheet(int terms, int sums, int width, int height) {
+    if (terms < 1 || width < 1 || height < 1) throw std::invalid_argument("layout_sheet: no pictures");
+    SheetLayout best;
+    const auto empty_cells = [&](const SheetLayout& l) { return l.columns * (l.term_rows + l.sum_rows) - terms - sums; };
+    for (int columns = 1; columns <= std::max(terms, sums); ++columns) {
+        const SheetLayout layout = with_columns(columns, terms, sums, width, height);
+        const bool larger = layout.thumbnail_width > best.thumbnail_width;
+        const bool same = layout.thumbnail_width == best.thumbnail_width;
+        if (larger || (same && empty_cells(layout) <= empty_cells(best))) best = layout;
+    }
+    return best;
+}
+
+std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<const LabelledPicture> sums, double exposure,
+                          const std::optional<std::string>& font, const SheetHeadings& headings) {
+    if (terms.empty()) throw std::invalid_argument("contact_sheet: no pictures");
+    const Image& first = *terms.front().picture;
+    const SheetLayout layout =
+        layout_sheet(static_cast<int>(terms.size()), static_cast<int>(sums.size()), first.width, first.height);
+    const int terms_height = block_height(layout, layout.term_rows);
+    DisplayImage sheet(sheet_width(layout), 2 * margin + terms_height + block_height(layout, layout.sum_rows), sheet_background);
+    paste_block(sheet, margin, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.terms, exposure), terms, exposure, font);
+    paste_block(sheet, margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure), sums,
+                exposure, font);
+    return encode_png(sheet);
+}
+
+}  // namespace neumann

@@ -1,0 +1,108 @@
+#include "apps/sheets/strips.h"
+
+#include "apps/sheets/flip_book.h"
+#include "core/image/image_io.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace neumann {
+namespace {
+
+constexpr std::size_t last_in_strip = 6;
+constexpr int slide_width = 1920, largest_picture = 480, margin = 24, gap = 12, label_size = 20;
+constexpr double gif_seconds = 0.6;
+
+// By which power of two a term is too dark.
+double brightening(const Image& term, const Image& emission, double exposure) {
+    // Down to a power of two, so that it is no brighter than that; 1e-3 for the rounding of a pixel's value.
+    const double factor = std::exp2(std::floor(std::log2(exposure_for(term, emission) / exposure) + 1e-3));
+    const bool black = std::all_of(term.pixels.begin(), term.pixels.end(), [](const Rgb& p) { return is_black(p); });
+    return black ? 1.0 : std::max(1.0, factor);
+}
+
+// "Le", "K Le", "K^2 Le", … and "16 K^2 Le".
+LabelledPicture term(const SeriesPictures& series, std::size_t i, double factor = 1.0) {
+    const std::string power = i == 0 ? "" : i == 1 ? series.K + " " : fmt::format("{}^{} ", series.K, i);
+    return {(factor == 1.0 ? "" : fmt::format("{:.6g} ", factor)) + power + series.Le + series.kind, &series.terms[i], factor};
+}
+
+LabelledPicture sum_to(const SeriesPictures& series, std::size_t i) {
+    return {(i == 0 ? std::string("bounce 0") : fmt::format("bounces 0 to {}", i)) + series.kind, &series.sums[i]};
+}
+
+LabelledPicture limit_of(const SeriesPictures& series) { return {"all bounces" + series.kind, series.limit}; }
+
+DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const std::optional<std::string>& font) {
+    const Image& first = *strip.front().front().picture;
+    const auto columns = static_cast<int>(strip.front().size()), rows = static_cast<int>(strip.size());
+    const double fitting = (slide_width - 2 * border - (columns - 1) * gap) / (static_cast<double>(columns) * first.width);
+    const double scale =
+        scale_shown(first.width, first.height,
+                    std::min({fitting, largest_scale, static_cast<double>(largest_picture) / std::max(first.width, first.height)}));
+    const int width = std::max(1, static_cast<int>(first.width * scale)),
+              height = std::max(1, static_cast<int>(first.height * scale));
+    const int row_height = height + label_height(label_size);
+    DisplayImage out(2 * border + columns * (width + gap) - gap, 2 * border + rows * row_height, sheet_background);
+    for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+            const LabelledPicture& picture = strip[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+            out.paste(with_label(picture, width, height, exposure, label_size, font), border + c * (width + gap),
+                      border + r * row_height);
+        }
+    return out;
+}
+
+}  // namespace
+
+Pictures SeriesPictures::all() const {
+    Pictures pictures;
+    for (std::size_t i = 0; i < terms.size(); ++i) pictures.push_back(term(*this, i));
+    if (rest != nullptr) pictures.push_back({fmt::format("rest, beyond {}", terms.size() - 1) + kind, rest});
+    for (std::size_t i = 0; i < sums.size(); ++i) pictures.push_back(sum_to(*this, i));
+    if (limit != nullptr) pictures.push_back(limit_of(*this));
+    return pictures;
+}
+
+Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double exposure) {
+    Strip strip(2);
+    for (std::size_t i = 0; i < std::min(series.terms.size(), last_in_strip + 1); ++i) {
+        const double factor = brightening(series.terms[i], emission, exposure);
+        strip[0].push_back(term(series, i));
+        strip[1].push_back(term(series, i, factor));
+    }
+    return strip;
+}
+
+Strip strip_of_sums(const SeriesPictures& series) {
+    Strip strip(1);
+    for (std::size_t i = 0; i < std::min(series.sums.size(), last_in_strip + 1); ++i) strip[0].push_back(sum_to(series, i));
+    return strip;
+}
+
+Strip strip_of_doubling(const SeriesPictures& series) {
+    constexpr std::size_t last = 16;
+    Strip strip(1);
+    for (std::size_t i = 1; i <= last && i < series.sums.size(); i *= 2) strip[0].push_back(sum_to(series, i));
+    if (series.sums.size() <= last && series.limit != nullptr) strip[0].push_back(limit_of(series));
+    return strip[0].empty() ? Strip() : strip;
+}
+
+std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font) {
+    return encode_png(drawn(strip, margin, largest_picture, exposure, font));
+}
+
+std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font) {
+    const Image& first = *strip.front().front().picture;
+    const double scale = affordable_scale(first.width, first.height, strip.size() * strip.front().size(), gif_seconds);
+    std::vector<DisplayImage> frames;
+    for (std::size_t c = 0; c < strip.front().size(); ++c) {
+        Strip frame(1);
+        for (const Pictures& row : strip) frame[0].push_back(row[c]);
+        frames.push_back(drawn(frame, 0, scale, exposure, font));
+    }
+    return flip_book(frames);
+}
+
+}  // namespace neumann
