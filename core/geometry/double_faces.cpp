@@ -12,6 +12,11 @@ namespace {
 
 double rounding_at(const Vec3& p, const Vec3& other) { return double_rounding(p, largest_component(other)); }
 
+// How far beside its rim a ray from p meets a face: where two share an edge, it is to meet at least one of them.
+double rim_rounding(const Vec3& p, const Vec3& face, double distance) {
+    return 4.0 * double_rounding(p, largest_component(face) + distance);
+}
+
 // p − base, along the axis and across it.
 struct Cylindrical {
     double along;
@@ -29,9 +34,7 @@ double radius_in_disk(const Disk& d, const Vec3& p) {
     const double uu = glm::dot(d.u, d.u), uv = glm::dot(d.u, d.v), vv = glm::dot(d.v, d.v), gram = uu * vv - uv * uv;
     return std::hypot(glm::dot(f, (d.u * vv - d.v * uv) / gram), glm::dot(f, (d.v * uu - d.u * uv) / gram));
 }
-double least_half_axis(const Disk& d) {
-    return glm::length(glm::cross(d.u, d.v)) / std::hypot(glm::length(d.u), glm::length(d.v));
-}
+double least_half_axis(const Disk& d) { return glm::length(glm::cross(d.u, d.v)) / std::hypot(glm::length(d.u), glm::length(d.v)); }
 
 // The distances > 0 at which |across + t·d_across| = radius, without the one where the ray starts.
 int meet_round(const Vec3& across, const Vec3& d_across, double radius, bool starts_there, double (&t)[2]) {
@@ -98,8 +101,7 @@ bool DoubleFaces::is_near(const Face& f, const Vec3& p, double distance) const {
 }
 
 bool DoubleFaces::holds(const Face& f, const Vec3& p) const {
-    if (const Triangle* t = triangle(f))
-        return std::abs(glm::dot(p - t->vertex(), t->normal())) <= rounding_at(p, t->vertex());
+    if (const Triangle* t = triangle(f)) return std::abs(glm::dot(p - t->vertex(), t->normal())) <= rounding_at(p, t->vertex());
     const Shape& shape = (*shapes_)[f.shape];
     if (const auto* sphere = std::get_if<Sphere>(&shape))
         return std::abs(glm::length(p - sphere->center) - sphere->radius) <= rounding_at(p, sphere->center + sphere->radius);
@@ -114,11 +116,10 @@ int DoubleFaces::meet(const Face& f, const Vec3& p, const Vec3& direction, doubl
     const bool starts_there = holds(f, p);
     if (const Triangle* t = triangle(f)) {
         if (starts_there) return 0;
-        const auto [distance, position, w] = t->meet(p, direction);
+        const auto [cosine, distance, position, w] = t->meet(p, direction);
         distances[0] = distance;
         if (!(distances[0] > 0.0)) return 0;
-        // Where two triangles share an edge a ray is to meet at least one of them.
-        const double rounding = 4.0 * double_rounding(p, largest_component(t->vertex()) + distances[0]);
+        const double rounding = rim_rounding(p, t->vertex(), distances[0]);
         return w.x >= -rounding * glm::length(t->dual1()) && w.y >= -rounding * glm::length(t->dual2()) &&
                1.0 - w.x - w.y >= -rounding * glm::length(t->dual1() + t->dual2());
     }
@@ -131,15 +132,17 @@ int DoubleFaces::meet(const Face& f, const Vec3& p, const Vec3& direction, doubl
         const int met = meet_round(across, direction - cylinder->axis * d_along, cylinder->radius, starts_there, distances);
         int n = 0;
         for (int i = 0; i < met; ++i) {
-            const double at = along + distances[i] * d_along;
-            if (at >= 0.0 && at <= cylinder->length) distances[n++] = distances[i];
+            const double at = along + distances[i] * d_along,
+                         rounding = rim_rounding(p, cylinder->base, cylinder->length + distances[i]);
+            if (at >= -rounding && at <= cylinder->length + rounding) distances[n++] = distances[i];
         }
         return n;
     }
     if (starts_there) return 0;
     const Disk& disk = std::get<Disk>(shape);
     distances[0] = glm::dot(disk.normal, disk.center - p) / glm::dot(disk.normal, direction);
-    return distances[0] > 0.0 && radius_in_disk(disk, p + direction * distances[0]) <= 1.0;
+    const double rounding = rim_rounding(p, disk.center, distances[0]);
+    return distances[0] > 0.0 && radius_in_disk(disk, p + direction * distances[0]) <= 1.0 + rounding / least_half_axis(disk);
 }
 
 }  // namespace neumann

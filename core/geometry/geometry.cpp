@@ -188,7 +188,6 @@ void hit_cylinder(const Cylinder& c, const Vec3& origin, const Vec3& direction, 
 }  // namespace
 
 void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    const Vec3 from = origin;
     if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[hit.shape]))
         hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
     else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[hit.shape]))
@@ -197,36 +196,43 @@ void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, c
         hit_disk(std::get<Disk>((*shapes_)[hit.shape]), origin, direction, error_[hit.shape], p);
     p.shape = hit.shape;
     p.primitive = hit.primitive;
-    look_around(p);
-    if (p.close) settle(from, direction, p);
 }
 
-void Geometry::put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, const Triangle::Meeting& m,
-                                SurfacePoint& p) const {
-    const Vec3 from = origin;
+void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
     const Triangle& t = triangles_[hit.shape][hit.primitive];
+    const Triangle::Meeting m = t.meet(origin, direction);
     p = {t.is_hit(m) ? m.position : t.near(m, hit.u, hit.v, edges(hit.shape, hit.primitive)), t.normal(), t.error(), hit.shape,
          hit.primitive};
+}
+
+bool Geometry::put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    SurfacePoint found = hit_among_others(origin, direction, hit);
+    const bool unsure = found.close || neighbours_->may_hide(found, glm::dot(direction, found.normal));
+    if (unsure && !settle(origin, direction, found)) return false;
+    p = found;
+    return true;
+}
+
+SurfacePoint Geometry::hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const {
+    SurfacePoint p;
+    if (triangles_[hit.shape].empty())
+        put_on_round_surface(origin, direction, hit, p);
+    else
+        put_near_edge(origin, direction, hit, p);
     look_around(p);
-    if (p.close) settle(from, direction, p);
+    return p;
 }
 
 void Geometry::look_around(SurfacePoint& p) const { p.close = neighbours_->is_close(p); }
 
-void Geometry::settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const {
-    const std::vector<Face> faces = neighbours_->around(p);
-    const double seen = glm::dot(p.position - origin, direction);
-    const auto first = neighbours_->first(faces, origin, direction);
-    if (!first || first->face == Face{p.shape, p.primitive}) return;
-    // What Embree hit and doubles miss, as rays by the edge of something do, was hit, unless another face is in the same place.
-    const double rounding = p.error + neighbours_->faces().error(first->face);
-    const double cosine = std::abs(glm::dot(direction, p.normal));
-    if (first->distance >= seen) {
-        double own[2];
-        const bool is_hit = neighbours_->faces().meet({p.shape, p.primitive}, origin, direction, own) > 0;
-        if (is_hit || (first->distance - seen) * cosine > rounding) return;
-    }
-    p = point_on(first->face, origin + direction * first->distance);
+bool Geometry::settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const {
+    const Face own{p.shape, p.primitive};
+    double distances[2];
+    if (neighbours_->faces().meet(own, origin, direction, distances) == 0) return false;
+    const auto first = neighbours_->first(neighbours_->around(p), origin, direction);
+    if (first && first->face != own && first->distance < glm::dot(p.position - origin, direction))
+        p = point_on(first->face, origin + direction * first->distance);
+    return true;
 }
 
 SurfacePoint Geometry::point_on(const Face& face, const Vec3& position) const {
@@ -253,7 +259,8 @@ namespace {
 bool cast_near_rest(const Giants& giants, const RayCaster& caster, const Vec3& origin, const Vec3& direction, double distance,
                     std::span<const Face> without, RayCaster::Hit& hit) {
     const auto part = giants.near_rest(origin, direction, distance);
-    if (!part || !caster.intersect(origin + direction * part->begin, direction, part->end - part->begin, without, hit)) return false;
+    if (!part || !caster.intersect(origin + direction * part->begin, direction, part->end - part->begin, without, hit))
+        return false;
     hit.distance += part->begin;
     return true;
 }
@@ -269,21 +276,46 @@ bool Geometry::meet_giants(const Vec3& origin, const Vec3& direction, double dis
     return true;
 }
 
+// Each close hit of Embree's is asked for in double, with all that is close to it, until the next one of Embree's is not close, or
+// lies behind what doubles meet.
+bool Geometry::first_hit_past(const Vec3& start, const Vec3& origin, const Vec3& direction, double distance,
+                              std::vector<Face> faces, SurfacePoint& hit) const {
+    for (;;) {
+        const auto first = neighbours_->first(faces, origin, direction);
+        RayCaster::Hit found;
+        SurfacePoint p;
+        const bool any = cast_near_rest(neighbours_->giants(), *caster_, start, direction, distance, faces, found);
+        if (any) p = hit_among_others(origin, direction, found);
+        if (first && first->distance <= distance && !(any && glm::dot(p.position - origin, direction) < first->distance)) {
+            hit = point_on(first->face, origin + direction * first->distance);
+            return true;
+        }
+        if (!any || !p.close) {
+            if (any) hit = p;
+            return any;
+        }
+        const std::vector<Face> around = neighbours_->around(p);
+        faces.insert(faces.end(), around.begin(), around.end());
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    }
+}
+
 bool Geometry::first_hit(const Vec3& origin, const Vec3& direction, double distance, SurfacePoint& p) const {
     RayCaster::Hit hit;
-    const bool found = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, distance, {}, hit);
-    if (found) put_on_surface(origin, direction, hit, p);
+    bool found = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, distance, {}, hit);
+    if (found && !put_on_surface(origin, direction, hit, p)) found = first_hit_past(origin, origin, direction, distance, {}, p);
     return meet_giants(origin, direction, distance, found, p);
 }
 
 bool Geometry::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
     if (from.close) return first_hit_in_double(from, direction, hit);
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const Vec3 origin = from.position;
+    const Vec3 origin = from.position, start = leave(from, glm::dot(from.normal, direction));
     RayCaster::Hit found;
-    const bool is_found = cast_near_rest(neighbours_->giants(), *caster_, leave(from, glm::dot(from.normal, direction)), direction,
-                                         infinity, {}, found);
-    if (is_found) put_on_surface(origin, direction, found, hit);
+    bool is_found = cast_near_rest(neighbours_->giants(), *caster_, start, direction, infinity, {}, found);
+    if (is_found && !put_on_surface(origin, direction, found, hit))
+        is_found = first_hit_past(start, origin, direction, infinity, {}, hit);
     return meet_giants(origin, direction, infinity, is_found, hit);
 }
 
@@ -294,8 +326,9 @@ bool Geometry::first_hit_in_double(const SurfacePoint& from, const Vec3& directi
     const auto first = neighbours_->first(faces, from, direction);
     RayCaster::Hit found;
     SurfacePoint beyond;
-    const bool any_beyond = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, infinity, faces, found);
-    if (any_beyond) put_on_surface(origin, direction, found, beyond);
+    bool any_beyond = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, infinity, faces, found);
+    if (any_beyond && !put_on_surface(origin, direction, found, beyond))
+        any_beyond = first_hit_past(origin, origin, direction, infinity, faces, beyond);
     if (first && !(any_beyond && glm::dot(beyond.position - origin, direction) < first->distance)) {
         hit = point_on(first->face, origin + direction * first->distance);
         if (hit.close) settle(origin, direction, hit);

@@ -50,15 +50,16 @@ public:
     template <class HitAt>
     std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
         if (!giants_.empty())
-            return one_by_one(rays.size(), [&](std::size_t i) {
-                return first_hit(rays[i].origin, rays[i].direction, rays[i].length, hit(i));
-            });
+            return one_by_one(rays.size(),
+                              [&](std::size_t i) { return first_hit(rays[i].origin, rays[i].direction, rays[i].length, hit(i)); });
         RayCaster::Packet packet(*caster_);
         for (const Ray& ray : rays) packet.add(ray.origin, ray.direction, ray.length);
         RayCaster::Hit hits[RayCaster::packet_size];
-        const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::alike);
+        std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::alike);
         for (std::size_t i = 0; i < rays.size(); ++i)
-            if (found >> i & 1u) put_on_surface(rays[i].origin, rays[i].direction, hits[i], hit(i));
+            if (found >> i & 1u && !put_on_surface(rays[i].origin, rays[i].direction, hits[i], hit(i)))
+                found = (found & ~(1u << i)) |
+                        static_cast<std::uint32_t>(first_hit(rays[i].origin, rays[i].direction, rays[i].length, hit(i))) << i;
         return found;
     }
     template <class FromAt, class HitAt>
@@ -81,8 +82,8 @@ public:
             const auto& [x, w] = from(i);
             if (close >> i & 1u)
                 found |= static_cast<std::uint32_t>(first_hit_in_double(x, w, hit(i))) << i;
-            else if (found >> i & 1u)
-                put_on_surface(x.position, w, hits[i], hit(i));
+            else if (found >> i & 1u && !put_on_surface(x.position, w, hits[i], hit(i)))
+                found = (found & ~(1u << i)) | static_cast<std::uint32_t>(first_hit(x, w, hit(i))) << i;
         }
         return found;
     }
@@ -152,25 +153,30 @@ private:
         return {mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a};
     }
     // A hit of Embree's on the double geometry: where the ray from `origin` hits the primitive that Embree named. `origin` may be
-    // p.position.
-    void put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    // p.position. False where other faces are close and the ray passes by the primitive in double: Embree's hit was none, and p is
+    // as it was.
+    bool put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
         if (!triangles_[hit.shape].empty()) {
             const Triangle& t = triangles_[hit.shape][hit.primitive];
             const Triangle::Meeting m = t.meet(origin, direction);
-            if (t.is_hit(m) && t.is_clear(m.weights))
+            if (t.is_hit(m) && t.is_clear(m.weights, m.cosine)) {
                 p = {m.position, t.normal(), t.error(), hit.shape, hit.primitive};
-            else
-                put_among_others(origin, direction, hit, m, p);
-        } else
-            put_on_round_surface(origin, direction, hit, p);
+                return true;
+            }
+        }
+        return put_among_others(origin, direction, hit, p);
     }
-    void put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, const Triangle::Meeting& m,
-                          SurfacePoint& p) const;
+    bool put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    SurfacePoint hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const;
+    void put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     void put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     // Sets p.close.
     void look_around(SurfacePoint& p) const;
-    // Of what is close to a hit, another face may come first.
-    void settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const;
+    // Of what is close to a hit, another face may come first. False where the ray passes by p's own face.
+    bool settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const;
+    // Then: the first hit, with these faces in double. Embree's ray starts at `start`. `origin` is not hit.position.
+    bool first_hit_past(const Vec3& start, const Vec3& origin, const Vec3& direction, double distance, std::vector<Face> faces,
+                        SurfacePoint& hit) const;
     SurfacePoint point_on(const Face& face, const Vec3& position) const;
     // The faces around close points, and giants, in double, and all others by Embree.
     bool first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;

@@ -20,6 +20,7 @@ constexpr std::size_t largest_asked_one_by_one = 16;
 // Regions that reach no further from the edges than this are not kept one by one.
 constexpr double along_edges = 1.0 / 64.0;
 constexpr double reach_in_errors = 64.0;
+constexpr double grazing = 0.1;  // rays with a smaller cosine on round faces that others touch are looked at
 
 bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     if (!faces.triangle(a) || !faces.triangle(b)) return false;
@@ -45,11 +46,11 @@ bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
 
 Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster)
     : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), round_(faces.shapes().size(), State::unknown) {
+    for (const Face& f : large_) largest_error_ = std::max(largest_error_, faces_.error(f));
     if (large_.size() <= largest_asked_one_by_one) return;
     const auto rest = large_.begin() + largest_asked_one_by_one;
-    std::nth_element(large_.begin(), rest, large_.end(), [&](const Face& a, const Face& b) {
-        return std::pair(-faces_.error(a), a) < std::pair(-faces_.error(b), b);
-    });
+    std::nth_element(large_.begin(), rest, large_.end(),
+                     [&](const Face& a, const Face& b) { return std::pair(-faces_.error(a), a) < std::pair(-faces_.error(b), b); });
     error_of_rest_ = faces_.error(*rest);
     large_.erase(rest, large_.end());
     large_.insert(large_.end(), giants.faces.begin(), giants.faces.end());
@@ -90,28 +91,41 @@ bool Neighbours::Surroundings::may_hold(const Vec2& weights, const Vec3& positio
     return n > 0;
 }
 
+bool Neighbours::in_box(const Face& f, const Vec2& weights, const Vec3& position) const {
+    return surroundings_.find(f)->second.may_hold(weights, position);
+}
+
+bool Neighbours::is_clear_round(const Face& f) const {
+    const std::atomic_ref state(round_[f.shape]);
+    if (state.load(std::memory_order_acquire) == State::unknown) examine(f);
+    return state.load(std::memory_order_acquire) == State::clear;
+}
+
 bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
-    const Triangle* t = faces_.triangle(f);
-    const Vec2 w = t ? t->weights(p.position) : Vec2(0.0);
-    if (t) {
+    if (const Triangle* t = faces_.triangle(f)) {
+        const Vec2 w = t->weights(p.position);
         if (t->clear() == Triangle::unknown) examine(f);
         if (t->is_clear(w)) return false;
-    } else {
-        const std::atomic_ref state(round_[f.shape]);
-        if (state.load(std::memory_order_acquire) == State::unknown) examine(f);
-        if (state.load(std::memory_order_acquire) == State::clear) return false;
+        const bool in_middle = std::min({w.x, w.y, 1.0 - w.x - w.y}) >= t->clear();
+        if (in_middle && !in_box(f, w, p.position)) return false;
+    } else if (is_clear_round(f) || !in_box(f, Vec2(0.0), p.position)) {
+        return false;
     }
-    const bool in_middle = !t || std::min({w.x, w.y, 1.0 - w.x - w.y}) >= t->clear();
-    if (in_middle && !surroundings_.find(f)->second.may_hold(w, p.position)) return false;
     return around(p).size() > 1;
+}
+
+bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
+    const Face f{p.shape, p.primitive};
+    if (const Triangle* t = faces_.triangle(f)) return !t->is_clear(t->weights(p.position), cosine);
+    return !is_clear_round(f) && (std::abs(cosine) < grazing || in_box(f, Vec2(0.0), p.position));
 }
 
 void Neighbours::examine(const Face& f) const {
     const Bounds bounds = faces_.bounds(f);
-    const double error = faces_.error(f);
+    const double error = faces_.error(f), aside = faces_.triangle(f) ? largest_error_ : largest_error_ / grazing;
     std::vector<Face> others;
-    append_near(bounds.center(), bounds.radius() + reach_in_errors * error, others);
+    append_near(bounds.center(), bounds.radius() + reach_in_errors * error + aside, others);
     double clear = 0.0;
     Triangle::Cells coarse;
     WeightCells<32> cells;
@@ -119,12 +133,11 @@ void Neighbours::examine(const Face& f) const {
     for (const Face& other : others) {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
-        if (intersection(bounds.grown(reach_in_errors * errors), faces_.bounds(other)).is_empty()) continue;
+        if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;
         const bool joined = share_corner(faces_, f, other);
         if (joined && continues(faces_, f, other)) continue;
-        const bool touch =
-            joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
-        const auto region = close_region(faces_, f, other, touch ? errors : reach(f, other));
+        const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
+        const auto region = close_region(faces_, f, other, aside + (touch ? errors : reach(f, other)));
         if (!region) continue;
         if (region->clear <= along_edges) {
             clear = std::max(clear, region->clear);
@@ -179,7 +192,8 @@ bool Neighbours::any_between(std::span<const Face> faces, const SurfacePoint& x,
         const int n = faces_.meet(f, x.position, direction, distances);
         if (n == 0) continue;
         // Of a face that y lies on, where the ray ends does not count.
-        const int end = !faces_.holds(f, y.position) ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
+        const int end =
+            !faces_.holds(f, y.position) ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
         for (int i = 0; i < n; ++i)
             if (i != end && distances[i] < length) return true;
     }

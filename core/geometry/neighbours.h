@@ -1,11 +1,11 @@
 // What is closer together than Embree's floats can tell, asked in double: creases, thin gaps, surfaces that touch.
 //
-// Embree sees faces moved by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A point is *close*
-// where another face is nearer than both errors: there a ray could start behind that face, or end on the wrong one of the two. It
-// is close, too, where a face that does not touch its own is nearer than 64 times that: below and beside it a ray sees what the
-// point does not. Which parts of a face are close is found out when it is first hit, and kept; these parts are strips along edges,
-// as a rule, a millionth of the scene wide. The rays of close points meet the faces around them in double, and Embree is asked for
-// all others.
+// Embree sees faces moved by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A point is
+// *close* where another face is nearer than both errors: there a ray could start behind that face, or end on the wrong one of the
+// two. It is close, too, where a face that does not touch its own is nearer than 64 times that: below and beside it a ray sees what
+// the point does not. Which parts of a face are close is found out when it is first hit, and kept; these parts are strips along
+// edges, as a rule, a millionth of the scene wide. The rays of close points meet the faces around them in double, and Embree is
+// asked for all others.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -17,11 +17,11 @@
 #include <optional>
 #include <vector>
 
+#include <oneapi/tbb/concurrent_map.h>
 #include <boost/geometry/algorithms/disjoint.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
-#include <oneapi/tbb/concurrent_map.h>
 
 namespace neumann {
 
@@ -32,6 +32,9 @@ public:
 
     // Whether p, on its face, is close to another one.
     bool is_close(const SurfacePoint& p) const;
+    // Whether Embree's ray, which begins up to the rounding of a place beside the real one, may have met p's face in place of
+    // another one. `cosine`: of the ray with p's normal.
+    bool may_hide(const SurfacePoint& p, double cosine) const;
     // The faces within rounding of p, with its own, in order.
     std::vector<Face> around(const SurfacePoint& p) const;
 
@@ -59,6 +62,9 @@ private:
         bool may_hold(const Vec2& weights, const Vec3& position) const;
     };
     void examine(const Face& f) const;
+    // Whether the state of a round face is `clear`.
+    bool is_clear_round(const Face& f) const;
+    bool in_box(const Face& f, const Vec2& weights, const Vec3& position) const;
     // Whether nothing of f is on the side of the plane of p's triangle that `direction` points to, where rays from p are.
     bool is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const;
     // How near to each other faces are that do not touch, and whose points are close.
@@ -70,6 +76,7 @@ private:
     const RayCaster* caster_;
     std::vector<Face> large_;   // asked one by one, so that the others are found in small spheres
     double error_of_rest_ = 0;  // the largest of them
+    double largest_error_ = 0;  // of all faces: how far beside the real one a ray may begin
     // Of round faces, by shape; of triangles, Triangle::is_clear() tells.
     enum class State : std::uint8_t { unknown, clear, not_clear };
     mutable std::vector<State> round_;

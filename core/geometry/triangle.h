@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 
 namespace neumann {
@@ -44,14 +45,15 @@ public:
 
     // Where a ray meets the triangle's plane, in double.
     struct Meeting {
+        double cosine;  // of the ray with the normal
         double distance;
         Vec3 position;
         Vec2 weights;
     };
     Meeting meet(const Vec3& origin, const Vec3& direction) const {
-        const double distance = glm::dot(vertex_ - origin, normal_) / glm::dot(direction, normal_);
+        const double cosine = glm::dot(direction, normal_), distance = glm::dot(vertex_ - origin, normal_) / cosine;
         const Vec3 position = origin + direction * distance;
-        return {distance, position, weights(position)};
+        return {cosine, distance, position, weights(position)};
     }
     // Whether that is where a ray hits of which Embree says that it hits the triangle. Otherwise the hit is near(…).
     bool is_hit(const Meeting& m) const { return is_inside(m.weights) && m.distance > 0.0 && rounding_ < 1.0f; }
@@ -61,8 +63,10 @@ public:
     // for some cells. Neighbours finds it out when it is first asked for.
     using Cells = WeightCells<8>;
     static constexpr float unknown = 2.0f;  // no point is so far from the edges
-    bool is_clear(const Vec2& w) const {
-        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) < clear()) return false;
+    // With the cosine of a ray that hits there: so far from the ray, which is to be on the same side of an edge where Embree's ray
+    // begins beside it.
+    bool is_clear(const Vec2& w, double cosine = 1.0) const {
+        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < clear()) return false;
         const std::uint64_t cells = std::atomic_ref(not_clear_).load(std::memory_order_relaxed);
         return cells == 0 || (cells >> Cells::index(w) & 1u) == 0;
     }
