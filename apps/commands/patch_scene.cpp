@@ -84,8 +84,6 @@ nlohmann::ordered_json PatchScene::json() const {
     return json;
 }
 
-nlohmann::ordered_json number(double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); }
-
 void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
     for (const std::string& text : warnings) {
         if (!quiet) fmt::print(stderr, "warning: {}\n", text);

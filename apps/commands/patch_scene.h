@@ -21,7 +21,7 @@ struct PatchOptions {
     std::uint64_t patches = 2000;
     std::uint64_t rays = 64;  // of a facet
     std::uint64_t seed = 0;
-    int threads = 0;  // 0: all
+    int threads = 0;               // 0: all
     std::optional<double> memory;  // GiB
     bool quiet = false;
     bool json = false;
@@ -57,9 +57,6 @@ private:
     std::shared_ptr<const Scene> scene_;
     std::unique_ptr<TracedSystem> system_;
 };
-
-// JSON has no infinity: null.
-nlohmann::ordered_json number(double x);
 
 // On stderr, unless `quiet`.
 void print_warnings(const std::vector<std::string>& warnings, bool quiet);

@@ -1,6 +1,7 @@
 #include "apps/commands/solve.h"
 
 #include "apps/commands/interrupt.h"
+#include "apps/files/json_number.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -103,7 +104,7 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     using Json = nlohmann::ordered_json;
     Json json = scene.json();
     json["channel"] = {{"name", scene.channel_name(chosen.channel)}, {"why", chosen.why}};
-    json["spectral_radius"] = number(chosen.radius);
+    json["spectral_radius"] = json_number(chosen.radius);
     json["unknown"] = scene.system().samples_lights() ? "L - Le" : "L";
     json["tolerance"] = request.tolerance;
     json["most_applications"] = request.most;
@@ -119,13 +120,13 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
                        {"applications", row.result.applications},
                        {"setup_applications", row.result.setup},
                        {"seconds", row.seconds},
-                       {"estimate", number(row.estimate())},
-                       {"error", number(row.error)},
+                       {"estimate", json_number(row.estimate())},
+                       {"error", json_number(row.error)},
                        {"history", Json::array()}};
         for (const SolverStep& step : row.result.history)
             solver["history"].push_back({{"applications", step.applications},
-                                         {"estimate", number(step.estimate)},
-                                         {"error", number(step.error)},
+                                         {"estimate", json_number(step.estimate)},
+                                         {"error", json_number(step.error)},
                                          {"seconds", step.seconds}});
         json["solvers"].push_back(solver);
     }

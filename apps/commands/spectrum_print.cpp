@@ -1,6 +1,8 @@
 // The forms in which `neumann spectrum` prints its report: tables of at most 100 columns, CSV, JSON.
 #include "apps/commands/spectrum_report.h"
 
+#include "apps/files/json_number.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -85,7 +87,8 @@ void print_eigenvalues(const SpectrumReport& report) {
     for (const ChannelSpectrum& s : report.channels) {
         if (!s.leading.converged) fmt::print("{}: {}.\n", s.name, s.leading.why);
         if (s.bounds && s.bounds->meet())
-            fmt::print("{}: the radius is known without them: some light is kept for good, {:.6f} of it each time.\n", s.name, s.radius);
+            fmt::print("{}: the radius is known without them: some light is kept for good, {:.6f} of it each time.\n", s.name,
+                       s.radius);
         else if (s.bounds)
             fmt::print("{}: the radius is between {:.6f} and {:.6f}.\n", s.name, s.bounds->low, s.bounds->high);
     }
@@ -188,21 +191,22 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumRepo
     json["channels"] = Json::array();
     for (std::size_t c = 0; c < report.channels.size(); ++c) {
         const ChannelSpectrum& s = report.channels[c];
-        Json channel = {{"name", s.name},
-                        {"largest_albedo", s.largest_albedo},
-                        {"norms", {{"inf", number(s.norms.sup)}, {"1", number(s.norms.one)}, {"2", number(s.norms.two)}}},
-                        {"norm_1_standard_error", number(s.one_error)},
-                        {"norm_1_part_of_measure", number(s.one_part)},
-                        {"spectral_radius", number(s.radius)},
-                        {"spectral_radius_shift", number(s.shift)},
-                        {"series", name(s.convergence)},
-                        {"eigenvalues", Json::array()},
-                        {"eigenvalues_converged", s.leading.converged},
-                        {"eigenvalues_search", {{"applications", s.leading.applications}, {"why", s.leading.why}}}};
-        if (s.bounds) channel["spectral_radius_bounds"] = {s.bounds->low, number(s.bounds->high)};
+        Json channel = {
+            {"name", s.name},
+            {"largest_albedo", s.largest_albedo},
+            {"norms", {{"inf", json_number(s.norms.sup)}, {"1", json_number(s.norms.one)}, {"2", json_number(s.norms.two)}}},
+            {"norm_1_standard_error", json_number(s.one_error)},
+            {"norm_1_part_of_measure", json_number(s.one_part)},
+            {"spectral_radius", json_number(s.radius)},
+            {"spectral_radius_shift", json_number(s.shift)},
+            {"series", name(s.convergence)},
+            {"eigenvalues", Json::array()},
+            {"eigenvalues_converged", s.leading.converged},
+            {"eigenvalues_search", {{"applications", s.leading.applications}, {"why", s.leading.why}}}};
+        if (s.bounds) channel["spectral_radius_bounds"] = {s.bounds->low, json_number(s.bounds->high)};
         Json& history = channel["eigenvalues_search"]["history"] = Json::array();
         for (const EigenStep& step : s.leading.history)
-            history.push_back({{"applications", step.applications}, {"residual", number(step.residual)}});
+            history.push_back({{"applications", step.applications}, {"residual", json_number(step.residual)}});
         for (const Eigenpair& pair : s.leading.pairs) {
             Json value = complex_json(pair.value);
             value["residual"] = pair.residual;
@@ -225,8 +229,8 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumRepo
                                                 {"bounces", report.emits && s.bounces[i] ? Json(*s.bounces[i]) : Json(nullptr)}});
         constexpr const char* formats[] = {"float", "double"};
         for (std::size_t i = 0; i < 2; ++i)
-            channel["rounding"][formats[i]] = {{"relative_error", converges ? number(s.rounding[i]) : Json(nullptr)},
-                                               {"sum_stops_at", converges ? number(s.stagnation[i]) : Json(nullptr)}};
+            channel["rounding"][formats[i]] = {{"relative_error", converges ? json_number(s.rounding[i]) : Json(nullptr)},
+                                               {"sum_stops_at", converges ? json_number(s.stagnation[i]) : Json(nullptr)}};
         json["channels"].push_back(channel);
     }
     json["warnings"] = report.warnings;

@@ -1,4 +1,5 @@
 #include "apps/files/health_json.h"
+#include "apps/files/json_number.h"
 
 #include "operators/pictures/path_group.h"
 
@@ -11,13 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json mean_json(const MeanWithError& mean) {
-    return {{"mean", number(mean.mean)},
-            {"stderr", number(mean.standard_error)},
+    return {{"mean", json_number(mean.mean)},
+            {"stderr", json_number(mean.standard_error)},
             {"degrees_of_freedom", mean.degrees_of_freedom},
-            {"interval95", number(mean.interval())}};
+            {"interval95", json_number(mean.interval())}};
 }
 
 // The samples that a report names, numbered from 1 as `neumann replay` counts them.

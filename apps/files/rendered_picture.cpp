@@ -6,14 +6,14 @@ namespace neumann {
 
 namespace {
 
-struct Part {
+struct PartOfMeans {
     const char* suffix;
     MeanWithError& (*of)(PictureMeans&);
 };
-constexpr std::array<Part, 4> parts{{{"", [](PictureMeans& m) -> MeanWithError& { return m.all; }},
-                                     {".R", [](PictureMeans& m) -> MeanWithError& { return m.channel[0]; }},
-                                     {".G", [](PictureMeans& m) -> MeanWithError& { return m.channel[1]; }},
-                                     {".B", [](PictureMeans& m) -> MeanWithError& { return m.channel[2]; }}}};
+constexpr std::array<PartOfMeans, 4> parts{{{"", [](PictureMeans& m) -> MeanWithError& { return m.all; }},
+                                            {".R", [](PictureMeans& m) -> MeanWithError& { return m.channel[0]; }},
+                                            {".G", [](PictureMeans& m) -> MeanWithError& { return m.channel[1]; }},
+                                            {".B", [](PictureMeans& m) -> MeanWithError& { return m.channel[2]; }}}};
 struct Figure {
     const char* name;
     double MeanWithError::*value;
@@ -32,7 +32,7 @@ std::optional<double> number(const Attributes& attributes, const std::string& na
 
 std::optional<PictureMeans> means_in(const Attributes& attributes) {
     PictureMeans means;
-    for (const Part& part : parts)
+    for (const PartOfMeans& part : parts)
         for (const auto& [name, value] : figures) {
             const auto found = number(attributes, name + std::string(part.suffix));
             if (!found) return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<PictureMeans> means_in(const Attributes& attributes) {
 Attributes mean_attributes(const PictureMeans& means) {
     Attributes attributes;
     PictureMeans copy = means;
-    for (const Part& part : parts)
+    for (const PartOfMeans& part : parts)
         for (const auto& [name, value] : figures) attributes[name + std::string(part.suffix)] = part.of(copy).*value;
     return attributes;
 }

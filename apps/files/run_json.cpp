@@ -1,6 +1,7 @@
 #include "apps/files/run_json.h"
 
 #include "apps/commands/plan.h"
+#include "apps/files/json_number.h"
 #include "core/geometry/ray_caster.h"
 
 #include <cmath>
@@ -11,18 +12,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
 Json mean_json(const MeanWithError& mean, bool infinite_variance, bool rare_large_samples = false, bool unmet = false) {
-    Json json = {{"mean", number(mean.mean)}};
+    Json json = {{"mean", json_number(mean.mean)}};
     if (infinite_variance) {
         json["interval95"] = "none: the variance is infinite";
         return json;
     }
-    json["stderr"] = number(mean.standard_error);
-    json["degrees_of_freedom"] = number(mean.degrees_of_freedom);
-    json["interval95"] = number(mean.interval());
+    json["stderr"] = json_number(mean.standard_error);
+    json["degrees_of_freedom"] = json_number(mean.degrees_of_freedom);
+    json["interval95"] = json_number(mean.interval());
     if (unmet) json["unmet"] = "no sample met it: interval95 is an upper bound";
     if (rare_large_samples) json["rare_large_samples"] = true;
     return json;
@@ -68,7 +66,7 @@ Json rest_json(const Scene& scene, const RenderResult& result) {
         case RestVerdict::measured:
             json = mean_json(report.rest, report.rest_infinite_variance, false, report.rest_unmet);
             json["verdict"] = "measured";
-            json["fraction_of_sum_with_interval"] = number(report.tail_fraction());
+            json["fraction_of_sum_with_interval"] = json_number(report.tail_fraction());
             break;
         case RestVerdict::not_converging:
             json["verdict"] = "not converging";
@@ -78,7 +76,7 @@ Json rest_json(const Scene& scene, const RenderResult& result) {
             break;
     }
     if (!result.rest.is_null()) json.update(result.rest);
-    json["a_priori_bound"] = number(bound);
+    json["a_priori_bound"] = json_number(bound);
     json["a_priori_bound_note"] =
         report.importance      ? "there is no bound: the largest importance is infinite"
         : std::isfinite(bound) ? "a^(N+1)/(1-a) * largest emitted radiance, a = largest albedo; of the sup norm, channel by channel"
@@ -128,7 +126,7 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
         add_discretisation(bounce, b.discretisation);
         if (b.missing) bounce["missing"] = mean_json(*b.missing, b.infinite_variance, b.rare_large_samples);
         if (b.ratio) bounce["ratio_estimate"] = *b.ratio;
-        bounce["tail_bound"] = number(b.bound);
+        bounce["tail_bound"] = json_number(b.bound);
         if (b.tail) bounce["tail_index"] = {{"estimate", b.tail->alpha}, {"upper_99.9", b.tail->upper}};
         bounce["rays"] = b.rays;
         json["bounces"].push_back(bounce);

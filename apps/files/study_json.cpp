@@ -1,5 +1,6 @@
 // study.json: everything a study found, and what is needed to repeat it.
 #include "apps/commands/study_data.h"
+#include "apps/files/json_number.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/statistics/metrics.h"
 
@@ -15,13 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json as_json(const WithError& x) { return {{"value", number(x.value)}, {"standard_error", number(x.standard_error)}}; }
+Json as_json(const WithError& x) { return {{"value", json_number(x.value)}, {"standard_error", json_number(x.standard_error)}}; }
 
 Json as_json(const std::optional<ErrorSlope>& slope) {
     if (!slope) return nullptr;
-    return {{"value", slope->slope}, {"interval95", number(slope->half_width)}, {"points", slope->points}};
+    return {{"value", slope->slope}, {"interval95", json_number(slope->half_width)}, {"points", slope->points}};
 }
 
 Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, const PointSummary& summary) {
@@ -50,12 +49,12 @@ Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, cons
     json["resolved"] = summary.resolved;
     json["rel_mse"] = as_json(summary.rel_mse);
     json["variance"] = as_json(summary.variance);
-    json["bias_squared"] = {{"value", number(summary.bias_squared.value)},
-                            {"interval95", number(summary.bias_half_width)},
+    json["bias_squared"] = {{"value", json_number(summary.bias_squared.value)},
+                            {"interval95", json_number(summary.bias_half_width)},
                             {"significant", summary.biased}};
     if (!run.discretisation.empty()) json["discretisation_as_estimated_by_the_method"] = discretisation / repeats;
-    json["efficiency"] = number(summary.efficiency);
-    json["efficiency_with_bias"] = number(summary.merit);
+    json["efficiency"] = json_number(summary.efficiency);
+    json["efficiency_with_bias"] = json_number(summary.merit);
     json["infinite_variance"] = summary.infinite_variance;
     return json;
 }
@@ -82,8 +81,8 @@ Json truncation(const StudyData& data) {
     }
     const MeanWithError rest = data.pilot.rest(data.bounces);
     json["rest_mean"] = rest.mean;
-    json["interval95"] = number(rest.interval());
-    json["fraction_of_whole"] = number(rest.mean / data.pilot.sum());
+    json["interval95"] = json_number(rest.interval());
+    json["fraction_of_whole"] = json_number(rest.mean / data.pilot.sum());
     json["note"] =
         "mean of all bounces beyond the last one, by walks of their own; no error above contains it, the sum is that of the "
         "bounces that are looked at";

@@ -1,9 +1,9 @@
 // Renders from fields on patches: patches, matrix and gather.
 #include "apps/rendering/render_method.h"
 
+#include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/files/health_json.h"
-#include "apps/commands/interrupt.h"
 #include "core/base/error.h"
 #include "core/scene/shading_normals.h"
 #include "operators/pictures/field_goal.h"
@@ -20,7 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double default_seconds = 20.0, default_error = 0.02;
 // Of a replicate, with --patches or --directions and without --spp: about what default_error takes.
 constexpr std::uint32_t default_samples = 16;
 // Means that are known less well than to this part are told of.

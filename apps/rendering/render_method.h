@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/commands/render.h"
-#include "apps/files/rendered_picture.h"
 #include "apps/commands/ways.h"
+#include "apps/files/rendered_picture.h"
 #include "core/base/warnings.h"
 #include "operators/pictures/bounce_series.h"
 #include "operators/pictures/pilot.h"
@@ -14,6 +14,8 @@
 
 namespace neumann {
 
+// Without any goal: a good picture, or what a short wait gives.
+constexpr double default_seconds = 20.0, default_error = 0.02;
 // The most that --error takes without --time, seconds.
 constexpr double longest_search = 600.0;
 

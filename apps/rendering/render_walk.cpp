@@ -1,9 +1,9 @@
 // Renders by sampling: walk, guided, surface, classic and pointwise.
 #include "apps/rendering/render_method.h"
 
-#include "apps/files/health_json.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/files/health_json.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
@@ -23,8 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Without any goal: a good picture, or what a short wait gives.
-constexpr double default_seconds = 20.0, default_error = 0.02;
 // Left to sampling where the set-up has taken all of the time, seconds.
 constexpr double shortest_sampling = 1e-3;
 
@@ -47,9 +45,10 @@ void check_memory(const RenderRequest& request, const Film& film, int bounces) {
     // All of it is known beforehand, so that it may be more than what grows by itself takes.
     const double memory = request.memory ? memory_limit(request.memory) : 0.8 * usable_memory();
     if (bytes > memory)
-        throw InputError(fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, and {:.1f} may be taken; take fewer bounces or a "
-                                     "smaller film",
-                                     bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
+        throw InputError(
+            fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, and {:.1f} may be taken; take fewer bounces or a "
+                        "smaller film",
+                        bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
 Method method_of(const std::string& name) {

@@ -11,16 +11,17 @@ namespace neumann {
 namespace {
 
 constexpr int sheet_side = 2400, largest_thumbnail = 480;
-constexpr int margin = 24, gap = 12, heading_height = 44;
-constexpr int label_size = 16, heading_size = 22;
+constexpr int heading_height = 44;
+constexpr int sheet_label_size = 16, heading_size = 22;
 
 int rows_of(int pictures, int columns) { return (pictures + columns - 1) / columns; }
 
 SheetLayout with_columns(int columns, int terms, int sums, int width, int height) {
     SheetLayout layout{columns, rows_of(terms, columns), rows_of(sums, columns), 0, 0};
     const int rows = layout.term_rows + layout.sum_rows;
-    const double wide = static_cast<double>(sheet_side - 2 * margin - (columns - 1) * gap) / columns;
-    const double high = static_cast<double>(sheet_side - 2 * margin - 2 * heading_height) / rows - label_height(label_size) - gap;
+    const double wide = static_cast<double>(sheet_side - 2 * sheet_margin - (columns - 1) * sheet_gap) / columns;
+    const double high =
+        static_cast<double>(sheet_side - 2 * sheet_margin - 2 * heading_height) / rows - label_height(sheet_label_size) - sheet_gap;
     const double longer = std::max(width, height);
     const double scale = scale_shown(width, height, std::min({wide / width, high / height, largest_thumbnail / longer}));
     layout.thumbnail_width = std::max(1, static_cast<int>(width * scale));
@@ -28,21 +29,24 @@ SheetLayout with_columns(int columns, int terms, int sums, int width, int height
     return layout;
 }
 
-int sheet_width(const SheetLayout& layout) { return 2 * margin + layout.columns * (layout.thumbnail_width + gap) - gap; }
+int sheet_width(const SheetLayout& layout) {
+    return 2 * sheet_margin + layout.columns * (layout.thumbnail_width + sheet_gap) - sheet_gap;
+}
 
 int block_height(const SheetLayout& layout, int rows) {
-    return rows == 0 ? 0 : heading_height + rows * (layout.thumbnail_height + label_height(label_size) + gap);
+    return rows == 0 ? 0 : heading_height + rows * (layout.thumbnail_height + label_height(sheet_label_size) + sheet_gap);
 }
 
 void paste_block(DisplayImage& sheet, int top, const SheetLayout& layout, const std::string& heading,
                  std::span<const LabelledPicture> pictures, double exposure, const std::optional<std::string>& font) {
     if (pictures.empty()) return;
-    sheet.paste(caption(heading, sheet.width - 2 * margin, heading_height, heading_size, font, false), margin, top);
+    sheet.paste(caption(heading, sheet.width - 2 * sheet_margin, heading_height, heading_size, font, false), sheet_margin, top);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const int column = static_cast<int>(i) % layout.columns, row = static_cast<int>(i) / layout.columns;
-        const int x = margin + column * (layout.thumbnail_width + gap);
-        const int y = top + heading_height + row * (layout.thumbnail_height + label_height(label_size) + gap);
-        sheet.paste(with_label(pictures[i], layout.thumbnail_width, layout.thumbnail_height, exposure, label_size, font), x, y);
+        const int x = sheet_margin + column * (layout.thumbnail_width + sheet_gap);
+        const int y = top + heading_height + row * (layout.thumbnail_height + label_height(sheet_label_size) + sheet_gap);
+        sheet.paste(with_label(pictures[i], layout.thumbnail_width, layout.thumbnail_height, exposure, sheet_label_size, font), x,
+                    y);
     }
 }
 
@@ -68,10 +72,12 @@ std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<cons
     const SheetLayout layout =
         layout_sheet(static_cast<int>(terms.size()), static_cast<int>(sums.size()), first.width, first.height);
     const int terms_height = block_height(layout, layout.term_rows);
-    DisplayImage sheet(sheet_width(layout), 2 * margin + terms_height + block_height(layout, layout.sum_rows), sheet_background);
-    paste_block(sheet, margin, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.terms, exposure), terms, exposure, font);
-    paste_block(sheet, margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure), sums,
-                exposure, font);
+    DisplayImage sheet(sheet_width(layout), 2 * sheet_margin + terms_height + block_height(layout, layout.sum_rows),
+                       sheet_background);
+    paste_block(sheet, sheet_margin, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.terms, exposure), terms, exposure,
+                font);
+    paste_block(sheet, sheet_margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure),
+                sums, exposure, font);
     return encode_png(sheet);
 }
 

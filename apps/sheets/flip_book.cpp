@@ -11,7 +11,7 @@
 namespace neumann {
 namespace {
 
-constexpr int longest_side = 512, longest_enlarged = 320, label_size = 18;
+constexpr int longest_side = 512, longest_enlarged = 320, flip_label_size = 18;
 constexpr double seconds_to_spare = 6.0;
 constexpr int hundredths_a_page = 67;
 
@@ -41,7 +41,7 @@ FlipBook::FlipBook(std::vector<LabelledPicture> pictures, double exposure, const
               height = std::max(1, static_cast<int>(first.height * scale));
     std::vector<DisplayImage> frames;
     for (const LabelledPicture& picture : pictures_)
-        frames.push_back(with_label(picture, width, height, exposure, label_size, font));
+        frames.push_back(with_label(picture, width, height, exposure, flip_label_size, font));
     pages_ = compressed(frames);
 }
 

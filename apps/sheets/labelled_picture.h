@@ -8,6 +8,9 @@
 
 namespace neumann {
 
+// Of sheets with several pictures, pixels: around all of them, and between two.
+inline constexpr int sheet_margin = 24, sheet_gap = 12;
+
 constexpr std::uint8_t sheet_background = 34;
 
 // `picture` is in scene-linear radiance and outlives this.

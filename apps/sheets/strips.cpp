@@ -11,7 +11,7 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t last_in_strip = 6;
-constexpr int slide_width = 1920, largest_picture = 480, margin = 24, gap = 12, label_size = 20;
+constexpr int slide_width = 1920, largest_picture = 480, strip_label_size = 20;
 constexpr double gif_seconds = 0.6;
 
 // By which power of two a term is too dark.
@@ -37,18 +37,18 @@ LabelledPicture limit_of(const SeriesPictures& series) { return {"all bounces" +
 DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const std::optional<std::string>& font) {
     const Image& first = *strip.front().front().picture;
     const auto columns = static_cast<int>(strip.front().size()), rows = static_cast<int>(strip.size());
-    const double fitting = (slide_width - 2 * border - (columns - 1) * gap) / (static_cast<double>(columns) * first.width);
+    const double fitting = (slide_width - 2 * border - (columns - 1) * sheet_gap) / (static_cast<double>(columns) * first.width);
     const double scale =
         scale_shown(first.width, first.height,
                     std::min({fitting, largest_scale, static_cast<double>(largest_picture) / std::max(first.width, first.height)}));
     const int width = std::max(1, static_cast<int>(first.width * scale)),
               height = std::max(1, static_cast<int>(first.height * scale));
-    const int row_height = height + label_height(label_size);
-    DisplayImage out(2 * border + columns * (width + gap) - gap, 2 * border + rows * row_height, sheet_background);
+    const int row_height = height + label_height(strip_label_size);
+    DisplayImage out(2 * border + columns * (width + sheet_gap) - sheet_gap, 2 * border + rows * row_height, sheet_background);
     for (int r = 0; r < rows; ++r)
         for (int c = 0; c < columns; ++c) {
             const LabelledPicture& picture = strip[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-            out.paste(with_label(picture, width, height, exposure, label_size, font), border + c * (width + gap),
+            out.paste(with_label(picture, width, height, exposure, strip_label_size, font), border + c * (width + sheet_gap),
                       border + r * row_height);
         }
     return out;
@@ -90,7 +90,7 @@ Strip strip_of_doubling(const SeriesPictures& series) {
 }
 
 std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font) {
-    return encode_png(drawn(strip, margin, largest_picture, exposure, font));
+    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, font));
 }
 
 std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font) {

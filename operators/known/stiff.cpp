@@ -284,7 +284,7 @@ void two_furnaces(Figures& figures, std::uint64_t seed) {
         figures.near(fmt::format("K^{} Le", n), found.terms[static_cast<std::size_t>(n)].mean.r, t(n), 1e-14 * t(n));
     const double exact = std::pow(0.5, 20) + 1e-4 * std::pow(0.99, 21), ratio = t(20) / t(19);
     figures.near("rest over what the ratio predicts", exact / (t(20) * ratio / (1.0 - ratio)), 25.11008731388987, 1e-9);
-    const Estimates rest = probe(scene, both, Way::bsdf, {.samples = 8192, .bounces = 20, .rest_probability = 1.0, .seed = seed});
+    const Estimates rest = probe(scene, both, Way::bsdf, {.samples = 16384, .bounces = 20, .rest_probability = 1.0, .seed = seed});
     figures.sampled("sum of K^i Le, i > 20", rest.rest, exact);
 }
 
