@@ -8,6 +8,7 @@
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
 
 #include <fmt/format.h>
@@ -98,6 +99,7 @@ int render_command(const RenderRequest& given) {
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     const double reading_seconds = watch.seconds();
     const auto needs_space = [&, film = scene.film](int bounces) {
+        expect_pictures();  // before anything is sampled
         folder->expect_space(estimated_bytes(film, bounces, is_field_method(request.method)));
     };
     ProgressLine line(request.quiet);

@@ -10,18 +10,6 @@ find_package(pugixml REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
 
-# By its files and not by its CMake package, which on Debian also demands OpenImageIO's programs and OpenCV's headers.
-find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/oiioversion.h REQUIRED)
-find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
-find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
-if(NOT TARGET OpenImageIO::OpenImageIO)
-  add_library(OpenImageIO::OpenImageIO UNKNOWN IMPORTED)
-  set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
-    IMPORTED_LOCATION ${OPENIMAGEIO_LIBRARY}
-    INTERFACE_INCLUDE_DIRECTORIES ${OPENIMAGEIO_INCLUDE_DIR}
-    INTERFACE_LINK_LIBRARIES ${OPENIMAGEIO_UTIL_LIBRARY})
-endif()
-
 # Libraries that are headers alone.
 find_path(GLM_INCLUDE_DIR glm/glm.hpp REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -15,6 +15,9 @@
 
 namespace neumann {
 
+// Loads what reads and writes pictures, as all of these do when first called. Throws RunError where it is not there.
+void expect_pictures();
+
 // What an EXR header says beside the picture: "neumann:bounce" and the like. Whole numbers beyond 32 bits, which OpenEXR does not
 // have, are written as double where that is exact and as text otherwise.
 using Attribute = std::variant<std::int64_t, double, std::string>;

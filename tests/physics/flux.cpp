@@ -77,7 +77,7 @@ double mean_height(const Scene& scene) {
 TEST(Flux, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
     const double rho = 0.8;
     const AreaLight more_above([](const SurfacePoint& p, const Vec3&) { return grey(2.0 + p.position.z); }, grey(4.0));
-    for (const Enclosure& enclosure : enclosures({grey(rho), more_above})) {
+    for (const ClosedScene& enclosure : enclosures({grey(rho), more_above})) {
         const Scene scene = enclosure.maker.make();
         std::vector<double> exact;
         for (int i = 0; i <= 6; ++i) exact.push_back(std::pow(rho, i) * (2.0 + mean_height(scene)));

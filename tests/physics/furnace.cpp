@@ -17,7 +17,7 @@ Surface furnace(const Rgb& rho) { return {rho, grey(1.0)}; }
 
 TEST(Furnace, EveryWalkCarriesThePowersOfTheAlbedo) {
     for (const Rgb& rho : {colour, bright})
-        for (const Enclosure& enclosure : enclosures(furnace(rho))) {
+        for (const ClosedScene& enclosure : enclosures(furnace(rho))) {
             SCOPED_TRACE(enclosure.name);
             const Scene scene = enclosure.maker.make();
             expect_exact(probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40}),
@@ -26,7 +26,7 @@ TEST(Furnace, EveryWalkCarriesThePowersOfTheAlbedo) {
 }
 
 TEST(Furnace, EveryProductOfOperatorsIsThePowerOfTheAlbedo) {
-    for (const Enclosure& enclosure : enclosures(furnace(colour))) {
+    for (const ClosedScene& enclosure : enclosures(furnace(colour))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
         expect_exact(probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12}),
@@ -35,7 +35,7 @@ TEST(Furnace, EveryProductOfOperatorsIsThePowerOfTheAlbedo) {
 }
 
 TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
-    for (Enclosure& enclosure : enclosures(furnace(colour))) {
+    for (ClosedScene& enclosure : enclosures(furnace(colour))) {
         enclosure.maker.parts.camera.fov = 2.0;
         enclosure.maker.parts.camera.near_clip = 1e-6;
         enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
@@ -66,7 +66,7 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
 // 8 enclosures × 9 terms × 2 albedos: 144 comparisons.
 TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
     for (const double rho : {0.5, 0.9})
-        for (const Enclosure& enclosure : enclosures(glowing(rho, 1.0))) {
+        for (const ClosedScene& enclosure : enclosures(glowing(rho, 1.0))) {
             SCOPED_TRACE(enclosure.name);
             const Scene scene = enclosure.maker.make();
             std::vector<double> exact;
@@ -76,7 +76,7 @@ TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
 }
 
 TEST(Furnace, WithoutReflectionNothingComesBack) {
-    for (const Enclosure& enclosure : enclosures(glowing(0.0, 1.0))) {
+    for (const ClosedScene& enclosure : enclosures(glowing(0.0, 1.0))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
         for (const Way way : {Way::mis, Way::bsdf, Way::light, Way::pointwise})
@@ -86,7 +86,7 @@ TEST(Furnace, WithoutReflectionNothingComesBack) {
 }
 
 TEST(Furnace, WithoutAbsorptionEveryTermIsOneAndTheWalksAreGivenUp) {
-    for (const Enclosure& enclosure : enclosures(glowing(1.0, 1.0))) {
+    for (const ClosedScene& enclosure : enclosures(glowing(1.0, 1.0))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
         const Estimates found =

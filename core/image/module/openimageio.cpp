@@ -1,0 +1,318 @@
+// All that knows OpenImageIO: the functions of core/image/image_io.h, as a module that is loaded when a picture is first read or written.
+#include "core/image/module/picture_codec.h"
+
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/image/picture_format.h"
+
+// Before OpenImageIO, which makes {fmt} part of whatever includes it: everybody else's calls of {fmt} would end here then, and
+// bring OpenImageIO into programs that have no use for it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+
+namespace neumann {
+namespace {
+
+constexpr std::array<const char*, 3> mean_channels = {"R", "G", "B"};
+constexpr std::array<const char*, 3> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
+constexpr std::array<const char*, 3> spread_channels = {"spread.R", "spread.G", "spread.B"};
+constexpr std::array<const char*, 3> discretisation_channels = {"discretisation.R", "discretisation.G", "discretisation.B"};
+
+std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(format);
+    if (!output || output->supports("ioproxy") == 0)
+        throw RunError(fmt::format("this OpenImageIO cannot write {} to memory", format));
+    const std::string name = std::string("memory.") + format;
+    if (!output->set_ioproxy(&memory) || !output->open(name, spec) || !output->write_image(type, pixels) || !output->close()) {
+        throw RunError(fmt::format("OpenImageIO cannot write {}: {}", format, output->geterror()));
+    }
+    return {bytes.begin(), bytes.end()};
+}
+
+OIIO::ImageSpec display_spec(const DisplayImage& picture) { return {picture.width, picture.height, 3, OIIO::TypeDesc::UINT8}; }
+
+void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Attribute& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        spec.attribute(name, *text);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        spec.attribute(name, OIIO::TypeDesc::DOUBLE, real);
+    } else {
+        const std::int64_t whole = std::get<std::int64_t>(value);
+        constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
+        if (whole >= std::numeric_limits<int>::min() && whole <= std::numeric_limits<int>::max()) {
+            spec.attribute(name, static_cast<int>(whole));
+        } else if (std::abs(whole) <= exact_in_double) {
+            const auto rounded = static_cast<double>(whole);
+            spec.attribute(name, OIIO::TypeDesc::DOUBLE, &rounded);
+        } else {
+            spec.attribute(name, std::to_string(whole));
+        }
+    }
+}
+
+void get_attributes(const OIIO::ImageSpec& spec, Attributes& attributes) {
+    for (const auto& entry : spec.extra_attribs) {
+        const std::string name = entry.name().string();
+        const OIIO::TypeDesc type = entry.type();
+        if (type == OIIO::TypeDesc::STRING) {
+            attributes[name] = entry.get_string();
+        } else if (type == OIIO::TypeDesc::DOUBLE) {
+            attributes[name] = *static_cast<const double*>(entry.data());
+        } else if (type == OIIO::TypeDesc::FLOAT) {
+            attributes[name] = static_cast<double>(entry.get_float());
+        } else if (type == OIIO::TypeDesc::INT) {
+            attributes[name] = static_cast<std::int64_t>(entry.get_int());
+        }
+    }
+}
+
+// Where the three channels stand in the file, or nothing unless all are there.
+std::optional<std::array<std::size_t, 3>> find_channels(const OIIO::ImageSpec& spec, const std::array<const char*, 3>& names) {
+    std::array<std::size_t, 3> places{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const int place = spec.channelindex(names[c]);
+        if (place < 0) return std::nullopt;
+        places[c] = static_cast<std::size_t>(place);
+    }
+    return places;
+}
+
+Image pick_channels(const OIIO::ImageSpec& spec, const std::vector<float>& values, const std::array<std::size_t, 3>& places) {
+    Image picture(spec.width, spec.height);
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const float* pixel = &values[i * channels];
+        picture.pixels[i] = Rgb(pixel[places[0]], pixel[places[1]], pixel[places[2]]);
+    }
+    return picture;
+}
+
+// All channels. Some of OpenImageIO's readers let exceptions out where a file is damaged.
+void read_pixels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type, void* values) {
+    std::string error;
+    try {
+        if (input.read_image(0, 0, 0, input.spec().nchannels, type, values)) return;
+        error = input.geterror();
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    throw InputError(fmt::format("{}: the picture is damaged: {}", path, error));
+}
+
+// Three channels of each pixel, or one.
+template <class T>
+std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type,
+                             const std::vector<std::size_t>& places) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<T> all(spec.image_pixels() * channels);
+    read_pixels(input, path, type, all.data());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < all.size() / channels; ++i)
+        for (const std::size_t place : places) {
+            const T value = all[i * channels + place];
+            if constexpr (std::is_floating_point_v<T>)
+                if (!std::isfinite(value))
+                    throw InputError(
+                        fmt::format("{}: the pixel in column {} and row {} is not finite", path, i % width, i / width));
+            all[next++] = value;
+        }
+    all.resize(next);
+    all.shrink_to_fit();
+    return all;
+}
+
+// The system's word on a file that cannot be read; OpenImageIO's differs by version and format.
+void expect_readable(const std::string& path) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (file) file.peek();
+    if (file.bad() || !file.is_open()) {
+        throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno != 0 ? errno : EIO)));
+    }
+}
+
+// Damaged headers speak of sizes that no memory holds. Of the formats, those that pack plain surfaces best (OpenEXR's DWAB: 256
+// rows in some hundred bytes) stay below 1 : 65,536.
+void expect_possible_size(const OIIO::ImageSpec& spec, const std::string& path) {
+    const double bytes = static_cast<double>(spec.image_pixels()) * spec.nchannels * sizeof(float);
+    std::error_code ignored;
+    const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
+    if (spec.depth != 1 || bytes > 65536.0 * file_bytes || bytes > 0.5 * physical_memory())
+        throw InputError(fmt::format("{}: the picture is damaged or too large: its header says {}×{} pixels of {} channels", path,
+                                     spec.width, spec.height, spec.nchannels));
+}
+
+// Alpha is not multiplied into the colours.
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
+    expect_readable(path);
+    OIIO::ImageSpec as_they_are, found;
+    as_they_are.attribute("oiio:UnassociatedAlpha", 1);
+    constexpr int largest_picture_mb = 2048;
+    [[maybe_unused]] static const bool limited = OIIO::attribute("limits:imagesize_MB", largest_picture_mb);
+    const std::string format = find_picture_format(path);
+    expect_parts_within_file(path, format);
+    std::unique_ptr<OIIO::ImageInput> input;
+    bool opened = false;
+    try {
+        if (!format.empty()) input = OIIO::ImageInput::create(format);
+        opened = input && input->open(path, found, as_they_are);
+    } catch (const std::exception&) {  // some readers let them out where a file is damaged
+    }
+    if (!opened) {
+        OIIO::geterror();
+        throw InputError(path +
+                         ": not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");
+    }
+    expect_possible_size(input->spec(), path);
+    return input;
+}
+
+std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path) {
+    const OIIO::ImageSpec& spec = input.spec();
+    std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    read_pixels(input, path, OIIO::TypeDesc::FLOAT, values.data());
+    return values;
+}
+
+}  // namespace
+
+namespace openimageio {
+
+std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
+    struct Layer {
+        const Image* image;
+        const std::array<const char*, 3>* channels;
+    };
+    std::vector<Layer> layers{{&picture.mean, &mean_channels}};
+    const Image errors = picture.pixel_errors();
+    if (!errors.pixels.empty()) layers.push_back({&errors, &error_channels});
+    if (errors.pixels != picture.standard_error.pixels) layers.push_back({&picture.standard_error, &spread_channels});
+    if (!picture.discretisation.pixels.empty()) layers.push_back({&picture.discretisation, &discretisation_channels});
+    const int width = picture.mean.width, height = picture.mean.height;
+    OIIO::ImageSpec spec(width, height, 3 * static_cast<int>(layers.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames.clear();
+    for (const Layer& layer : layers) {
+        if (layer.image->pixels.empty() || layer.image->width != width || layer.image->height != height)
+            throw std::invalid_argument("encode_exr: an empty picture, or errors of another size");
+        spec.channelnames.insert(spec.channelnames.end(), layer.channels->begin(), layer.channels->end());
+    }
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "");  // not the present time: the same pictures are the same bytes
+    for (const auto& [name, value] : attributes) set_attribute(spec, name, value);
+
+    std::vector<float> values;
+    values.reserve(picture.mean.pixels.size() * static_cast<std::size_t>(spec.nchannels));
+    for (std::size_t i = 0; i < picture.mean.pixels.size(); ++i)
+        for (const Layer& layer : layers)
+            for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(layer.image->pixels[i][c]));
+    return encode("exr", spec, OIIO::TypeDesc::FLOAT, values.data());
+}
+
+std::string encode_png(const DisplayImage& picture) {
+    OIIO::ImageSpec spec = display_spec(picture);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    return encode("png", spec, OIIO::TypeDesc::UINT8, picture.bytes.data());
+}
+
+std::string encode_gif(const DisplayImage& picture) {
+    return encode("gif", display_spec(picture), OIIO::TypeDesc::UINT8, picture.bytes.data());
+}
+
+PixelEstimate read_exr(const std::string& path, Attributes* attributes) {
+    const auto input = open_picture(path);
+    const OIIO::ImageSpec spec = input->spec();
+    const auto mean_places = find_channels(spec, mean_channels);
+    if (!mean_places) {
+        throw InputError(fmt::format("{}: no channels R, G, B; it has {}", path, fmt::join(spec.channelnames, ", ")));
+    }
+    const std::vector<float> values = read_values(*input, path);
+    if (attributes != nullptr) get_attributes(spec, *attributes);
+    PixelEstimate picture;
+    picture.mean = pick_channels(spec, values, *mean_places);
+    if (const auto places = find_channels(spec, error_channels)) picture.standard_error = pick_channels(spec, values, *places);
+    if (const auto places = find_channels(spec, spread_channels)) {
+        picture.least_error = std::move(picture.standard_error);
+        picture.standard_error = pick_channels(spec, values, *places);
+    }
+    if (const auto places = find_channels(spec, discretisation_channels))
+        picture.discretisation = pick_channels(spec, values, *places);
+    return picture;
+}
+
+Texels read_texels(const std::string& path) {
+    const auto input = open_picture(path);
+    const OIIO::ImageSpec& spec = input->spec();
+    std::vector<std::size_t> places{0};
+    if (const auto named = find_channels(spec, mean_channels))
+        places.assign(named->begin(), named->end());
+    else if (spec.nchannels >= 3)
+        places = {0, 1, 2};
+    Texels texels;
+    texels.width = spec.width;
+    texels.height = spec.height;
+    texels.channels = static_cast<int>(places.size());
+    texels.is_encoded = !spec.format.is_floating_point();
+    if (spec.format == OIIO::TypeDesc::UINT8)
+        texels.bytes = read_channels<std::uint8_t>(*input, path, OIIO::TypeDesc::UINT8, places);
+    else
+        texels.values = read_channels<float>(*input, path, OIIO::TypeDesc::FLOAT, places);
+    return texels;
+}
+
+std::optional<std::string> find_label_font() {
+    // Debian and Ubuntu, Fedora, Arch, and wherever OpenImageIO looks.
+    const std::array<std::string, 4> fonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                              "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                              "/usr/share/fonts/TTF/DejaVuSans.ttf", "DejaVuSans"};
+    const auto found =
+        std::find_if(fonts.begin(), fonts.end(), [](const std::string& font) { return text_width("0", 16, font) > 0; });
+    OIIO::geterror();  // of the fonts that are not there; it would be printed at exit
+    return found != fonts.end() ? std::optional(*found) : std::nullopt;
+}
+
+int text_width(const std::string& text, int font_size, const std::string& font) {
+    const OIIO::ROI size = OIIO::ImageBufAlgo::text_size(text, font_size, font);
+    return size.defined() ? size.width() : 0;
+}
+
+void draw_text(DisplayImage& picture, int x, int y, const std::string& text, int font_size, const std::string& font,
+               std::uint8_t grey) {
+    if (text.empty()) return;
+    OIIO::ImageBuf buffer(display_spec(picture));
+    buffer.set_pixels(OIIO::ROI(), OIIO::TypeDesc::UINT8, picture.bytes.data());
+    const float level = static_cast<float>(grey) / 255.0F;
+    const std::array<float, 3> colour = {level, level, level};
+    if (!OIIO::ImageBufAlgo::render_text(buffer, x, y, text, font_size, font, colour) ||
+        !buffer.get_pixels(OIIO::ROI(), OIIO::TypeDesc::UINT8, picture.bytes.data())) {
+        throw RunError(fmt::format("OpenImageIO cannot draw text with {}: {}", font, buffer.geterror()));
+    }
+}
+
+}  // namespace openimageio
+}  // namespace neumann
+
+extern "C" const neumann::PictureCodec* neumann_picture_codec() {
+    using namespace neumann::openimageio;
+    static const neumann::PictureCodec codec{encode_exr,  encode_png,      encode_gif, read_exr,
+                                             read_texels, find_label_font, text_width, draw_text};
+    return &codec;
+}

@@ -1,0 +1,21 @@
+// What the module of pictures offers: the functions of image_io.h.
+#pragma once
+
+#include "core/image/image_io.h"
+
+namespace neumann {
+
+struct PictureCodec {
+    decltype(&neumann::encode_exr) encode_exr;
+    decltype(&neumann::encode_png) encode_png;
+    decltype(&neumann::encode_gif) encode_gif;
+    decltype(&neumann::read_exr) read_exr;
+    decltype(&neumann::read_texels) read_texels;
+    decltype(&neumann::find_label_font) find_label_font;
+    decltype(&neumann::text_width) text_width;
+    decltype(&neumann::draw_text) draw_text;
+};
+
+}  // namespace neumann
+
+extern "C" const neumann::PictureCodec* neumann_picture_codec();
