@@ -187,7 +187,7 @@ TEST(GuidedDirections, ThereIsNoTableWhereNoFurtherBounceIsWantedNorForMetals) {
 // All directions are alike there, and the tables exactly uniform.
 TEST(GuidedWalk, EveryPixelOfAFurnaceIsThePowerOfTheAlbedo) {
     const Rgb colour(0.25, 0.5, 0.75);
-    for (Enclosure& enclosure : enclosures({colour, grey(1.0)})) {
+    for (ClosedScene& enclosure : enclosures({colour, grey(1.0)})) {
         SCOPED_TRACE(enclosure.name);
         enclosure.maker.parts.camera.fov = 2.0;
         enclosure.maker.parts.camera.near_clip = 1e-6;
