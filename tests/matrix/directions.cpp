@@ -93,7 +93,7 @@ TEST(SymmetricScaling, GivesTheRowSums) {
 // |K^i Le − ρ^i| in every cell, whatever the mesh: a mirror is as good a furnace as a matte wall.
 TEST(Directions, FurnaceOfMirrorsIsExact) {
     const Rgb rho(0.25, 0.7, 0.999);
-    for (const Enclosure& e : enclosures(made_of(Conductor({}, rho), AreaLight(Rgb(1.0))))) {
+    for (const ClosedScene& e : enclosures(made_of(Conductor({}, rho), AreaLight(Rgb(1.0))))) {
         const Scene scene = e.maker.make();
         const PatchSpace space(scene.geometry, {40, 0.6}, side_directions(scene));
         const RayTable table(space, 64, 1);

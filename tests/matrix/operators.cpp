@@ -56,7 +56,7 @@ Scene colourful_room() {
 }
 
 TEST(TransportMatrix, RowsSumToOneInClosedScenes) {
-    for (const Enclosure& e : enclosures(matte(0.5))) {
+    for (const ClosedScene& e : enclosures(matte(0.5))) {
         const Scene scene = e.maker.make();
         for (const std::uint64_t seed : {0u, 1u, 2u}) {
             const System<1> s(scene, 500, 64, seed);
@@ -82,7 +82,7 @@ TEST(TransportMatrix, RowsSumToLessWhereLightEscapes) {
 
 // |K^i Le − ρ^i| ≤ 8 i ε in every patch, for each channel, whatever the mesh.
 TEST(ReflectionMatrix, FurnaceIsExact) {
-    for (const Enclosure& e : enclosures(Surface{Rgb(0.25, 0.7, 0.999), AreaLight(Rgb(1.0)), false})) {
+    for (const ClosedScene& e : enclosures(Surface{Rgb(0.25, 0.7, 0.999), AreaLight(Rgb(1.0)), false})) {
         const Scene scene = e.maker.make();
         const System<4> s(scene, 400, 32);
         NeumannSeries series(s.R * s.T, s.Le);

@@ -14,10 +14,10 @@ namespace {
 
 using namespace known;
 
-std::vector<Enclosure> surfaces() {
-    std::vector<Enclosure> all = enclosures(matte(0.5));
+std::vector<ClosedScene> surfaces() {
+    std::vector<ClosedScene> all = enclosures(matte(0.5));
     const auto add = [&](const std::string& name, Shape shape) {
-        all.emplace_back(Enclosure{name, {}}).maker.add(std::move(shape), matte(0.5));
+        all.emplace_back(ClosedScene{name, {}}).maker.add(std::move(shape), matte(0.5));
     };
     add("skewed quadrilateral", TriangleMesh{{{0, 0, 0}, {2, 0.3, 0}, {1.4, 1.7, 0}, {0.2, 1.1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
     add("long triangle", triangle({0, 0, 0}, {5, 0, 1}, {0, 0.4, 2}));
@@ -113,7 +113,7 @@ TEST(Patches, NarrowTowardsTheMouthOfAGap) {
 }
 
 TEST(Patches, CoverTheSurfaces) {
-    for (const Enclosure& e : surfaces()) {
+    for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         for (const std::size_t n : {1u, 50u, 3000u})
             EXPECT_NEAR(area(Patches(scene.geometry, {n, 0.5})) / area(scene.geometry), 1.0, 1e-13) << e.name << ", " << n;
@@ -121,7 +121,7 @@ TEST(Patches, CoverTheSurfaces) {
 }
 
 TEST(Patches, AreAboutAsManyAsAskedFor) {
-    for (const Enclosure& e : surfaces()) {
+    for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         const std::size_t n = Patches(scene.geometry, {5000, 0.5}).size();
         EXPECT_LE(n, 5000u) << e.name;
@@ -132,7 +132,7 @@ TEST(Patches, AreAboutAsManyAsAskedFor) {
 // A hit keeps clear of the triangle's edges by its rounding error, so next to the line between two patches it may be on either.
 TEST(Patches, AreFoundFromTheirPoints) {
     std::uint64_t elsewhere = 0, all = 0;
-    for (const Enclosure& e : surfaces()) {
+    for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         const Patches patches(scene.geometry, {700, 0.6});
         IndependentSampler random(1, 0);
@@ -150,7 +150,7 @@ TEST(Patches, AreFoundFromTheirPoints) {
 // Uniform points: the part that falls into one half of a patch's coordinates is that half's part of the area. 40 cells of each
 // surface, |z| < 4.5: 3e-3 false alarms.
 TEST(Patches, PointsAreUniformByArea) {
-    for (const Enclosure& e : surfaces()) {
+    for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         const Patches coarse(scene.geometry, {40, 0.3}), fine(scene.geometry, {2000, 0.0});
         std::vector<double> share(fine.size());
@@ -198,7 +198,7 @@ TEST(Patches, InterpolationIsExactForLinearFunctions) {
 }
 
 TEST(Patches, InterpolationStaysWithinAChartAndAddsUpToOne) {
-    for (const Enclosure& e : surfaces()) {
+    for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         const Patches patches(scene.geometry, {500, 0.7});
         IndependentSampler random(3, 0);
@@ -213,7 +213,7 @@ TEST(Patches, InterpolationStaysWithinAChartAndAddsUpToOne) {
 
 TEST(Patches, CoarserOnesAreUnionsOfFinerOnes) {
     std::vector<std::pair<std::string, Scene>> scenes;
-    for (const Enclosure& e : surfaces()) scenes.emplace_back(e.name, e.maker.make());
+    for (const ClosedScene& e : surfaces()) scenes.emplace_back(e.name, e.maker.make());
     scenes.emplace_back("furnished room", furnished_room());
     for (const auto& [name, scene] : scenes) {
         const Patches fine(scene.geometry, {600, 0.7}), coarse = fine.coarser();
