@@ -1,5 +1,6 @@
 // The series and its solvers on any K: matrices of a scene, of a book, or of the unit cube.
 #include "apps/commands/interrupt.h"
+#include "apps/python/module.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "operators/known/cube.h"
@@ -9,7 +10,6 @@
 #include "operators/solvers/stoppable.h"
 #include "operators/spectrum/convergence.h"
 #include "operators/spectrum/spectrum.h"
-#include "python/module.h"
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
@@ -200,8 +200,7 @@ void bind_solvers(py::module_& m) {
     m.def("series", &start_series, py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"), py::arg("norm"));
     m.def("solve_one", &start_solver, py::arg("name"), py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"),
           py::arg("radius"), py::arg("lowest"), py::arg("reflectance"), py::arg("exact"));
-    m.def("spectrum_of", &start_spectrum_of, py::arg("K"), py::arg("count"), py::arg("adjoint"),
-          py::arg("most"));
+    m.def("spectrum_of", &start_spectrum_of, py::arg("K"), py::arg("count"), py::arg("adjoint"), py::arg("most"));
     m.def("cube", &start_cube, py::arg("n"));
     py::list names;
     for (const NamedSolver& solver : solvers()) names.append(py::make_tuple(solver.name, solver.title));

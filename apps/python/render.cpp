@@ -1,10 +1,10 @@
 // Renders, as `neumann render` makes and writes them.
 #include "apps/commands/patch_scene.h"
 #include "apps/commands/progress_line.h"
-#include "apps/rendering/rendering.h"
 #include "apps/files/run_json.h"
 #include "apps/files/series_files.h"
-#include "python/module.h"
+#include "apps/python/module.h"
+#include "apps/rendering/rendering.h"
 
 #include <pybind11/stl.h>
 
@@ -50,14 +50,18 @@ py::object ways(const Rendering& rendering) {
 void bind_render(py::module_& m) {
     py::class_<Rendering, std::shared_ptr<Rendering>>(m, "Rendering", "A finished render.")
         .def_property_readonly("bounces", [](const Rendering& r) { return r.result.series.report.bounces.size() - 1; })
-        .def("term", [](const Rendering& r, std::size_t i) {
+        .def("term",
+             [](const Rendering& r, std::size_t i) {
                  const BounceSeries& s = r.result.series;
-                 return as_tuple(s.term(i), s.report.bounces.at(i).infinite_variance ? std::nullopt : std::optional(s.means_of_term(i)));
+                 return as_tuple(s.term(i),
+                                 s.report.bounces.at(i).infinite_variance ? std::nullopt : std::optional(s.means_of_term(i)));
              })
-        .def("sum", [](const Rendering& r, std::size_t i) {
+        .def("sum",
+             [](const Rendering& r, std::size_t i) {
                  const BounceSeries& s = r.result.series;
                  const auto end = s.report.bounces.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-                 const bool infinite = std::any_of(s.report.bounces.begin(), end, [](const BounceReport& b) { return b.infinite_variance; });
+                 const bool infinite =
+                     std::any_of(s.report.bounces.begin(), end, [](const BounceReport& b) { return b.infinite_variance; });
                  return as_tuple(s.sum(i), infinite ? std::nullopt : std::optional(s.means_of_sum(i)));
              })
         .def("rest",

@@ -1,7 +1,7 @@
 // `neumann study`.
 #include "apps/commands/study_data.h"
+#include "apps/python/module.h"
 #include "core/base/error.h"
-#include "python/module.h"
 
 #include <pybind11/stl.h>
 

@@ -1,4 +1,4 @@
-#include "python/job.h"
+#include "apps/python/job.h"
 
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"

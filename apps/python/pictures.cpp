@@ -1,9 +1,9 @@
 // Pictures as arrays, files, and for the screen; and how far one is from another.
 #include "apps/files/rendered_picture.h"
+#include "apps/python/module.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"
 #include "operators/statistics/metrics.h"
-#include "python/module.h"
 
 #include <fmt/format.h>
 
@@ -33,8 +33,8 @@ py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMean
         const auto row = [](const MeanWithError& m) { return py::make_tuple(m.mean, m.standard_error, m.degrees_of_freedom); };
         figures = py::make_tuple(row(means->channel[0]), row(means->channel[1]), row(means->channel[2]), row(means->all));
     }
-    return py::make_tuple(as_array(picture.mean), as_array_or_none(picture.pixel_errors()), as_array_or_none(picture.discretisation),
-                          as_array_or_none(picture.standard_error), figures);
+    return py::make_tuple(as_array(picture.mean), as_array_or_none(picture.pixel_errors()),
+                          as_array_or_none(picture.discretisation), as_array_or_none(picture.standard_error), figures);
 }
 
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array) {

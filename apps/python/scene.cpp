@@ -1,9 +1,9 @@
 // Scenes: read, and looked at.
 #include "apps/commands/patch_scene.h"
 #include "apps/commands/plan.h"
+#include "apps/python/module.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
-#include "python/module.h"
 
 #include <pybind11/stl.h>
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "apps/command_line/commands.h"
+#include "apps/python/job.h"
 #include "core/image/pixel_estimate.h"
 #include "core/scene/scene.h"
 #include "operators/statistics/picture_statistics.h"
-#include "python/job.h"
 
 #include <pybind11/numpy.h>
 

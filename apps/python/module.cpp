@@ -1,4 +1,4 @@
-#include "python/module.h"
+#include "apps/python/module.h"
 
 #include <pybind11/stl.h>
 

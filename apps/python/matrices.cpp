@@ -3,9 +3,9 @@
 #include "apps/commands/solve.h"
 #include "apps/commands/spectrum.h"
 #include "apps/commands/spectrum_report.h"
+#include "apps/python/module.h"
 #include "operators/matrix/camera_vector.h"
 #include "operators/matrix/scene_patches.h"
-#include "python/module.h"
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
