@@ -31,7 +31,7 @@ function(expect name fields files)
 endfunction()
 
 expect(neumann
-  "Package: neumann\n;Section: graphics\n;Depends: [^\n]*libembree[^\n]*libneumann-pictures;Recommends: fonts-dejavu-core\n"
+  "Package: neumann\n;Section: graphics\n;Depends: [^\n]*libneumann-pictures \\(= [^\n]*libembree;Recommends: fonts-dejavu-core\n"
   "bin/neumann;share/man/man1/neumann.1.gz;share/man/man1/neumann-render.1.gz;share/doc/neumann/copyright;share/neumann/scenes/cornell-box/cornell-box.xml")
 expect(libneumann-pictures
   "Package: libneumann-pictures\n;Section: libs\n;Depends: [^\n]*libopenimageio" "share/doc/libneumann-pictures/copyright")
