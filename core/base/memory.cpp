@@ -35,7 +35,9 @@ double limit_of_groups() {
     for (std::string line; std::getline(groups, line);) {
         const auto first = line.find(':'), second = line.find(':', first + 1);
         if (second == std::string::npos) continue;
-        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",", group = line.substr(second + 1);
+        std::string controllers = ",";
+        controllers.append(line, first + 1, second - first - 1).append(",");
+        const std::string group = line.substr(second + 1);
         if (controllers == ",,") least = std::min(least, limit_of_group("/sys/fs/cgroup", group, "memory.max"));
         if (controllers.find(",memory,") != std::string::npos)
             least = std::min(least, limit_of_group("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
