@@ -23,8 +23,10 @@ std::string meaning(const CLI::Option& option) {
     if (!option.get_default_str().empty() && option.get_type_size() != 0)
         text += fmt::format("; {} without it", option.get_default_str());
     text += ".";
-    for (const CLI::Option* other : option.get_excludes()) text += fmt::format(" Not together with {}.", other->get_name(false, true));
-    for (const CLI::Option* other : option.get_needs()) text += fmt::format(" Only together with {}.", other->get_name(false, true));
+    for (const CLI::Option* other : option.get_excludes())
+        text += fmt::format(" Not together with {}.", other->get_name(false, true));
+    for (const CLI::Option* other : option.get_needs())
+        text += fmt::format(" Only together with {}.", other->get_name(false, true));
     return text;
 }
 
@@ -42,7 +44,8 @@ std::string synopsis(const CLI::App& command) {
 }
 
 bool has(const std::vector<ManualBlock>& blocks, const std::string& heading) {
-    return std::any_of(blocks.begin(), blocks.end(), [&](const ManualBlock& b) { return b.kind == Kind::heading && b.text == heading; });
+    return std::any_of(blocks.begin(), blocks.end(),
+                       [&](const ManualBlock& b) { return b.kind == Kind::heading && b.text == heading; });
 }
 
 }  // namespace
@@ -58,9 +61,8 @@ ManualPage manual_page(const CLI::App& command) {
          {Kind::heading, "SYNOPSIS"},
          {Kind::paragraph, synopsis(command)}});
     const std::vector<ManualBlock> text = blocks_of(embedded_file(command.get_name() + ".txt"));
-    const auto files = std::find_if(text.begin(), text.end(), [](const ManualBlock& b) {
-        return b.kind == Kind::heading && b.text != "DESCRIPTION";
-    });
+    const auto files = std::find_if(text.begin(), text.end(),
+                                    [](const ManualBlock& b) { return b.kind == Kind::heading && b.text != "DESCRIPTION"; });
     add({text.begin(), files});
     const auto commands = command.get_subcommands({});
     if (!commands.empty()) add({{Kind::heading, "COMMANDS"}});
@@ -69,7 +71,8 @@ ManualPage manual_page(const CLI::App& command) {
     for (const CLI::Option* o : arguments(command)) add({{Kind::item, meaning(*o), usage(*o)}});
     add({files, text.end()});
     if (!has(text, "EXIT STATUS"))
-        add({{Kind::heading, "EXIT STATUS"}, {Kind::paragraph, "0: done. 1: failed while running. 2: the command or the scene is wrong."}});
+        add({{Kind::heading, "EXIT STATUS"},
+             {Kind::paragraph, "0: done. 1: failed while running. 2: the command or the scene is wrong."}});
     std::string others;
     for (const CLI::App* c : (program != nullptr ? *program : command).get_subcommands({}))
         if (c != &command) others += fmt::format("{}neumann-{}(1)", others.empty() ? "" : ", ", c->get_name());

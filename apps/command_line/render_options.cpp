@@ -17,7 +17,9 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->check(above_zero())
         ->excludes(bounces);
     render->add_option("--spp", request.samples, "Samples a pixel")->type_name("N")->check(whole_from(1, std::uint64_t{1} << 40));
-    render->add_option("--time", request.seconds, "Sample, or refine patches, for so many seconds")->type_name("S")->check(above_zero());
+    render->add_option("--time", request.seconds, "Sample, or refine patches, for so many seconds")
+        ->type_name("S")
+        ->check(above_zero());
     render
         ->add_option("--error", request.relative_error,
                      "Sample until the relative standard error of every bounce is at most this, looked at when the samples are a "

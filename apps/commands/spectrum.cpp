@@ -111,8 +111,8 @@ SpectrumReport spectrum_report(const PatchScene& scene, const SpectrumRequest& r
     const int channels = system.channels();
     // As much for each channel as for all comparisons.
     for (int c = 0; c < channels; ++c)
-        report.channels.push_back(channel_spectrum(scene, c, request.eigenvalues,
-                                                   limits.part(1.0 / (channels - c + 1), scene.channel_name(c))));
+        report.channels.push_back(
+            channel_spectrum(scene, c, request.eigenvalues, limits.part(1.0 / (channels - c + 1), scene.channel_name(c))));
     report.coarser = coarser_spectra(scene.scene(), system.settings(), limits.part(1.0, "coarser"));
     for (int c = 0; c < channels; ++c) {
         ChannelSpectrum& s = report.channels[static_cast<std::size_t>(c)];

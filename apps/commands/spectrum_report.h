@@ -19,7 +19,7 @@ struct ChannelSpectrum {
     OperatorNorms norms;
     double one_error = 0.0, one_part = 0.0;  // of ‖K‖₁: standard error by the rays, and the part of all measure of that unknown
     Eigenpairs leading;
-    double radius = 0.0, shift = 0.0;  // and how far it moves when patches or rays are quartered
+    double radius = 0.0, shift = 0.0;    // and how far it moves when patches or rays are quartered
     std::optional<RadiusBounds> bounds;  // of the radius, where the eigenvalues were not found
     Convergence convergence = Convergence::undecided;
     std::array<std::optional<int>, 3> bounces;       // until the part `remaining` is left

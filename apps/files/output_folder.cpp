@@ -185,8 +185,9 @@ void OutputFolder::expect_space(double bytes) const {
     std::error_code unknown;
     const fs::space_info space = fs::space(path_, unknown);
     if (unknown || static_cast<double>(space.available) >= bytes) return;
-    throw InputError(fmt::format("{}: about {} are needed there, and {} are free; take another folder, a smaller film or fewer bounces",
-                                 path_.string(), size_text(bytes), size_text(static_cast<double>(space.available))));
+    throw InputError(
+        fmt::format("{}: about {} are needed there, and {} are free; take another folder, a smaller film or fewer bounces",
+                    path_.string(), size_text(bytes), size_text(static_cast<double>(space.available))));
 }
 
 void OutputFolder::commit() {

@@ -14,7 +14,7 @@ struct RenderedPicture {
     PixelEstimate picture;  // its degrees of freedom are 0 where the file does not say them
     std::optional<double> degrees_of_freedom;
     std::optional<PictureMeans> means;  // where the file holds them
-    bool infinite_variance = false;  // so that its standard errors give no interval
+    bool infinite_variance = false;     // so that its standard errors give no interval
 
     bool has_error() const { return !picture.standard_error.pixels.empty(); }
 };

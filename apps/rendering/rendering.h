@@ -39,8 +39,8 @@ struct WrittenRendering {
 // Writes and commits all that `neumann render` leaves in its folder. Throws RunError where not all of it reaches the disk.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
-// Then, so that nothing that was sampled is lost: all of it in a new folder where temporary files go, if there is room, and otherwise
-// as many pictures of bounces as fit into a new folder beside `output`. Returns what was done, a line for the user.
+// Then, so that nothing that was sampled is lost: all of it in a new folder where temporary files go, if there is room, and
+// otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns what was done, a line for the user.
 std::string keep_elsewhere(const Rendering& rendering, const std::string& output);
 
 }  // namespace neumann

@@ -56,7 +56,8 @@ std::optional<Bounds> around_circle(const Sphere& sphere, const Vec3& on_plane, 
 }
 
 bool inside(const std::array<Vec3, 3>& corners, const Sphere& s, double distance) {
-    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& c) { return glm::length(c - s.center) < s.radius - distance; });
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vec3& c) { return glm::length(c - s.center) < s.radius - distance; });
 }
 
 bool inside(const std::array<Vec3, 3>& corners, const Cylinder& cylinder, double distance) {

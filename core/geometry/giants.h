@@ -1,6 +1,6 @@
-// Faces that dwarf everything else, such as a ground of kilometres around a room. If Embree's floats had to hold them, the coordinates
-// of all else, and the distance at which rays leave a surface, would be as coarse as they are large: so rays meet them one by one, in
-// double.
+// Faces that dwarf everything else, such as a ground of kilometres around a room. If Embree's floats had to hold them, the
+// coordinates of all else, and the distance at which rays leave a surface, would be as coarse as they are large: so rays meet them
+// one by one, in double.
 #pragma once
 
 #include "core/geometry/bounds.h"
@@ -16,8 +16,8 @@ struct Giants {
     std::vector<Face> faces;  // in order; a few, or none
     Bounds rest;              // of all others; empty where there are none
 
-    // From where to where a ray, up to `distance`, is near the rest, where alone floats are asked; nothing where it is not. All of it
-    // where there are no giants. `direction`: unit length.
+    // From where to where a ray, up to `distance`, is near the rest, where alone floats are asked; nothing where it is not. All of
+    // it where there are no giants. `direction`: unit length.
     struct Part {
         double begin, end;
     };

@@ -1,6 +1,6 @@
 // Scene files of Mitsuba 0.4 to 0.6, which name things otherwise, as Mitsuba 3 upgrades them; and what Mitsuba 3 refuses although
-// there is no doubt of what it asks for: `ldrfilm`, samplers and texture filters that are gone, `strictNormals`, `extEta`, `gamma`. The
-// rest is left as it is, and refused by name where it is read.
+// there is no doubt of what it asks for: `ldrfilm`, samplers and texture filters that are gone, `strictNormals`, `extEta`, `gamma`.
+// The rest is left as it is, and refused by name where it is read.
 #pragma once
 
 #include "core/base/warnings.h"

@@ -22,12 +22,12 @@
 namespace neumann {
 
 struct GuideSettings {
-    std::size_t patches = 2000;      // about as many
-    std::uint32_t rays = 2048;       // of a facet, that tell what it sees; a power of two, of at least CellDistribution::cells
-    std::uint32_t field_rays = 64;   // of a facet, for the fields; a power of two
-    double share_of_material = 0.4;  // α, above 0
-    int bounces = 8;                 // N: the last that is wanted
-    std::uint64_t seed = 0;          // the tables use other random numbers than walks of the same seed
+    std::size_t patches = 2000;        // about as many
+    std::uint32_t rays = 2048;         // of a facet, that tell what it sees; a power of two, of at least CellDistribution::cells
+    std::uint32_t field_rays = 64;     // of a facet, for the fields; a power of two
+    double share_of_material = 0.4;    // α, above 0
+    int bounces = 8;                   // N: the last that is wanted
+    std::uint64_t seed = 0;            // the tables use other random numbers than walks of the same seed
     double memory = default_memory();  // bytes that may be taken, about
 };
 

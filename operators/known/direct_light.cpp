@@ -124,12 +124,12 @@ void add_sky(Cases& cases) {
                                       grey(1.0 + glm::length(b) + glm::dot(q, q)))});
                  const Scene scene = maker.make();
                  for (const auto& [name, n] : {std::pair{"x", Vec3(1, 0, 0)}, {"-y", Vec3(0, -1, 0)}, {"z", Vec3(0, 0, 1)}})
-                     figures.sampled(
-                         fmt::format("K Le, normal {}", name),
-                         sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
-                                     {.samples = 1024, .bounces = 1, .seed = seed})
-                             .terms[1],
-                         receiver_rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) + 0.25 * std::pow(glm::dot(q, n), 2)));
+                     figures.sampled(fmt::format("K Le, normal {}", name),
+                                     sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
+                                                 {.samples = 1024, .bounces = 1, .seed = seed})
+                                         .terms[1],
+                                     receiver_rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) +
+                                                     0.25 * std::pow(glm::dot(q, n), 2)));
              }});
 }
 

@@ -142,8 +142,8 @@ Cases glass_cases() {
                          [way](Figures& f, std::uint64_t seed) { sphere(f, seed, way); }});
         cases.push_back({"glass/pane/" + name, "2R/(1 + R): exact", [way](Figures& f, std::uint64_t seed) { pane(f, seed, way); }});
         if (way != Way::pointwise)
-            cases.push_back(
-                {"glass/furnace/" + name, "L = 1: exact", [way](Figures& f, std::uint64_t seed) { glass_in_furnace(f, seed, way); }});
+            cases.push_back({"glass/furnace/" + name, "L = 1: exact",
+                             [way](Figures& f, std::uint64_t seed) { glass_in_furnace(f, seed, way); }});
     }
     return cases;
 }

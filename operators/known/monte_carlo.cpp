@@ -31,13 +31,14 @@ void variances(Figures& figures, std::uint64_t seed) {
     figures.sampled("K Le by cosine", by_walk.variance[1], g1 * (1.0 - g1));
     figures.sampled("K^2 Le by cosine", by_walk.variance[2], g2 * (1.0 - g2));
     figures.sampled("K Le by points on the light",
-                    probe(scene, middle_of_floor(scene), Way::light, independent(16384, 1, seed)).variance[1], 0.0017405096111192883);
+                    probe(scene, middle_of_floor(scene), Way::light, independent(16384, 1, seed)).variance[1],
+                    0.0017405096111192883);
     Effort uniform = independent(32768, 1, seed);
     uniform.direct = DirectLightSettings{.direct = DirectLight::hemisphere};
     figures.sampled("K Le by uniform directions", probe(scene, middle_of_floor(scene), Way::mis, uniform).variance[1],
                     0.39080403967926547);
-    figures.sampled("K Le by operators", probe(scene, middle_of_floor(scene), Way::pointwise, independent(65536, 1, seed)).variance[1],
-                    g1 * (1.0 - g1));
+    figures.sampled("K Le by operators",
+                    probe(scene, middle_of_floor(scene), Way::pointwise, independent(65536, 1, seed)).variance[1], g1 * (1.0 - g1));
 }
 
 // On a wall, d below the ceiling: → 1/(24 π d²).

@@ -58,8 +58,7 @@ struct GroupCheckup : PathObserver {
 bool is_self_hit(const SurfacePoint& from, const SurfacePoint& to) {
     const bool parallel = 1.0 - std::abs(glm::dot(from.normal, to.normal)) <= 1e-12;
     // What is close is told apart in double.
-    const double rounding =
-        from.close ? double_rounding(from.position, largest_component(to.position)) : from.error + to.error;
+    const double rounding = from.close ? double_rounding(from.position, largest_component(to.position)) : from.error + to.error;
     return parallel && std::abs(glm::dot(from.normal, to.position - from.position)) <= rounding;
 }
 

@@ -23,8 +23,9 @@ void FieldErrors::add(const FieldSettings& settings, std::uint32_t finest, std::
     if (renders_ == 1)
         for (std::size_t i = 0; i < errors.size(); ++i) {
             const bool at_pixel = i < 2 && !shows_patches(settings.method);
-            const double before = square(errors_[i].sampling), fallen = (before - square(errors[i].sampling)) * times / (times - 1.0);
-            by_samples_.push_back(at_pixel     ? std::numeric_limits<double>::infinity()
+            const double before = square(errors_[i].sampling),
+                         fallen = (before - square(errors[i].sampling)) * times / (times - 1.0);
+            by_samples_.push_back(at_pixel      ? std::numeric_limits<double>::infinity()
                                   : times > 1.0 ? std::clamp(fallen, 0.0, before) * last_.samples
                                                 : 0.0);
         }
@@ -36,7 +37,8 @@ void FieldErrors::add(const FieldSettings& settings, std::uint32_t finest, std::
             const auto rest = [&](const PictureError& e, std::uint32_t samples) {
                 return std::max(square(e.sampling) - by_samples_[i] / samples, 0.0);
             };
-            const double before = rest(errors_[i], last_.samples), fall = before > 0.0 ? rest(errors[i], settings.samples) / before : rays;
+            const double before = rest(errors_[i], last_.samples),
+                         fall = before > 0.0 ? rest(errors[i], settings.samples) / before : rays;
             const double part_before = std::clamp((fall - rays) / (cells - rays), 0.0, 1.0);
             by_cells_[i] = fall > 0.0 ? std::min(part_before * cells / fall, 1.0) : 0.0;
         }

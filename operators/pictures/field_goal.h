@@ -13,9 +13,10 @@ namespace neumann {
 
 // When to stop; whichever comes first.
 struct FieldGoal {
-    std::optional<double> relative_error;  // of whole pictures: of sampling and of patches together, of every term that is not all zero
-    std::optional<double> seconds;         // of everything; the first pictures, with the fewest patches, are finished in any case
-    std::optional<FieldSettings> most;     // the settings to end with, where these are given
+    std::optional<double>
+        relative_error;             // of whole pictures: of sampling and of patches together, of every term that is not all zero
+    std::optional<double> seconds;  // of everything; the first pictures, with the fewest patches, are finished in any case
+    std::optional<FieldSettings> most;  // the settings to end with, where these are given
 };
 
 struct FieldRun {

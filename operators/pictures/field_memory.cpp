@@ -10,7 +10,8 @@ namespace neumann {
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
     // T* and R* of four channels beside the table.
     const double bytes_of_ray = settings.method == FieldMethod::importance ? 48.0 : 4.0;
-    // Some ten vectors of four channels while a series is added up; then three floats a quantity, and a quarter for the coarser ones.
+    // Some ten vectors of four channels while a series is added up; then three floats a quantity, and a quarter for the coarser
+    // ones.
     const double bytes_of_unknown = 320.0 + 15.0 * settings.replicates * (settings.bounces + 2.0);
     return 300.0 * sizes.patches + bytes_of_ray * sizes.rays + bytes_of_unknown * sizes.unknowns;
 }
@@ -24,10 +25,10 @@ double bytes_of_pictures(const FieldSettings& settings, const Film& film) {
 void check_field_memory(const FieldSettings& settings, const Film& film, const FieldSizes& sizes) {
     const double pictures = bytes_of_pictures(settings, film);
     if (pictures > settings.memory)
-        throw InputError(fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, and {:.1f} may be taken; take fewer bounces or a "
-                                     "smaller film",
-                                     settings.bounces, film.crop_width, film.crop_height, pictures / 0x1p30,
-                                     settings.memory / 0x1p30));
+        throw InputError(
+            fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, and {:.1f} may be taken; take fewer bounces or a "
+                        "smaller film",
+                        settings.bounces, film.crop_width, film.crop_height, pictures / 0x1p30, settings.memory / 0x1p30));
     check_patch_memory(settings.patching.patches, settings.rays, bytes_of_fields(settings, sizes) / sizes.patches,
                        settings.memory - pictures);
 }

@@ -74,8 +74,8 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
             least += resolution_.in_pixel(q) * glm::abs(Rgb(m[0], m[1], m[2]));
         }
         result.mean.pixels[pixel] = mean;
-        result.standard_error.pixels[pixel] = replicates_ > 1 ? glm::max(glm::sqrt(squares / (n * (n - 1.0))), least)
-                                                              : Rgb(std::numeric_limits<double>::infinity());
+        result.standard_error.pixels[pixel] =
+            replicates_ > 1 ? glm::max(glm::sqrt(squares / (n * (n - 1.0))), least) : Rgb(std::numeric_limits<double>::infinity());
         result.discretisation.pixels[pixel] = glm::abs(value(replicates_));
     });
     return result;
@@ -119,7 +119,8 @@ MeanWithError FieldPictures::mean(std::size_t first, std::size_t last, std::size
         for (std::size_t c = 0; c < 3; ++c)
             for (std::uint32_t r = 0; r < replicates_; ++r)
                 if (which == c || which == 3)
-                    least += std::abs(replicate_mean(r, q, c)) * resolution_.of_mean(q)[static_cast<int>(c)] / (n * (which == 3 ? 3.0 : 1.0));
+                    least += std::abs(replicate_mean(r, q, c)) * resolution_.of_mean(q)[static_cast<int>(c)] /
+                             (n * (which == 3 ? 3.0 : 1.0));
     return {sum / n, n > 1.0 ? std::max(std::sqrt(squares / (n * (n - 1.0))), least) : std::numeric_limits<double>::infinity(),
             n - 1.0};
 }

@@ -30,7 +30,7 @@ struct FieldSettings {
     std::uint32_t gather_rays = 4;     // a camera sample; a power of two
     std::uint32_t replicates = 4;
     std::uint64_t seed = 0;
-    bool rest = true;  // Σ_{k>N} is wanted as well
+    bool rest = true;                  // Σ_{k>N} is wanted as well
     double memory = default_memory();  // bytes that may be taken, about
 };
 
@@ -66,7 +66,7 @@ public:
                                       // rest where there is none
     std::size_t patches = 0, unknowns = 0;
     std::map<std::uint32_t, std::size_t> sides;  // of patches, by how many cells of directions they have
-    std::uint64_t samples = 0;  // a pixel, of the camera
+    std::uint64_t samples = 0;                   // a pixel, of the camera
     double field_seconds = 0.0, picture_seconds = 0.0;
 
     // For whoever fills them in: a pixel's values, three floats for each quantity, replicate by replicate, and after them the mean

@@ -241,8 +241,8 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
     // Bounce i is K of bounce i − 1, and the rest that of bounce N and the rest.
     const auto arrive = [&](const FieldStack& field, const Look& l, const Patches::Place& place) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
-        // A function that is linear between the middles of patches has not their means: it would lose light, up to some percent of a
-        // bounce. What a diffuse surface gathers shows no patches.
+        // A function that is linear between the middles of patches has not their means: it would lose light, up to some percent of
+        // a bounce. What a diffuse surface gathers shows no patches.
         if (l.diffuse)
             add_constant(field, l.y, -l.wi, 1.0f, arriving.data());
         else

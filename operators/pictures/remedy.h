@@ -12,7 +12,7 @@ enum class Remedy {
     ask_lights,     // the walk with multiple importance sampling: the light was found from a point that could have asked for it
     bidirectional,  // two neighbours on the path, or the camera and its first point, can be joined: behind a delta, lights find
                     // more of such paths than chance does
-    more_bounces  // the rest is made from the camera alone
+    more_bounces    // the rest is made from the camera alone
 };
 
 // Of a sample of a quantity, bounces 0 … N and the rest: what the scene and the path allow. Together, where there are several.

@@ -82,7 +82,9 @@ public:
         : GenEigsSolver(product, wanted, dimensions), product_(product), limits_(limits) {
         product.watch = [this](const double* x) { look(x); };
     }
-    ~Arnoldi() override { product_.watch = [](const double*) {}; }
+    ~Arnoldi() override {
+        product_.watch = [](const double*) {};
+    }
     Arnoldi(const Arnoldi&) = delete;
     Arnoldi& operator=(const Arnoldi&) = delete;
 

@@ -41,11 +41,11 @@ struct Eigenpair {
 };
 
 struct Eigenpairs {
-    std::vector<Eigenpair> pairs;  // by falling |λ|; conjugate pairs are two. What was reached, where not all were found
-    bool converged = false;        // all that were asked for
-    double applications = 0.0;     // n where K was small and formed
+    std::vector<Eigenpair> pairs;         // by falling |λ|; conjugate pairs are two. What was reached, where not all were found
+    bool converged = false;               // all that were asked for
+    double applications = 0.0;            // n where K was small and formed
     std::vector<EigenStep> history = {};  // a step each restart
-    std::string why = {};                 // they were not found: "not found within 512 applications of K, largest residual 2e-03: …"
+    std::string why = {};  // they were not found: "not found within 512 applications of K, largest residual 2e-03: …"
 
     // |λ₁|; not a number where it was not found.
     double radius() const;

@@ -35,9 +35,9 @@ Metrics compare(const Image& test, const Image& reference);
 double expected_rmse(const Estimate& test, const Estimate& reference);
 
 // The mean over all pixels, its difference from the reference's, and how sure that is. Where a picture's means come with errors of
-// their own, these count. Otherwise pixels are independent unless the picture says that they are not, and then their standard errors
-// add up; the channels of a pixel share their samples, so for a mean over channels their standard errors add up, and the interval
-// holds at least its confidence.
+// their own, these count. Otherwise pixels are independent unless the picture says that they are not, and then their standard
+// errors add up; the channels of a pixel share their samples, so for a mean over channels their standard errors add up, and the
+// interval holds at least its confidence.
 struct MeanDifference {
     double mean = 0.0, reference_mean = 0.0, difference = 0.0;
     double standard_error = 0.0;      // of the difference

@@ -52,8 +52,8 @@ struct TailIndex {
 };
 
 // Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power law has the
-// same index at both, while that of a bounded sample falls off faster further out. `upper` is infinite where the tail is seen to end.
-// None where k < 400.
+// same index at both, while that of a bounded sample falls off faster further out. `upper` is infinite where the tail is seen to
+// end. None where k < 400.
 std::optional<TailIndex> tail_index(const LargestSamples& samples);
 
 }  // namespace neumann

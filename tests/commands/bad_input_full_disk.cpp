@@ -1,5 +1,5 @@
-// A disk that is full: seen before sampling where that can be, and otherwise said, exit code 1, an earlier set of pictures untouched, no
-// parts of files, and what was sampled kept elsewhere.
+// A disk that is full: seen before sampling where that can be, and otherwise said, exit code 1, an earlier set of pictures
+// untouched, no parts of files, and what was sampled kept elsewhere.
 #include "apps/files/output_folder.h"
 #include "apps/rendering/rendering.h"
 #include "core/base/error.h"
@@ -65,7 +65,8 @@ TEST_F(BadInputFullDisk, WhatFitsIsKeptBeside) {
                                 ": the bounces, the rest and series.csv\n");
         EXPECT_EQ(names(folder), (Names{"bounce_000.exr", "bounce_001.exr", "rest.exr", "series.csv"}));
         const auto kept = contents(folder);
-        for (const char* name : {"bounce_000.exr", "bounce_001.exr", "rest.exr"}) EXPECT_TRUE(kept.at(name) == whole.at(name)) << name;
+        for (const char* name : {"bounce_000.exr", "bounce_001.exr", "rest.exr"})
+            EXPECT_TRUE(kept.at(name) == whole.at(name)) << name;
         EXPECT_FALSE(std::filesystem::exists(path("a")));
     }
 }

@@ -29,7 +29,8 @@ TEST_F(CompareRenders, TheErrorInTheFileIsThatOfTheTables) {
             EXPECT_EQ(found->all.mean, run.at("bounces")[i].at("mean")) << method << i;
             EXPECT_EQ(found->all.standard_error, run.at("bounces")[i].at("stderr")) << method << i;
             EXPECT_EQ(found->all.degrees_of_freedom, run.at("bounces")[i].at("degrees_of_freedom")) << method << i;
-            EXPECT_NEAR(found->all.standard_error, series.number(i, "mean_stderr"), 1e-3 * found->all.standard_error) << method << i;
+            EXPECT_NEAR(found->all.standard_error, series.number(i, "mean_stderr"), 1e-3 * found->all.standard_error)
+                << method << i;
             // The mean over channels is that of their means, and its error at most that of theirs.
             double mean = 0.0, error = 0.0;
             for (const MeanWithError& channel : found->channel) {
@@ -45,9 +46,9 @@ TEST_F(CompareRenders, TheErrorInTheFileIsThatOfTheTables) {
     }
 }
 
-// Three methods against a walk of another seed, whose expectation is the same: ten comparisons of bounce 1 and of the sum, which of matrix
-// has the error of the patches as well, at the t of 7·10⁻⁶: a false alarm in 14 000 seeds. The mean of the pixels' errors, which is
-// what counts without the file's, is at least three times as wide.
+// Three methods against a walk of another seed, whose expectation is the same: ten comparisons of bounce 1 and of the sum, which of
+// matrix has the error of the patches as well, at the t of 7·10⁻⁶: a false alarm in 14 000 seeds. The mean of the pixels' errors,
+// which is what counts without the file's, is at least three times as wide.
 TEST_F(CompareRenders, IntervalsHoldTheTruthAndAreNarrow) {
     render("scene.xml", "walk", {"-n", "2", "--spp", "4096", "--seed", "1", "--quiet"});
     for (const std::string method : {"light", "bidirectional", "matrix"}) {

@@ -39,8 +39,9 @@ TEST_F(FieldDefaults, AWideIntervalIsAWarning) {
     EXPECT_TRUE(warnings("4096").empty());
 }
 
-// Bounce 2 of the Cornell box is bounce 1 gathered once. Read linearly from some 270 patches it came 2.8% too dark; read as it is on the
-// patches 0.4%, over six seeds ± 0.1%. Four renders and the walk know the difference to 0.2%: 1.6% is six of that away from either.
+// Bounce 2 of the Cornell box is bounce 1 gathered once. Read linearly from some 270 patches it came 2.8% too dark; read as it is
+// on the patches 0.4%, over six seeds ± 0.1%. Four renders and the walk know the difference to 0.2%: 1.6% is six of that away from
+// either.
 TEST_F(FieldDefaults, GatherKeepsTheLightOfCoarsePatches) {
     const std::string scene = scene_file("mitsuba-cornell");
     render(scene, "walk", {"-D", "res=16", "-n", "2", "--spp", "4096", "--seed", "9", "--quiet"});
@@ -50,8 +51,9 @@ TEST_F(FieldDefaults, GatherKeepsTheLightOfCoarsePatches) {
     constexpr int renders = 4;
     double mean = 0.0, variance = 0.0;
     for (int seed = 1; seed <= renders; ++seed) {
-        render(scene, "gather", {"-D", "res=16", "-n", "2", "--method", "gather", "--patches", "250", "--directions", "512", "--spp",
-                                 "64", "--seed", std::to_string(seed), "--quiet"});
+        render(scene, "gather",
+               {"-D", "res=16", "-n", "2", "--method", "gather", "--patches", "250", "--directions", "512", "--spp", "64", "--seed",
+                std::to_string(seed), "--quiet"});
         mean += of_bounce_2("gather", "mean") / renders;
         variance += std::pow(of_bounce_2("gather", "stderr") / renders, 2);
     }

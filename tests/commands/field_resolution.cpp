@@ -1,7 +1,7 @@
 // Fields in scenes where all rays count the same: replicates agree to rounding there, and yet the interval has to hold the truth.
 //
-// Two concentric spheres of radii r < 1: of what leaves the outer one a share of r² arrives at the inner one, 1 − r² at itself, and all
-// that leaves the inner one at the outer one. With r² just below 1/4 every facet's rays count as if it were 1/4.
+// Two concentric spheres of radii r < 1: of what leaves the outer one a share of r² arrives at the inner one, 1 − r² at itself, and
+// all that leaves the inner one at the outer one. With r² just below 1/4 every facet's rays count as if it were 1/4.
 #include "tests/commands/render_output.h"
 
 namespace neumann {
@@ -36,15 +36,15 @@ TEST_F(FieldResolution, AgreementToRoundingIsNoEvidence) {
             for (const std::string method : {"matrix", "gather", "patches"}) {
                 double inner = from_inside ? 1.0 : 0.0, outer = 1.0 - inner;
                 write("scene.xml", spheres(r, inner, outer));
-                render("scene.xml", "a", {"-n", "4", "--spp", "8", "--patches", "500", "--directions", "128", "--method", method,
-                                          "--quiet"});
+                render("scene.xml", "a",
+                       {"-n", "4", "--spp", "8", "--patches", "500", "--directions", "128", "--method", method, "--quiet"});
                 const nlohmann::json run = run_json("a");
                 for (int i = 0; i <= 4; ++i) {
-                    const std::string what = fmt::format("r = {}, {}, bounce {}, light from {}", r, method, i,
-                                                         from_inside ? "inside" : "outside");
+                    const std::string what =
+                        fmt::format("r = {}, {}, bounce {}, light from {}", r, method, i, from_inside ? "inside" : "outside");
                     const nlohmann::json& bounce = run.at("bounces")[i];
-                    const double error = std::abs(bounce.at("mean").get<double>() - outer),
-                                 interval = bounce.at("interval95"), of_patches = bounce.at("discretisation").at("mean");
+                    const double error = std::abs(bounce.at("mean").get<double>() - outer), interval = bounce.at("interval95"),
+                                 of_patches = bounce.at("discretisation").at("mean");
                     // Bounce 1 is sampled at the pixel, whose interval is another test's: here it may miss one time in twenty.
                     if (i != 1) {
                         EXPECT_LE(error, interval + of_patches) << what;
@@ -65,7 +65,8 @@ TEST_F(FieldResolution, AgreementToRoundingIsNoEvidence) {
 TEST_F(FieldResolution, AProvenFurnaceStaysExact) {
     write("scene.xml", closed_room("0.5"));
     for (const std::string method : {"matrix", "gather", "patches"}) {
-        render("scene.xml", "a", {"-n", "4", "--spp", "8", "--patches", "500", "--directions", "128", "--method", method, "--quiet"});
+        render("scene.xml", "a",
+               {"-n", "4", "--spp", "8", "--patches", "500", "--directions", "128", "--method", method, "--quiet"});
         const nlohmann::json run = run_json("a");
         for (int i = 0; i <= 4; ++i) {
             if (i == 1 && method != "patches") continue;  // asked of lights by the pixel

@@ -128,7 +128,8 @@ TEST_F(RenderFields, TimeEndsThem) {
 // An error that is not within reach ends with what was reached, and with the reason.
 TEST_F(RenderFields, ErrorsOutOfReach) {
     write("scene.xml", plates());
-    const Finished done = run({"render", "scene.xml", "-o", "time", "-n", "2", "--method", "matrix", "--error", "1e-5", "--time", "0.5"});
+    const Finished done =
+        run({"render", "scene.xml", "-o", "time", "-n", "2", "--method", "matrix", "--error", "1e-5", "--time", "0.5"});
     EXPECT_EQ(done.exit_code, 0);
     const auto time = run_json("time");
     EXPECT_EQ(time.at("samples").at("outcome"), "time reached");
@@ -141,7 +142,8 @@ TEST_F(RenderFields, ErrorsOutOfReach) {
     EXPECT_EQ(memory.at("samples").at("outcome"), "memory reached") << memory.at("samples").dump();
     EXPECT_TRUE(memory.at("samples").at("why").get<std::string>().ends_with(", and 0.031 GiB may be taken"))
         << memory.at("samples").at("why");
-    const Finished many = run({"render", "scene.xml", "-o", "refused", "--method", "matrix", "--memory", "0.25", "--patches", "1000000"});
+    const Finished many =
+        run({"render", "scene.xml", "-o", "refused", "--method", "matrix", "--memory", "0.25", "--patches", "1000000"});
     EXPECT_EQ(many.exit_code, 2);
     EXPECT_NE(many.err.find("1000000 patches of 32 rays need about "), std::string::npos) << many.err;
     EXPECT_NE(many.err.find(" GiB, and 0.2 may be taken; at most "), std::string::npos) << many.err;
@@ -156,7 +158,8 @@ TEST_F(RenderFieldsSlow, ScenesOfMirrorsAndGlassEndInTime) {
             const auto run = run_json(name);
             EXPECT_NE(run.at("samples").at("outcome"), "interrupted");
             EXPECT_LT(run.at("timing").at("sampling_seconds").get<double>(), 30.0) << name << " " << method;  // of a busy machine
-            EXPECT_NE(run.at("samples").at("why").get<std::string>().find("is not within reach: the largest is "), std::string::npos)
+            EXPECT_NE(run.at("samples").at("why").get<std::string>().find("is not within reach: the largest is "),
+                      std::string::npos)
                 << name << " " << method << run.at("samples").dump();
         }
 }

@@ -41,7 +41,8 @@ TEST_F(SpectrumCommand, Furnace) {
         EXPECT_NEAR(grey["spectral_radius"], rho, 1e-12);
         EXPECT_NEAR(grey["norms"]["inf"], rho, 1e-15);
         EXPECT_GE(grey["norms"]["2"], rho * (1.0 - 1e-12));
-        // Of the operator all norms are ρ. Of the matrix ‖K‖₁ is the largest of some 300 sums of rays, each with the noise of its own.
+        // Of the operator all norms are ρ. Of the matrix ‖K‖₁ is the largest of some 300 sums of rays, each with the noise of its
+        // own.
         const double one = grey["norms"]["1"], error = grey["norm_1_standard_error"];
         EXPECT_GE(one, rho * (1.0 - 1e-12));
         EXPECT_LE(one, rho + 4.5 * error);
@@ -141,12 +142,14 @@ TEST_F(SpectrumCommand, TheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(printed(one), printed(two));
 }
 
-// Light that stays in the ball has as many eigenvalues of modulus 1 as there are ways to go round. The radius is known without them.
+// Light that stays in the ball has as many eigenvalues of modulus 1 as there are ways to go round. The radius is known without
+// them.
 TEST_F(SpectrumCommand, WhatIsNotFoundIsSaid) {
     const std::string ball = SCENES "/glass-ball/glass-ball.xml";
     const Finished done = run({"spectrum", ball, "--patches", "400", "--most", "40"});
     EXPECT_EQ(done.exit_code, 0) << done.err;
-    EXPECT_NE(done.err.find("warning: red: eigenvalues were not found within 40 applications of K, largest residual "), std::string::npos)
+    EXPECT_NE(done.err.find("warning: red: eigenvalues were not found within 40 applications of K, largest residual "),
+              std::string::npos)
         << done.err;
     EXPECT_NE(done.out.find("\nred: the radius is known without them: some light is kept for good, 1.000000 of it each time.\n"),
               std::string::npos)
@@ -161,7 +164,8 @@ TEST_F(SpectrumCommand, WhatIsNotFoundIsSaid) {
     // Out of time at once: there is still a report.
     const Finished soon = run({"spectrum", furnace, "--time", "1e-9"});
     EXPECT_EQ(soon.exit_code, 0);
-    EXPECT_NE(soon.err.find("warning: the time of 1e-09 s was up: this is what was found until then\n"), std::string::npos) << soon.err;
+    EXPECT_NE(soon.err.find("warning: the time of 1e-09 s was up: this is what was found until then\n"), std::string::npos)
+        << soon.err;
 }
 
 TEST_F(SpectrumCommand, Refusals) {

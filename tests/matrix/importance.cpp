@@ -105,8 +105,7 @@ TEST(Importance, MeasuresTheMeansOfThePictures) {
         for (int i = 0; i <= N; ++i) {
             double worth = 0.0;
             for (int c = 0; c < 3; ++c) worth += inner_product(importance, i, Le, 0, c) / 3.0;
-            const double seen = pictures.replicate_mean(r, static_cast<std::size_t>(i)),
-                         difference = worth - seen;
+            const double seen = pictures.replicate_mean(r, static_cast<std::size_t>(i)), difference = worth - seen;
             mean[i] += seen / settings.replicates;
             sum[i] += difference;
             squares[i] += difference * difference;

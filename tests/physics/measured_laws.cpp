@@ -96,8 +96,8 @@ TEST(MeasuredLaws, ReflectanceAboveOneIsNamed) {
     using Texts = std::map<std::string, std::uint64_t>;
     EXPECT_EQ(
         maker.make().warnings.counts(),
-        (Texts{
-            {head + "'diffuse' of shape 'sphere', room.xml:7:1) gives back up to 1 + 0.0003 times the light that it receives", 1}}));
+        (Texts{{head + "'diffuse' of shape 'sphere', room.xml:7:1) gives back up to 1 + 0.0003 times the light that it receives",
+                1}}));
     // What a normal map has below it bounds it, and need not be reached.
     maker.add(Sphere{{0.5, 0, 0}, 0.1, false}, made_of(tilted(Diffuse(Rgb(1.25)), 0.1)));
     const Scene scene = maker.make();

@@ -42,7 +42,8 @@ TEST(FieldForecast, ErrorsOfKnownPartsAreForetold) {
     // Of diffuse surfaces; and with cells of directions, of which only more rays than cells help.
     for (const Parts& parts : {Parts{0.04, 0.08, 0.0, 2.0, 0.5, 1}, Parts{0.04, 0.02, 5.0, 2.0, 0.7, 256}}) {
         const FieldErrors errors = after(parts, {first, second, third});
-        for (const FieldSettings& next : {settings(4000, 64, 32), settings(4000, 1024, 8), settings(16000, 64, 8), settings(9000, 512, 64)})
+        for (const FieldSettings& next :
+             {settings(4000, 64, 32), settings(4000, 1024, 8), settings(16000, 64, 8), settings(9000, 512, 64)})
             EXPECT_NEAR(errors.predict(next).error, parts.of(next).all(), 1e-12 * parts.of(next).all());
     }
 }
@@ -93,7 +94,8 @@ TEST(FieldForecast, Seconds) {
     EXPECT_NEAR(costs.predict(next).seconds, truth.field_seconds + truth.picture_seconds, 1e-9);
     const double rays = 8000.0 * 512.0 + 800.0 * 512.0;
     EXPECT_NEAR(costs.predict(next).bytes,
-                bytes_of_fields(next, {8000.0, static_cast<double>(truth.unknowns), rays}) + 2.0 * bytes_of_pictures(next, film), 1.0);
+                bytes_of_fields(next, {8000.0, static_cast<double>(truth.unknowns), rays}) + 2.0 * bytes_of_pictures(next, film),
+                1.0);
 }
 
 }  // namespace

@@ -63,8 +63,8 @@ TEST(MetricsMeans, BrightnessDoesNotMatter) {
     const Estimate one = constant(4, Rgb(1.0), Rgb(0.3));
     for (const double s : {1e-90, 1e90}) {
         const Estimate other = constant(4, Rgb(s), Rgb(0.3 * s));
-        EXPECT_NEAR(compare_means({other, 3.0}, {other, 3.0}).all.half_width / s, compare_means({one, 3.0}, {one, 3.0}).all.half_width,
-                    1e-14);
+        EXPECT_NEAR(compare_means({other, 3.0}, {other, 3.0}).all.half_width / s,
+                    compare_means({one, 3.0}, {one, 3.0}).all.half_width, 1e-14);
     }
 }
 

@@ -1,4 +1,5 @@
-// All that knows OpenImageIO: the functions of core/image/image_io.h, as a module that is loaded when a picture is first read or written.
+// All that knows OpenImageIO: the functions of core/image/image_io.h, as a module that is loaded when a picture is first read or
+// written.
 #include "core/image/module/picture_codec.h"
 
 #include "core/base/error.h"

@@ -104,9 +104,8 @@ Cases extreme_close_cases() {
         for (const double half_length : {20.0, 2e3, 2e4})
             for (const double p : {1e-3, 1e-6})
                 cases.push_back({fmt::format("extreme/close/groove-{:g}-{:g}-{}", half_length, p, place.name),
-                                 "rho^i s (1-s)^(i-1), s = sin^2(a/2)", [=](Figures& figures, std::uint64_t seed) {
-                                     groove(figures, seed, half_length, p, to_world);
-                                 }});
+                                 "rho^i s (1-s)^(i-1), s = sin^2(a/2)",
+                                 [=](Figures& figures, std::uint64_t seed) { groove(figures, seed, half_length, p, to_world); }});
         for (const double half_width : {10.0, 1e3, 1e6})
             for (const double gap : {1e-3, 1e-6})
                 cases.push_back({fmt::format("extreme/close/cube-{:g}-above-{:g}-{}", gap, half_width, place.name),
@@ -116,20 +115,22 @@ Cases extreme_close_cases() {
         for (const double gap : {0.0, 1e-6, -1e-6})
             cases.push_back({fmt::format("extreme/close/boxes-{:g}-apart-{}", gap, place.name), "rho^i: exact",
                              [=](Figures& figures, std::uint64_t seed) {
-                                 bodies_in_furnace(figures, seed,
-                                                  {box({-0.5, -0.5, gap}, {0, 0, 0.5}), box({gap, -0.4, 0}, {0.3, 0.1, 0.3}),
-                                                   box({-0.5, -0.5, 0.5 + gap}, {0, 0, 0.7}), box({1.0 - 0.2, 0.3, 0.3}, {1.0 - gap, 0.5, 0.5})},
-                                                  to_world);
+                                 bodies_in_furnace(
+                                     figures, seed,
+                                     {box({-0.5, -0.5, gap}, {0, 0, 0.5}), box({gap, -0.4, 0}, {0.3, 0.1, 0.3}),
+                                      box({-0.5, -0.5, 0.5 + gap}, {0, 0, 0.7}), box({1.0 - 0.2, 0.3, 0.3}, {1.0 - gap, 0.5, 0.5})},
+                                     to_world);
                              }});
         // A sphere that touches the floor and one that is sunk into a wall, two that overlap, and a closed cylinder that stands.
-        cases.push_back({fmt::format("extreme/close/round-{}", place.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
-                             const double r = 0.25;
-                             bodies_in_furnace(figures, seed,
-                                               {Sphere{{0.5, 0.5, r}, r}, Sphere{{0.9, -0.5, 0.4}, r}, Sphere{{-0.5, 0.5, 1}, r},
-                                                Sphere{{-0.4, 0.6, 1.1}, r}, Cylinder{.base = {-0.5, -0.4, 0}, .length = 0.5, .radius = r},
-                                                Disk{{-0.5, -0.4, 0.5}, {r, 0, 0}, {0, r, 0}, {0, 0, 1}}},
-                                               to_world);
-                         }});
+        cases.push_back(
+            {fmt::format("extreme/close/round-{}", place.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
+                 const double r = 0.25;
+                 bodies_in_furnace(figures, seed,
+                                   {Sphere{{0.5, 0.5, r}, r}, Sphere{{0.9, -0.5, 0.4}, r}, Sphere{{-0.5, 0.5, 1}, r},
+                                    Sphere{{-0.4, 0.6, 1.1}, r}, Cylinder{.base = {-0.5, -0.4, 0}, .length = 0.5, .radius = r},
+                                    Disk{{-0.5, -0.4, 0.5}, {r, 0, 0}, {0, r, 0}, {0, 0, 1}}},
+                                   to_world);
+             }});
     }
     return cases;
 }

@@ -11,9 +11,7 @@
 
 namespace neumann::known {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 void lecture_circle(Figures& figures, std::uint64_t seed) {
     const Vec3 center(1930.420, 1973.505, 0.0);

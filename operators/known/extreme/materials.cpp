@@ -14,9 +14,7 @@
 
 namespace neumann::known {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 Cases extreme_material_cases() {
     Cases cases;

@@ -9,9 +9,7 @@
 
 namespace neumann::known {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 void numbers_that_are_none(Figures& figures, std::uint64_t seed) {
     for (const double number : {std::numeric_limits<double>::quiet_NaN(), infinity}) {

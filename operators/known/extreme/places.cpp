@@ -8,9 +8,7 @@
 
 namespace neumann::known {
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 Cases extreme_place_cases() {
     Cases cases;
