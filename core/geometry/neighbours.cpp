@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include <boost/iterator/function_output_iterator.hpp>
-
 namespace neumann {
 
 namespace {
@@ -20,7 +18,6 @@ constexpr std::size_t largest_asked_one_by_one = 16;
 // Regions that reach no further from the edges than this are not kept one by one.
 constexpr double along_edges = 1.0 / 64.0;
 constexpr double reach_in_errors = 64.0;
-constexpr double grazing = 0.1;  // rays with a smaller cosine on round faces that others touch are looked at
 
 bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     if (!faces.triangle(a) || !faces.triangle(b)) return false;
@@ -83,16 +80,11 @@ std::vector<Face> Neighbours::around(const SurfacePoint& p) const {
     return found;
 }
 
-bool Neighbours::Surroundings::may_hold(const Vec2& weights, const Vec3& position) const {
-    if (!cells.is_marked(weights)) return false;
-    std::size_t n = 0;
-    boxes.query(index::intersects(Corner(position.x, position.y, position.z)),
-                boost::make_function_output_iterator([&](const Box&) { ++n; }));
-    return n > 0;
-}
-
-bool Neighbours::in_box(const Face& f, const Vec2& weights, const Vec3& position) const {
-    return surroundings_.find(f)->second.may_hold(weights, position);
+bool Neighbours::has_near(const SurfacePoint& p, double aside) const {
+    const Boxes& boxes = surroundings_.find({p.shape, p.primitive})->second.boxes;
+    const auto held = boxes.qbegin(index::intersects(Corner(p.position.x, p.position.y, p.position.z)));
+    return std::any_of(held, boxes.qend(),
+                       [&](const auto& entry) { return faces_.is_near(entry.second.face, p.position, entry.second.near + aside); });
 }
 
 bool Neighbours::is_clear_round(const Face& f) const {
@@ -107,29 +99,33 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
         const Vec2 w = t->weights(p.position);
         if (t->clear() == Triangle::unknown) examine(f);
         if (t->is_clear(w)) return false;
-        const bool in_middle = std::min({w.x, w.y, 1.0 - w.x - w.y}) >= t->clear();
-        if (in_middle && !in_box(f, w, p.position)) return false;
-    } else if (is_clear_round(f) || !in_box(f, Vec2(0.0), p.position)) {
+        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) < t->clear()) return around(p).size() > 1;
+    } else if (is_clear_round(f)) {
         return false;
     }
-    return around(p).size() > 1;
+    return has_near(p, 0.0);
 }
 
 bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const Face f{p.shape, p.primitive};
-    if (const Triangle* t = faces_.triangle(f)) return !t->is_clear(t->weights(p.position), cosine);
-    return !is_clear_round(f) && (std::abs(cosine) < grazing || in_box(f, Vec2(0.0), p.position));
+    if (const Triangle* t = faces_.triangle(f)) {
+        const Vec2 w = t->weights(p.position);
+        if (t->is_clear(w, cosine)) return false;
+        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < t->clear()) return true;
+    } else if (is_clear_round(f)) {
+        return false;
+    }
+    return std::abs(cosine) < Triangle::grazing || has_near(p, largest_error_ / std::abs(cosine));
 }
 
 void Neighbours::examine(const Face& f) const {
     const Bounds bounds = faces_.bounds(f);
-    const double error = faces_.error(f), aside = faces_.triangle(f) ? largest_error_ : largest_error_ / grazing;
+    const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
     std::vector<Face> others;
     append_near(bounds.center(), bounds.radius() + reach_in_errors * error + aside, others);
     double clear = 0.0;
-    Triangle::Cells coarse;
-    WeightCells<32> cells;
-    std::vector<Box> boxes;
+    Triangle::Cells cells;
+    std::vector<std::pair<Box, Other>> boxes;
     for (const Face& other : others) {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
@@ -137,25 +133,23 @@ void Neighbours::examine(const Face& f) const {
         const bool joined = share_corner(faces_, f, other);
         if (joined && continues(faces_, f, other)) continue;
         const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
-        const auto region = close_region(faces_, f, other, aside + (touch ? errors : reach(f, other)));
-        if (!region) continue;
-        if (region->clear <= along_edges) {
-            clear = std::max(clear, region->clear);
-        } else {
+        const double near = touch ? errors : reach(f, other);
+        const auto steep = close_region(faces_, f, other, near + largest_error_);
+        if (steep && steep->clear <= along_edges) {
+            clear = std::max(clear, steep->clear);
+        } else if (const auto region = close_region(faces_, f, other, near + aside)) {
             const Vec3 &low = region->bounds.low, &high = region->bounds.high;
-            boxes.push_back({{low.x, low.y, low.z}, {high.x, high.y, high.z}});
-            coarse.mark(region->weights);
+            boxes.push_back({{{low.x, low.y, low.z}, {high.x, high.y, high.z}}, {other, near}});
             cells.mark(region->weights);
         }
     }
-    const Triangle* t = faces_.triangle(f);
-    if (!t) cells.mark_all();
-    if (!boxes.empty()) surroundings_.emplace(f, Surroundings{cells, Boxes(boxes)});
+    const Triangle::Cells* kept =
+        boxes.empty() ? nullptr : &surroundings_.emplace(f, Surroundings{cells, Boxes(boxes)}).first->second.cells;
     // Upwards, and above 0: points on an edge are looked at.
-    if (t)
-        t->set_clear(std::nextafter(static_cast<float>(clear), 1.0f), coarse);
+    if (const Triangle* t = faces_.triangle(f))
+        t->set_clear(std::nextafter(static_cast<float>(clear), 1.0f), kept);
     else
-        std::atomic_ref(round_[f.shape]).store(boxes.empty() ? State::clear : State::not_clear, std::memory_order_release);
+        std::atomic_ref(round_[f.shape]).store(kept ? State::not_clear : State::clear, std::memory_order_release);
 }
 
 bool Neighbours::is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const {

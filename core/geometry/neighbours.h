@@ -15,6 +15,7 @@
 #include "core/geometry/weight_cells.h"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/concurrent_map.h>
@@ -53,18 +54,22 @@ public:
 private:
     using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
     using Box = boost::geometry::model::box<Corner>;
-    using Boxes = boost::geometry::index::rtree<Box, boost::geometry::index::linear<16>>;
+    struct Other {
+        Face face;
+        double near;  // close where it is so near
+    };
+    using Boxes = boost::geometry::index::rtree<std::pair<Box, Other>, boost::geometry::index::linear<16>>;
 
-    // What is close to the middle of a face is in the boxes and, for a first look, in the cells.
+    // What is close to the middle of a face is in the boxes and, of a triangle, for a first look, in the cells.
     struct Surroundings {
-        WeightCells<32> cells;
+        Triangle::Cells cells;
         Boxes boxes;
-        bool may_hold(const Vec2& weights, const Vec3& position) const;
     };
     void examine(const Face& f) const;
     // Whether the state of a round face is `clear`.
     bool is_clear_round(const Face& f) const;
-    bool in_box(const Face& f, const Vec2& weights, const Vec3& position) const;
+    // Whether a face of the surroundings of p's own is so near, and `aside` more.
+    bool has_near(const SurfacePoint& p, double aside) const;
     // Whether nothing of f is on the side of the plane of p's triangle that `direction` points to, where rays from p are.
     bool is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const;
     // How near to each other faces are that do not touch, and whose points are close.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 
 namespace neumann {
 
@@ -60,19 +59,20 @@ public:
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
     // Where no other surface is within rounding, as far as a first look tells: so far from the edges, as a barycentric weight, but
-    // for some cells. Neighbours finds it out when it is first asked for.
-    using Cells = WeightCells<8>;
+    // for some cells. Neighbours finds it out when it is first asked for, and keeps the cells.
+    using Cells = WeightCells<64>;
     static constexpr float unknown = 2.0f;  // no point is so far from the edges
+    static constexpr double grazing = 0.1;  // rays with a smaller cosine are looked at where there are cells
     // With the cosine of a ray that hits there: so far from the ray, which is to be on the same side of an edge where Embree's ray
     // begins beside it.
     bool is_clear(const Vec2& w, double cosine = 1.0) const {
         if (std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < clear()) return false;
-        const std::uint64_t cells = std::atomic_ref(not_clear_).load(std::memory_order_relaxed);
-        return cells == 0 || (cells >> Cells::index(w) & 1u) == 0;
+        const Cells* cells = std::atomic_ref(not_clear_).load(std::memory_order_relaxed);
+        return !cells || (std::abs(cosine) >= grazing && !cells->is_marked(w));
     }
     float clear() const { return std::atomic_ref(clear_).load(std::memory_order_acquire); }
-    void set_clear(float from_edges, const Cells& but_for) const {
-        std::atomic_ref(not_clear_).store(but_for.bits().to_ullong(), std::memory_order_relaxed);
+    void set_clear(float from_edges, const Cells* but_for) const {
+        std::atomic_ref(not_clear_).store(but_for, std::memory_order_relaxed);
         std::atomic_ref(clear_).store(from_edges, std::memory_order_release);
     }
 
@@ -84,7 +84,7 @@ private:
     Vec3 vertex_, normal_;
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
     double error_;
-    mutable std::uint64_t not_clear_ = 0;
+    mutable const Cells* not_clear_ = nullptr;
     float rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
     float margin_;    // hits keep this barycentric distance from the edges, so that doubles tell on which side they are of a wall
                       // that meets the triangle there; 0 where the triangle is too thin for that

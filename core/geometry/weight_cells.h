@@ -33,9 +33,7 @@ public:
         }
     }
     void mark_all() { cells_.set(); }
-    static std::size_t index(const Vec2& weights) { return index(cell(weights.x * count), cell(weights.y * count)); }
-    bool is_marked(const Vec2& weights) const { return cells_[index(weights)]; }
-    const auto& bits() const { return cells_; }
+    bool is_marked(const Vec2& weights) const { return cells_[index(cell(weights.x * count), cell(weights.y * count))]; }
 
 private:
     static constexpr double rounding = 1e-3;
