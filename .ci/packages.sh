@@ -12,6 +12,7 @@ libopenimageio-dev  | OpenImageIO 2.4 or later                | OpenImageIO/imag
 libglm-dev          | GLM                                     | glm/glm.hpp
 libtbb-dev          | oneTBB 2021 or later                    | tbb/parallel_for.h
 libpugixml-dev      | pugixml                                 | pugixml.hpp
+libimath-dev        | Imath 3.1 or later, half floats         | Imath/half.h
 zlib1g-dev          | zlib                                    | zlib.h
 libcli11-dev        | CLI11                                   | CLI/CLI.hpp
 nlohmann-json3-dev  | JSON for Modern C++ 3.11 or later       | nlohmann/json.hpp

@@ -1,7 +1,7 @@
 // The options of `neumann compare`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/compare.h"
+#include "apps/commands/compare_command.h"
 
 namespace neumann {
 

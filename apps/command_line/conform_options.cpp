@@ -1,7 +1,7 @@
 // The options of `neumann conform`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/conform.h"
+#include "apps/commands/conform_command.h"
 
 namespace neumann {
 

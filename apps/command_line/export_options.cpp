@@ -1,7 +1,7 @@
 // The options of `neumann export`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/export.h"
+#include "apps/commands/export_command.h"
 
 namespace neumann {
 

@@ -1,7 +1,7 @@
 // The options of `neumann plan`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/plan.h"
+#include "apps/commands/plan_command.h"
 
 namespace neumann {
 

@@ -1,7 +1,7 @@
 // The options of `neumann replay`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/replay.h"
+#include "apps/commands/replay_command.h"
 
 namespace neumann {
 

@@ -1,7 +1,7 @@
 // The options of `neumann solve`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/solve.h"
+#include "apps/commands/solve_command.h"
 
 namespace neumann {
 

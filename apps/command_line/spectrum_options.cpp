@@ -1,7 +1,7 @@
 // The options of `neumann spectrum`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/spectrum.h"
+#include "apps/commands/spectrum_command.h"
 
 namespace neumann {
 

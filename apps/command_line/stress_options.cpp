@@ -1,7 +1,7 @@
 // The options of `neumann stress`.
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
-#include "apps/commands/stress.h"
+#include "apps/commands/stress_command.h"
 
 namespace neumann {
 

@@ -1,6 +1,6 @@
 // The options of `neumann study`.
 #include "apps/command_line/options.h"
-#include "apps/commands/study.h"
+#include "apps/commands/study_command.h"
 
 namespace neumann {
 

@@ -17,9 +17,9 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-std::string progress_text(int bounces, const RenderProgress& progress) {
-    std::string line =
-        fmt::format("bounces 0..{} and rest   {} samples a pixel   {}", bounces, progress.samples, duration(progress.seconds));
+std::string progress_text(const RenderProgress& progress) {
+    std::string line = fmt::format("bounces 0..{} and rest   {} samples a pixel   {}", progress.bounces, progress.samples,
+                                   duration(progress.seconds));
     if (progress.seconds_left)
         line += fmt::format("   {:.0f}%   {} left", 100.0 * std::min(progress.fraction, 1.0), duration(*progress.seconds_left));
     return line;
@@ -29,8 +29,8 @@ ProgressLine::ProgressLine(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)
 
 ProgressLine::~ProgressLine() { clear(); }
 
-void ProgressLine::show(int bounces, const RenderProgress& progress) {
-    show([&] { return progress_text(bounces, progress); });
+void ProgressLine::show(const RenderProgress& progress) {
+    show([&] { return progress_text(progress); });
 }
 
 void ProgressLine::show(const std::function<std::string()>& text) {

@@ -1,7 +1,7 @@
 // One line on a terminal that is written over again while work goes on.
 #pragma once
 
-#include "operators/pictures/render.h"
+#include "operators/pictures/watch.h"
 
 #include <chrono>
 #include <functional>
@@ -11,7 +11,7 @@
 namespace neumann {
 
 // "bounces 0..8 and rest   64 samples a pixel   3 s   50%   3 s left"
-std::string progress_text(int bounces, const RenderProgress& progress);
+std::string progress_text(const RenderProgress& progress);
 
 class ProgressLine {
 public:
@@ -20,7 +20,7 @@ public:
     ~ProgressLine();
 
     // From any thread; most calls do nothing.
-    void show(int bounces, const RenderProgress& progress);
+    void show(const RenderProgress& progress);
     void show(const std::function<std::string()>& text);
     void clear();
 

@@ -1,7 +1,7 @@
 // What `neumann spectrum` finds out, before it is printed in one form or another.
 #pragma once
 
-#include "apps/commands/spectrum.h"
+#include "apps/commands/spectrum_command.h"
 #include "operators/matrix/refinement.h"
 #include "operators/spectrum/convergence.h"
 #include "operators/spectrum/radius_bounds.h"

@@ -1,5 +1,7 @@
 #include "apps/commands/study_data.h"
 
+#include "operators/methods/method_options.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -148,16 +150,12 @@ std::string study_csv(const StudyData& data) {
 }
 
 std::string repeating_command(const StudyData& data, const StudyRun& run) {
-    const RenderRequest& method = data.methods[run.method].request;
+    const Method& method = data.methods[run.method].method;
     std::string command = fmt::format("neumann render {} -n {} --spp {} --seed {} --method {}", data.request.scene, data.bounces,
-                                      run.samples, run.seed, method.method);
-    const auto add = [&](const char* name, const std::string& value) {
-        if (!value.empty()) command += fmt::format(" {} {}", name, value);
-    };
-    add("--direct", method.light.direct);
-    add("--lights", method.light.lights);
-    add("--roulette", method.light.roulette);
-    add("--sampler", method.sampler);
+                                      run.samples, run.seed, name_of(method));
+    const auto add = [&](const std::string& name, const std::string& value) { command += fmt::format(" {} {}", name, value); };
+    for (const auto& [name, value] : differences_of(method).options)
+        if (name != "patches" && name != "directions") add("--" + name, value);
     if (run.patches) add("--patches", std::to_string(run.patches));
     if (run.directions) add("--directions", std::to_string(run.directions));
     for (const auto& [name, value] : data.request.definitions) add("-D", name + "=" + value);

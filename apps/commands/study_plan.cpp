@@ -1,8 +1,8 @@
 #include "apps/commands/study_plan.h"
 
 #include "apps/commands/interrupt.h"
-#include "apps/command_line/method_options.h"
 #include "core/base/error.h"
+#include "operators/methods/method_options.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ constexpr double least_default_budget = 0.1;
 constexpr std::uint64_t reference_factor = 16, least_reference_samples = 256;
 
 Effort effort_of(const StudyMethod& method, int level) {
-    return is_field_method(method.request.method) ? field_effort(level) : sampling_effort(level);
+    return has_fields(method.method) ? field_effort(level) : sampling_effort(level);
 }
 
 // What runs take: what grows with the level, of the first levels, and what does not, of one run.
@@ -41,18 +41,28 @@ struct Measurement {
 // Until the seconds are `enough`. What fields set up grows with their patches.
 std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
                                    const Pilot& pilot) {
-    Measurement result{{}, 0.0, is_field_method(method.request.method)};
+    Measurement result{{}, 0.0, has_fields(method.method)};
     auto& [seconds, setup, fields] = result;
     do {
         const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot);
         if (!run) return std::nullopt;
-        setup = fields ? 0.0 : run->series.setup_seconds;
-        seconds.push_back(run->series.seconds - setup);
+        setup = fields ? 0.0 : run->setup_seconds;
+        seconds.push_back(run->seconds - setup);
     } while (seconds.back() < enough && static_cast<int>(seconds.size()) < largest_effort);
     return result;
 }
 
 }  // namespace
+
+Method studied_method(const std::string& word) {
+    const Method method = read_method(word);
+    const auto* both = std::get_if<method::Bidirectional>(&method);
+    const auto* patches = std::get_if<method::Patches>(&method);
+    if ((both && both->ways) || (patches && patches->importance))
+        throw InputError(
+            fmt::format("{}: ways and importance have no place in a study, which compares pictures of radiance", word));
+    return method;
+}
 
 std::vector<StudyMethod> study_methods(const StudyRequest& request) {
     std::vector<StudyMethod> methods;
@@ -60,7 +70,7 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request) {
         if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
             throw InputError(fmt::format("--methods: '{}' is given twice", name));
         try {
-            methods.push_back({name, parse_method(name)});
+            methods.push_back({name, studied_method(name)});
         } catch (const InputError& e) {
             throw InputError(fmt::format("--methods {}", e.what()));
         }
@@ -68,24 +78,17 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request) {
     return methods;
 }
 
-RenderRequest run_request(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed) {
-    RenderRequest request = method.request;
-    request.bounces = bounces;
-    request.samples = effort.samples;
-    if (!request.patches) request.patches = effort.patches;
-    if (!request.directions) request.directions = effort.directions;
-    request.seed = seed;
-    request.only_pictures = request.quiet = true;
-    return request;
-}
-
-std::optional<RenderResult> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
+std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
                                        const Scene& scene, const Pilot& pilot) {
     try {
-        const RenderRequest request = run_request(method, effort, bounces, seed);
-        RenderResult result = render_by_method({request, scene, pilot, plan_of(request, scene)});
-        if (result.series.outcome == Outcome::interrupted) return std::nullopt;
-        return result;
+        Goal goal;
+        goal.bounces = bounces;
+        goal.samples = effort.samples;
+        goal.seed = seed;
+        goal.only_pictures = true;
+        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {interrupted}, pilot);
+        if (series.outcome == Outcome::interrupted) return std::nullopt;
+        return series;
     } catch (const InputError& e) {
         throw InputError(fmt::format("{}: {}", method.name, e.what()));
     } catch (const RunError& e) {
@@ -104,7 +107,7 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         for (const StudyMethod& method : methods) {
             std::vector<Effort>& efforts = plan.efforts.emplace_back();
             for (const std::uint64_t n : request.samples)
-                efforts.push_back(is_field_method(method.request.method) ? field_effort_of_samples(n) : Effort{n});
+                efforts.push_back(has_fields(method.method) ? field_effort_of_samples(n) : Effort{n});
             if (!run_method(method, effort_of(method, 0), bounces, request.seed, scene, pilot)) return std::nullopt;
         }
         most_samples = request.samples.back();
@@ -114,7 +117,7 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         std::vector<Measurement> measured;
         double least = least_default_budget;
         for (const StudyMethod& method : methods) {
-            const bool fields = is_field_method(method.request.method);
+            const bool fields = has_fields(method.method);
             const double part = part_of_budget * largest;
             auto run = measure(method, std::max(shortest_measurement, fields ? part : std::min(part, longest_measurement)), bounces,
                                request.seed, scene, pilot);
@@ -127,18 +130,18 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
         if (plan.budgets.empty())
             for (int b = 0; b < default_budgets; ++b) plan.budgets.push_back(std::ldexp(least, b));
         for (std::size_t m = 0; m < methods.size(); ++m) {
-            const bool patches_given = methods[m].request.patches.has_value();
+            const bool patches_given = patches_are_given(methods[m].method);
             std::vector<double> levels;
             for (const double budget : plan.budgets) {
                 levels.push_back(measured[m].level(budget));
                 if (!measured[m].fields || patches_given || levels.back() == 0.0) continue;
                 const auto run = run_method(methods[m], field_effort(levels.back()), bounces, request.seed, scene, pilot);
                 if (!run) return std::nullopt;
-                levels.back() = corrected_level(levels.back(), run->series.seconds, budget);
+                levels.back() = corrected_level(levels.back(), run->seconds, budget);
             }
             plan.efforts.push_back(measured[m].fields ? field_efforts(levels, patches_given) : sampling_efforts(levels));
         }
-        const StudyMethod walk{"walk", {}};
+        const StudyMethod walk{"walk", method::Walk{}};
         const auto measured_walk = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
         if (!measured_walk) return std::nullopt;
         most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;

@@ -1,8 +1,8 @@
 // What a study is to do: its methods, how much each of them is given for each budget, and how a single run is done.
 #pragma once
 
-#include "apps/rendering/render_method.h"
-#include "apps/commands/study.h"
+#include "apps/commands/study_command.h"
+#include "operators/methods/render.h"
 #include "operators/study/effort.h"
 
 #include <string>
@@ -12,16 +12,16 @@ namespace neumann {
 
 struct StudyMethod {
     std::string name;  // as given
-    RenderRequest request;
+    Method method;
 };
 
+// A method as read_method() reads it. Throws InputError where it is unknown, or has no place in a study.
+Method studied_method(const std::string& word);
 // Throws InputError where one is unknown, given twice, or there is none.
 std::vector<StudyMethod> study_methods(const StudyRequest& request);
 
-// What a run of a method is given.
-RenderRequest run_request(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed);
 // Nothing where the run was interrupted. Errors name the method.
-std::optional<RenderResult> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
+std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
                                        const Scene& scene, const Pilot& pilot);
 
 struct StudyPlan {

@@ -1,12 +1,13 @@
 #include "apps/commands/study_reference.h"
 
 #include "apps/commands/interrupt.h"
-#include "apps/command_line/method_options.h"
 #include "apps/files/output_folder.h"
+#include "apps/files/reference.h"
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
+#include "operators/methods/method_options.h"
 #include "operators/study/reference_choice.h"
 
 #include <fmt/format.h>
@@ -128,14 +129,14 @@ void keep(const fs::path& path, const Json& identity, const StudyReference& refe
 StudyMethod making_method(const StudyRequest& request) {
     StudyMethod method{request.reference, {}};
     try {
-        method.request = parse_method(request.reference);
+        method.method = studied_method(request.reference);
     } catch (const InputError&) {
         throw InputError(
             fmt::format("--reference {}: expected the folder of an earlier render, values:A,B,…, or a method without bias that "
                         "makes one, as in walk or walk:direct=light",
                         request.reference));
     }
-    if (is_field_method(method.request.method))
+    if (has_fields(method.method))
         throw InputError(fmt::format("--reference {}: fields on patches have an error of their own; take walk", request.reference));
     return method;
 }
@@ -143,10 +144,10 @@ StudyMethod making_method(const StudyRequest& request) {
 // variance_times_rays(), with a seed that is that of no run and not that of the reference.
 std::optional<std::vector<double>> try_method(const char* name, const Scene& scene, const Pilot& pilot, int bounces) {
     for (int level = first_trial;; ++level) {
-        const auto run = run_method({name, parse_method(name)}, sampling_effort(level), bounces,
+        const auto run = run_method({name, read_method(name)}, sampling_effort(level), bounces,
                                     study_seed(0, reference_method, 0, 1), scene, pilot);
         if (!run) return std::nullopt;
-        if (run->series.rays >= trial_rays || level == largest_effort) return variance_times_rays(run->series);
+        if (run->rays >= trial_rays || level == largest_effort) return variance_times_rays(*run);
     }
 }
 
@@ -204,16 +205,16 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
     const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot);
     if (!run) return std::nullopt;
     StudyReference made;
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->series.term(i));
-    made.pictures.push_back(run->series.sum(static_cast<std::size_t>(bounces)));
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->term(i));
+    made.pictures.push_back(run->sum(static_cast<std::size_t>(bounces)));
     for (int i = 0; i <= bounces; ++i)
-        if (run->series.report.bounces[static_cast<std::size_t>(i)].infinite_variance)
+        if (run->report.bounces[static_cast<std::size_t>(i)].infinite_variance)
             made.warnings.push_back(
                 fmt::format("the reference has an infinite variance at bounce {}: what its noise adds is not known", i));
     if (cache && made.warnings.empty()) {
         const Json identity = made_identity(request, wanted, scene, bounces);
         try {
-            keep(cache_path(*cache, identity), identity, made, run->series.degrees_of_freedom);
+            keep(cache_path(*cache, identity), identity, made, run->degrees_of_freedom);
             // Rounded as it will be when it is read again.
             made = from_folder(cache_path(*cache, identity).string(), scene.film, bounces);
         } catch (const std::runtime_error& e) {

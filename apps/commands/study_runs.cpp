@@ -10,15 +10,21 @@ namespace neumann {
 
 namespace {
 
-StudyRun make_run(const RenderResult& result, const RenderRequest& request) {
-    const SeriesReport& report = result.series.report;
+StudyRun make_run(const BounceSeries& series, const Method& asked) {
+    const SeriesReport& report = series.report;
     StudyRun run;
-    run.seed = request.seed;
-    run.samples = result.series.samples;
-    run.patches = request.patches.value_or(0);
-    run.directions = request.directions.value_or(0);
-    run.setup_seconds = result.series.setup_seconds;
-    run.seconds = result.series.seconds;
+    run.seed = series.seed;
+    run.samples = series.samples;
+    std::visit(
+        [&](const auto& m) {
+            if constexpr (requires { m.patches; }) {
+                run.patches = m.patches.value_or(0);
+                run.directions = m.directions.value_or(0);
+            }
+        },
+        asked);
+    run.setup_seconds = series.setup_seconds;
+    run.seconds = series.seconds;
     for (const BounceReport& b : report.bounces) {
         run.rays.push_back(b.rays);
         run.mean.push_back(b.mean.mean);
@@ -27,7 +33,7 @@ StudyRun make_run(const RenderResult& result, const RenderRequest& request) {
     }
     run.mean.push_back(report.sum.mean);
     if (report.sum_discretisation) run.discretisation.push_back(report.sum_discretisation->relative);
-    for (const auto& [text, count] : result.warnings.counts()) run.warnings.push_back(text);
+    for (const auto& [text, count] : series.warnings.counts()) run.warnings.push_back(text);
     return run;
 }
 
@@ -57,14 +63,14 @@ void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) 
         data.peak_is_of_run = restart_peak_memory();
         const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot);
         if (!result) return;
-        StudyRun run = make_run(*result, run_request(data.methods[method], effort, data.bounces, seed));
+        StudyRun run = make_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();
         run.method = method;
         run.budget = budget;
         run.repeat = repeat;
         std::vector<Image> pictures;
-        for (std::size_t i = 0; i <= N; ++i) pictures.push_back(result->series.term(i).mean);
-        pictures.push_back(result->series.sum(N).mean);
+        for (std::size_t i = 0; i <= N; ++i) pictures.push_back(result->term(i).mean);
+        pictures.push_back(result->sum(N).mean);
         journal.add(run, pictures);
         if (interrupted()) return;
     }

@@ -222,4 +222,10 @@ Json as_json(const EnergyBalance& power) {
             {"energy_balance", {{"on_patches", balance_json(power, "W", "replicates", replicates)}}}};
 }
 
+Json health_json(const BounceSeries& series, const Scene& scene, const std::string& folder) {
+    if (const auto* fields = std::get_if<FieldRecord>(&series.record)) return as_json(fields->power);
+    const auto& health = std::get<PathRecord>(series.record).health;
+    return health ? as_json(*health, scene, folder) : Json(nullptr);
+}
+
 }  // namespace neumann

@@ -1,7 +1,7 @@
 // The health part of run.json, and what is said of it where something is sick.
 #pragma once
 
-#include "operators/pictures/health.h"
+#include "operators/methods/bounce_series.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +18,9 @@ nlohmann::ordered_json as_json(const Health& health, const Scene& scene, const s
 // The same of fields on patches, which have no samples to replay.
 std::vector<std::string> complaints(const EnergyBalance& power);
 nlohmann::ordered_json as_json(const EnergyBalance& power);
+
+// Of either; null where the render was not looked at.
+nlohmann::ordered_json health_json(const BounceSeries& series, const Scene& scene, const std::string& folder);
 
 // Where a shape comes from: "shape 'cube' of bsdf 'diffuse', scene.xml:12:5".
 std::string name_of_shape(const Scene& scene, std::uint32_t shape);

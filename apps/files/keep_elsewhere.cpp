@@ -1,5 +1,5 @@
 // What was sampled is not lost with the disk that cannot take it.
-#include "apps/rendering/rendering.h"
+#include "apps/files/rendering_files.h"
 
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
@@ -42,10 +42,8 @@ fs::path folder_beside(fs::path output) {
 }  // namespace
 
 std::string keep_elsewhere(const Rendering& rendering, const std::string& output) {
-    const BounceSeries& series = rendering.result.series;
-    const int bounces = static_cast<int>(series.report.bounces.size()) - 1;
-    const bool has_discretisation = series.report.sum_discretisation.has_value();
-    if (const auto path = temporary_folder(estimated_bytes(rendering.scene.film, bounces, has_discretisation))) {
+    const BounceSeries& series = rendering.series;
+    if (const auto path = temporary_folder(estimated_bytes(rendering.scene->film, series.bounces(), has_fields(series.method)))) {
         try {
             OutputFolder folder(*path, "render");
             write_rendering(rendering, folder);
@@ -59,7 +57,7 @@ std::string keep_elsewhere(const Rendering& rendering, const std::string& output
     try {
         OutputFolder folder(path, "render");
         const std::vector<std::string> missing = write_terms_that_fit(folder, series);
-        if (missing.size() < static_cast<std::size_t>(bounces) + 1) {
+        if (missing.size() < static_cast<std::size_t>(series.bounces()) + 1) {
             folder.commit();
             return fmt::format("What fits is in {}: the bounces, the rest and series.csv{}{}", path.string(),
                                missing.empty() ? "" : " without ", fmt::join(missing, " "));

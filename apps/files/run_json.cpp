@@ -1,7 +1,10 @@
 #include "apps/files/run_json.h"
 
-#include "apps/commands/plan.h"
+#include "apps/files/health_json.h"
 #include "apps/files/json_number.h"
+#include "apps/files/method_json.h"
+#include "apps/files/plan_json.h"
+#include "apps/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
 
 #include <cmath>
@@ -58,8 +61,8 @@ const char* name(Paths paths) {
     return "";
 }
 
-Json rest_json(const Scene& scene, const RenderResult& result) {
-    const SeriesReport& report = result.series.report;
+Json rest_json(const Scene& scene, const BounceSeries& series) {
+    const SeriesReport& report = series.report;
     const double bound = report.bounces.back().bound;
     Json json;
     switch (report.rest_verdict) {
@@ -75,7 +78,12 @@ Json rest_json(const Scene& scene, const RenderResult& result) {
             json["verdict"] = "not sampled by this method";
             break;
     }
-    if (!result.rest.is_null()) json.update(result.rest);
+    if (const auto* paths = std::get_if<PathRecord>(&series.record); paths && paths->rest_probability) {
+        json["probability_of_being_sampled"] = *paths->rest_probability;
+        json["walks_given_up"] = paths->walks_given_up;
+    }
+    const std::string why = std::visit([](const auto& record) { return record.why_no_rest; }, series.record);
+    if (!why.empty()) json["why"] = why;
     json["a_priori_bound"] = json_number(bound);
     json["a_priori_bound_note"] =
         report.importance      ? "there is no bound: the largest importance is infinite"
@@ -95,26 +103,52 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
                               {"relative", report->relative}};
 }
 
+Json samples_json(const BounceSeries& series) {
+    Json json = {{"per_pixel", series.samples}};
+    if (const auto* paths = std::get_if<PathRecord>(&series.record)) {
+        json.update({{"replicate_size", paths->replicate_size}, {"replicates", paths->replicates}});
+        for (const auto& [albedo, walk] : paths->furnaces)
+            json["walks_in_a_furnace"].push_back({{"albedo", albedo},
+                                                  {"expected_vertices", walk.vertices},  // null where infinite
+                                                  {"second_moment_of_sum", walk.second_moment}});
+    } else {
+        const auto& fields = std::get<FieldRecord>(series.record);
+        json.update({{"replicates", fields.replicates},
+                     {"patches", fields.patches},
+                     {"unknowns", fields.unknowns},
+                     {"directions", fields.directions}});
+        if (!fields.why.empty()) json["why"] = fields.why;
+        if (fields.gather_rays) json["gather_rays_per_sample"] = *fields.gather_rays;
+    }
+    json["degrees_of_freedom"] = series.degrees_of_freedom;
+    json["outcome"] = name(series.outcome);
+    return json;
+}
+
 }  // namespace
 
-Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& warnings, const std::string& folder,
-              double seconds_total) {
-    const auto& [request, scene, pilot, plan, progress, chosen] = job;
-    const BounceSeries& series = result.series;
+Json options_json(const BounceSeries& series) {
+    Json json = {{"bounces", series.bounces()}};
+    json.update(as_json(series.method));
+    json["seed"] = series.seed;
+    return json;
+}
+
+Json run_json(const Rendering& rendering, const Warnings& warnings, const std::string& folder, double seconds_total) {
+    const Scene& scene = *rendering.scene;
+    const BounceSeries& series = rendering.series;
     const SeriesReport& report = series.report;
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
-    json["command"] = request.command_line;
-    json["scene"] = {{"file", request.scene}, {"hash", scene.hash}, {"definitions", request.definitions}};
+    json["command"] = rendering.command_line;
+    json["scene"] = {{"file", rendering.scene_file}, {"hash", scene.hash}, {"definitions", rendering.definitions}};
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
     json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
                                          : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
-    json["options"] = result.options;
-    json["plan"] = plan.parts.empty() ? Json("full") : plan_json(plan);
+    json["options"] = options_json(series);
+    json["plan"] = series.plan.parts.empty() ? Json("full") : plan_json(series.plan);
     json["paths"] = name(series.paths);
-    json["samples"] = result.samples;
-    json["samples"]["degrees_of_freedom"] = series.degrees_of_freedom;
-    json["samples"]["outcome"] = name(series.outcome);
+    json["samples"] = samples_json(series);
     json["timing"] = {
         {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
@@ -131,9 +165,9 @@ Json run_json(const RenderJob& job, const RenderResult& result, const Warnings& 
         bounce["rays"] = b.rays;
         json["bounces"].push_back(bounce);
     }
-    json["rest"] = rest_json(scene, result);
-    if (result.ways) json["ways"] = as_json(*result.ways);
-    json["health"] = result.health ? result.health(folder) : Json(nullptr);
+    json["rest"] = rest_json(scene, series);
+    if (series.ways) json["ways"] = as_json(*series.ways);
+    json["health"] = health_json(series, scene, folder);
     json["warnings"] = Json::array();
     for (const auto& [text, count] : warnings.counts()) json["warnings"].push_back({{"text", text}, {"count", count}});
     return json;

@@ -1,8 +1,8 @@
 #include "apps/files/series_files.h"
 
+#include "apps/files/rendered_picture.h"
 #include "apps/sheets/contact_sheet.h"
 #include "apps/sheets/flip_book.h"
-#include "apps/files/rendered_picture.h"
 #include "apps/sheets/strips.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
@@ -42,9 +42,9 @@ std::string term_exr(const BounceSeries& series, std::size_t i, const PixelEstim
 }
 
 std::string rest_exr(const BounceSeries& series) {
-    return encode_exr(*series.rest, attributes_of(series, "sum of " + power(series, "k") + " for k > i",
-                                                  series.report.bounces.size() - 1, *series.rest, *series.means_of_rest,
-                                                  series.report.rest_infinite_variance));
+    return encode_exr(*series.rest,
+                      attributes_of(series, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1,
+                                    *series.rest, *series.means_of_rest, series.report.rest_infinite_variance));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "apps/files/output_folder.h"
 #include "apps/pages/packed_pictures.h"
 #include "core/sensor/sensor_options.h"
-#include "operators/pictures/bounce_series.h"
+#include "operators/methods/bounce_series.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -134,7 +134,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
         {"slope", "of log RMSE against log seconds, by weighted least squares"}};
     json["methods"] = Json::array();
     for (std::size_t m = 0; m < data.methods.size(); ++m) {
-        Json method = {{"name", data.methods[m].name}, {"fields", is_field_method(data.methods[m].request.method)}};
+        Json method = {{"name", data.methods[m].name}, {"fields", has_fields(data.methods[m].method)}};
         const auto points = data.points_of(m);
         if (!points.empty()) method["repeat_the_first_run"] = repeating_command(data, points.front()->runs.front());
         json["methods"].push_back(method);

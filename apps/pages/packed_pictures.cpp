@@ -1,9 +1,9 @@
 #include "apps/pages/packed_pictures.h"
 
-#include "core/image/half.h"
 #include "operators/statistics/reduced_picture.h"
 #include "operators/statistics/student_t.h"
 
+#include <Imath/half.h>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <zlib.h>
@@ -42,7 +42,7 @@ void add_halves(const Image& mean, int exponent, std::string& bytes) {
     const std::size_t n = mean.pixels.size(), start = bytes.size();
     bytes.resize(start + 6 * n);
     for_values(mean, [&](std::size_t i, int c) {
-        const std::uint16_t half = half_bits(static_cast<float>(std::ldexp(mean.pixels[i][c], -exponent)));
+        const std::uint16_t half = Imath::half(static_cast<float>(std::ldexp(mean.pixels[i][c], -exponent))).bits();
         const std::size_t at = start + static_cast<std::size_t>(c) * n + i;
         bytes[at] = static_cast<char>(half >> 8);
         bytes[at + 3 * n] = static_cast<char>(half & 0xff);
@@ -90,7 +90,7 @@ std::string deflated(const std::string& bytes) {
     return out;
 }
 
-// RFC 4648.
+// RFC 4648. Boost's encoders are a detail of another library (Beast) or iterators that know no padding (Serialization).
 std::string base64(const std::string& bytes) {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;

@@ -1,7 +1,7 @@
 // A scene as matrices: T, R and Le, the camera, the spectrum of K, and all solvers.
-#include "apps/commands/export.h"
-#include "apps/commands/solve.h"
-#include "apps/commands/spectrum.h"
+#include "apps/commands/export_command.h"
+#include "apps/commands/solve_command.h"
+#include "apps/commands/spectrum_command.h"
 #include "apps/commands/spectrum_report.h"
 #include "apps/python/module.h"
 #include "operators/matrix/camera_vector.h"

@@ -23,12 +23,8 @@ namespace py = pybind11;
 struct LoadedScene {
     std::string path;
     std::map<std::string, std::string> definitions;
-    SceneParts parts;
     std::shared_ptr<const Scene> scene;
     double seconds = 0.0;  // that reading it took
-
-    // One for a render, which leaves out of it what it does not need.
-    Scene fresh() const { return make_scene(parts); }
 };
 
 void bind_scene(py::module_& m);

@@ -1,10 +1,11 @@
 // Renders, as `neumann render` makes and writes them.
+#include "apps/commands/interrupt.h"
 #include "apps/commands/patch_scene.h"
 #include "apps/commands/progress_line.h"
+#include "apps/commands/render_command.h"
 #include "apps/files/run_json.h"
 #include "apps/files/series_files.h"
 #include "apps/python/module.h"
-#include "apps/rendering/rendering.h"
 
 #include <pybind11/stl.h>
 
@@ -20,10 +21,12 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
     request.command_line = command_line("render", *loaded, arguments);
     request.quiet = true;
     return std::make_unique<Job>(request.threads, [loaded, request](Job& job) -> Job::Finish {
-        const auto show = [&](int bounces, const RenderProgress& p) {
-            job.tell(progress_text(bounces, p), p.seconds_left ? std::optional(p.fraction) : std::nullopt);
+        Watch watch;
+        watch.stop = interrupted;
+        watch.progress = [&](const RenderProgress& p) {
+            job.tell(progress_text(p), p.seconds_left ? std::optional(p.fraction) : std::nullopt);
         };
-        const std::shared_ptr<Rendering> rendering = render(request, loaded->fresh(), show);
+        const std::shared_ptr<Rendering> rendering = render(request, loaded->scene, watch);
         return [rendering] { return py::cast(rendering); };
     });
 }
@@ -38,9 +41,9 @@ std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std
 }
 
 py::object ways(const Rendering& rendering) {
-    if (!rendering.result.ways) return py::none();
+    if (!rendering.series.ways) return py::none();
     py::list list;
-    for (const Way& way : rendering.result.ways->ways)
+    for (const Way& way : rendering.series.ways->ways)
         list.append(py::make_tuple(way.s, way.t, as_array(way.weighted.picture.mean), as_array(way.unweighted.picture.mean)));
     return list;
 }
@@ -49,16 +52,16 @@ py::object ways(const Rendering& rendering) {
 
 void bind_render(py::module_& m) {
     py::class_<Rendering, std::shared_ptr<Rendering>>(m, "Rendering", "A finished render.")
-        .def_property_readonly("bounces", [](const Rendering& r) { return r.result.series.report.bounces.size() - 1; })
+        .def_property_readonly("bounces", [](const Rendering& r) { return r.series.bounces(); })
         .def("term",
              [](const Rendering& r, std::size_t i) {
-                 const BounceSeries& s = r.result.series;
+                 const BounceSeries& s = r.series;
                  return as_tuple(s.term(i),
                                  s.report.bounces.at(i).infinite_variance ? std::nullopt : std::optional(s.means_of_term(i)));
              })
         .def("sum",
              [](const Rendering& r, std::size_t i) {
-                 const BounceSeries& s = r.result.series;
+                 const BounceSeries& s = r.series;
                  const auto end = s.report.bounces.begin() + static_cast<std::ptrdiff_t>(i) + 1;
                  const bool infinite =
                      std::any_of(s.report.bounces.begin(), end, [](const BounceReport& b) { return b.infinite_variance; });
@@ -66,16 +69,16 @@ void bind_render(py::module_& m) {
              })
         .def("rest",
              [](const Rendering& r) {
-                 const BounceSeries& s = r.result.series;
+                 const BounceSeries& s = r.series;
                  if (!s.rest) return py::object(py::none());
                  return py::object(as_tuple(*s.rest, s.report.rest_infinite_variance ? std::nullopt : s.means_of_rest));
              })
         .def("ways", &ways)
-        .def("table", [](const Rendering& r) { return series_table(r.result.series.report); })
-        .def("convergence", [](const Rendering& r) { return convergence_table(r.result.series.convergence); })
-        .def("run", [](const Rendering& r,
-                       const std::string& folder) { return run_json(r.job(), r.result, r.warnings(), folder, r.seconds).dump(); })
-        .def_property_readonly("warnings", [](const Rendering& r) { return texts(r.result.warnings); })
+        .def("table", [](const Rendering& r) { return series_table(r.series.report); })
+        .def("convergence", [](const Rendering& r) { return convergence_table(r.series.convergence); })
+        .def("run",
+             [](const Rendering& r, const std::string& folder) { return run_json(r, r.warnings(), folder, r.seconds).dump(); })
+        .def_property_readonly("warnings", [](const Rendering& r) { return texts(r.series.warnings); })
         .def("complaints", &Rendering::complaints)
         .def("save", &save);
     m.def("render", &start, py::arg("scene"), py::arg("arguments"));

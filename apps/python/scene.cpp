@@ -1,9 +1,10 @@
 // Scenes: read, and looked at.
 #include "apps/commands/patch_scene.h"
-#include "apps/commands/plan.h"
+#include "apps/files/plan_json.h"
 #include "apps/python/module.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
+#include "operators/methods/method_plan.h"
 
 #include <pybind11/stl.h>
 
@@ -16,8 +17,7 @@ std::shared_ptr<LoadedScene> load(const std::string& path, const std::map<std::s
     auto loaded = std::make_shared<LoadedScene>();
     loaded->path = path;
     loaded->definitions = definitions;
-    loaded->parts = read_scene_parts(path, definitions);
-    loaded->scene = std::make_shared<const Scene>(loaded->fresh());
+    loaded->scene = std::make_shared<const Scene>(read_scene(path, definitions));
     loaded->seconds = watch.seconds();
     return loaded;
 }

@@ -19,7 +19,7 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
         std::string csv, json;
         std::vector<std::string> warnings;
         const StudyEnd end = run_study(
-            request, loaded->fresh(), loaded->seconds, [&](const std::string& what, double fraction) { job.tell(what, fraction); },
+            request, *loaded->scene, loaded->seconds, [&](const std::string& what, double fraction) { job.tell(what, fraction); },
             [&](const StudyData& data, const std::vector<StudiedPicture>&, const nlohmann::ordered_json& found) {
                 csv = study_csv(data);
                 json = found.dump();

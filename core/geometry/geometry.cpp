@@ -1,11 +1,10 @@
 #include "core/geometry/geometry.h"
 
 #include "core/base/error.h"
-#include "core/base/frame.h"
 #include "core/geometry/giants.h"
 #include "core/geometry/neighbours.h"
+#include "core/geometry/round_surface.h"
 #include "core/geometry/rounding.h"
-#include "core/sampling/warp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,83 +118,8 @@ Geometry::Geometry(std::vector<Shape> shapes) {
     neighbours_ = std::make_unique<Neighbours>(DoubleFaces(*shapes_, triangles_, error_), giants, *caster_);
 }
 
-namespace {
-
-void put_on_sphere(const Sphere& s, const Vec3& position, double error, SurfacePoint& p) {
-    const Vec3 n = glm::normalize(position - s.center);
-    p.position = s.center + n * s.radius;
-    p.normal = s.flip_normals ? -n : n;
-    p.error = error;
-}
-
-// n, or a unit vector beside it, so that w meets a surface with this normal from before (sign −1) or from behind (1). A tangent in
-// floats may pass by in double, where n is perpendicular to it but for rounding.
-Vec3 met_by(const Vec3& w, double sign, const Vec3& n) {
-    constexpr double least = 1e-9;
-    const double cosine = sign * glm::dot(n, w);
-    return cosine >= least ? n : glm::normalize(n + w * (sign * (least - cosine)));
-}
-
-// `distance` is Embree's float answer; the exact root beside it is found again in double.
-void hit_sphere(const Sphere& s, const Vec3& origin, const Vec3& direction, double distance, double error, SurfacePoint& p) {
-    const Vec3 f = origin - s.center;
-    const double middle = -glm::dot(f, direction);
-    const Vec3 nearest = f + direction * middle;
-    const double half = std::sqrt(std::max(s.radius * s.radius - glm::dot(nearest, nearest), 0.0));
-    const double side = distance < middle ? -1.0 : 1.0;
-    const Vec3 n = glm::normalize(f + direction * (middle + side * half));
-    put_on_sphere(s, s.center + met_by(direction, side, n), error, p);
-}
-
-// Points keep clear of rims as hits of triangles do of edges, so that rounding cannot push them past what meets the rim.
-void put_on_disk(const Disk& d, const Vec3& position, double error, SurfacePoint& p) {
-    const Vec3 from_center = position - d.center;
-    const double uu = glm::dot(d.u, d.u), uv = glm::dot(d.u, d.v), vv = glm::dot(d.v, d.v), gram = uu * vv - uv * uv;
-    const double a = glm::dot(from_center, (d.u * vv - d.v * uv) / gram), b = glm::dot(from_center, (d.v * uu - d.u * uv) / gram);
-    const double radius = std::sqrt(a * a + b * b);  // 1 at the rim
-    const double most = 1.0 - std::min(error * std::sqrt(std::max(uu, vv) / gram), 0.5);
-    p.position = radius > most ? d.center + from_center * (most / radius) : position;
-    p.normal = d.normal;
-    p.error = error;
-}
-
-void hit_disk(const Disk& d, const Vec3& origin, const Vec3& direction, double error, SurfacePoint& p) {
-    put_on_disk(d, origin + direction * (glm::dot(d.normal, d.center - origin) / glm::dot(d.normal, direction)), error, p);
-}
-
-// `across`: of any length, perpendicular to the axis.
-void put_on_cylinder(const Cylinder& c, double along, const Vec3& across, double error, SurfacePoint& p) {
-    const Vec3 n = glm::normalize(across);
-    const double margin = std::min(error, 0.5 * c.length);
-    p.position = c.base + c.axis * std::clamp(along, margin, c.length - margin) + n * c.radius;
-    p.normal = c.flip_normals ? -n : n;
-    p.error = error;
-}
-
-// As hit_sphere, across the axis.
-void hit_cylinder(const Cylinder& c, const Vec3& origin, const Vec3& direction, double distance, double error, SurfacePoint& p) {
-    const Vec3 f = origin - c.base;
-    const double d_along = glm::dot(direction, c.axis), f_along = glm::dot(f, c.axis);
-    const Vec3 d_across = direction - c.axis * d_along, f_across = f - c.axis * f_along;
-    const double a = glm::dot(d_across, d_across), middle = -glm::dot(f_across, d_across) / a;
-    const Vec3 nearest = f_across + d_across * middle;
-    const double half = std::sqrt(std::max(c.radius * c.radius - glm::dot(nearest, nearest), 0.0) / a);
-    const double side = distance < middle ? -1.0 : 1.0, t = middle + side * half;
-    const Vec3 n = met_by(d_across / std::sqrt(a), side, glm::normalize(f_across + d_across * t));
-    put_on_cylinder(c, f_along + d_along * t, n, error, p);
-}
-
-}  // namespace
-
-void Geometry::put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[hit.shape]))
-        hit_sphere(*sphere, origin, direction, hit.distance, error_[hit.shape], p);
-    else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[hit.shape]))
-        hit_cylinder(*cylinder, origin, direction, hit.distance, error_[hit.shape], p);
-    else
-        hit_disk(std::get<Disk>((*shapes_)[hit.shape]), origin, direction, error_[hit.shape], p);
-    p.shape = hit.shape;
-    p.primitive = hit.primitive;
+SurfacePoint Geometry::round_point(const Face& face, const RoundPoint& p) const {
+    return {p.position, p.normal, error_[face.shape], face.shape, face.primitive};
 }
 
 void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
@@ -216,7 +140,8 @@ bool Geometry::put_among_others(const Vec3& origin, const Vec3& direction, const
 SurfacePoint Geometry::hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const {
     SurfacePoint p;
     if (triangles_[hit.shape].empty())
-        put_on_round_surface(origin, direction, hit, p);
+        p = round_point({hit.shape, hit.primitive},
+                        hit_round((*shapes_)[hit.shape], origin, direction, hit.distance, error_[hit.shape]));
     else
         put_near_edge(origin, direction, hit, p);
     look_around(p);
@@ -237,18 +162,7 @@ bool Geometry::settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p
 
 SurfacePoint Geometry::point_on(const Face& face, const Vec3& position) const {
     if (!triangles_[face.shape].empty()) return point_on_triangle(face.shape, face.primitive, position);
-    SurfacePoint p;
-    const double error = error_[face.shape];
-    const Shape& shape = (*shapes_)[face.shape];
-    if (const auto* sphere = std::get_if<Sphere>(&shape))
-        put_on_sphere(*sphere, position, error, p);
-    else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        const double along = glm::dot(position - cylinder->base, cylinder->axis);
-        put_on_cylinder(*cylinder, along, position - cylinder->base - cylinder->axis * along, error, p);
-    } else
-        put_on_disk(std::get<Disk>(shape), position, error, p);
-    p.shape = face.shape;
-    p.primitive = face.primitive;
+    SurfacePoint p = round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]));
     look_around(p);
     return p;
 }
@@ -375,12 +289,7 @@ double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
         const auto& t = mesh->triangles[primitive];
         return Triangle::area(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]);
     }
-    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape]))
-        return sphere->radius > 0.0 ? 4.0 * pi * sphere->radius * sphere->radius : 0.0;
-    if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape]))
-        return cylinder->has_extent() ? 2.0 * pi * cylinder->radius * cylinder->length : 0.0;
-    const Disk& disk = std::get<Disk>((*shapes_)[shape]);
-    return pi * glm::length(glm::cross(disk.u, disk.v));
+    return round_area((*shapes_)[shape]);
 }
 
 double Geometry::area(std::uint32_t shape) const {
@@ -390,36 +299,13 @@ double Geometry::area(std::uint32_t shape) const {
 }
 
 SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& uv) const {
-    SurfacePoint p;
-    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
-        put_on_sphere(*sphere, sphere->center + uniform_sphere(uv), error_[shape], p);
-    } else if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape])) {
-        const Vec2 turn = direction_on_circle(uv.y);
-        put_on_cylinder(*cylinder, uv.x * cylinder->length, Frame(cylinder->axis).to_world({turn, 0.0}), error_[shape], p);
-    } else {
-        const Disk& disk = std::get<Disk>((*shapes_)[shape]);
-        const Vec2 d = uniform_disk(uv);
-        put_on_disk(disk, disk.center + disk.u * d.x + disk.v * d.y, error_[shape], p);
-    }
-    p.shape = shape;
+    SurfacePoint p = round_point({shape, 0}, sample_round((*shapes_)[shape], uv, error_[shape]));
     look_around(p);
     return p;
 }
 
 Vec2 Geometry::round_coordinates(std::uint32_t shape, const Vec3& position) const {
-    if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
-        const Vec3 n = (position - sphere->center) / sphere->radius;
-        return {std::clamp(0.5 - 0.5 * n.z, 0.0, 1.0), part_of_circle(n.x, n.y)};
-    }
-    if (const auto* cylinder = std::get_if<Cylinder>(&(*shapes_)[shape])) {
-        const Vec3 p = Frame(cylinder->axis).to_local(position - cylinder->base);
-        return {std::clamp(p.z / cylinder->length, 0.0, 1.0), part_of_circle(p.x, p.y)};
-    }
-    const Disk& disk = std::get<Disk>((*shapes_)[shape]);
-    const Vec3 x = position - disk.center;
-    const double uu = glm::dot(disk.u, disk.u), uv = glm::dot(disk.u, disk.v), vv = glm::dot(disk.v, disk.v);
-    const double xu = glm::dot(x, disk.u), xv = glm::dot(x, disk.v), determinant = uu * vv - uv * uv;
-    return square_of_disk({(xu * vv - xv * uv) / determinant, (xv * uu - xu * uv) / determinant});
+    return neumann::round_coordinates((*shapes_)[shape], position);
 }
 
 }  // namespace neumann

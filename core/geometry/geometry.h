@@ -25,6 +25,7 @@
 namespace neumann {
 
 class Neighbours;
+struct RoundPoint;
 
 class Geometry {
 public:
@@ -169,7 +170,7 @@ private:
     bool put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const;
     void put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
-    void put_on_round_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    SurfacePoint round_point(const Face& face, const RoundPoint& p) const;
     // Sets p.close.
     void look_around(SurfacePoint& p) const;
     // Of what is close to a hit, another face may come first. False where the ray passes by p's own face.

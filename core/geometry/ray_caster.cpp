@@ -9,6 +9,7 @@
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -16,6 +17,8 @@
 namespace neumann {
 
 namespace {
+
+std::atomic<std::uint64_t> built = 0;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -340,6 +343,7 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> wit
     }
     rtcCommitScene(impl_->scene);
     impl_->check("building the scene");
+    ++built;
 }
 
 RayCaster::~RayCaster() = default;
@@ -427,6 +431,7 @@ void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) c
 
 RTCSceneTy* RayCaster::embree_scene() const { return impl_->scene; }
 
+std::uint64_t trees_built() { return built; }
 const char* embree_version() { return "Embree " RTC_VERSION_STRING; }
 
 }  // namespace neumann

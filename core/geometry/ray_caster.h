@@ -89,5 +89,7 @@ private:
 
 // Which Embree is linked, such as "Embree 3.13.5".
 const char* embree_version();
+// How many trees this program has built so far.
+std::uint64_t trees_built();
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Pictures at another size.
+// Pictures at another size. Our own: Python shrinks pictures without loading the module that knows OpenImageIO.
 #pragma once
 
 #include "core/image/display.h"

@@ -147,17 +147,25 @@ Scene make_scene(SceneParts parts) {
     warn_of_gain(geometry, materials, parts.origins, warnings);
     warn_of_laws(measure_laws(geometry, materials), parts.origins, warnings);
     const Sensor camera(parts.camera, parts.film);
-    return {std::move(geometry),
-            std::move(materials),
-            std::move(emitters),
-            camera,
-            parts.film,
-            parts.bounces,
-            parts.sampler,
-            parts.hide_emitters,
-            std::move(parts.hash),
-            std::move(parts.origins),
-            std::move(warnings)};
+    SceneNotes notes = std::move(parts);
+    notes.warnings = std::move(warnings);
+    return Scene(std::move(geometry), std::move(materials), std::move(emitters), camera, parts.film, std::move(notes));
+}
+
+Scene::Scene(Geometry g, Materials m, Emitters e, const Sensor& sensor, const Film& f, SceneNotes notes)
+    : SceneNotes(std::move(notes)),
+      shared_geometry_(std::make_shared<const Geometry>(std::move(g))),
+      shared_emitters_(std::make_shared<const Emitters>(std::move(e))),
+      geometry(*shared_geometry_),
+      materials(std::move(m)),
+      emitters(*shared_emitters_),
+      camera(sensor),
+      film(f) {}
+
+Scene Scene::with(Materials other) const {
+    Scene scene = *this;
+    scene.materials = std::move(other);
+    return scene;
 }
 
 }  // namespace neumann

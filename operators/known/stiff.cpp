@@ -39,25 +39,25 @@ double rest_of(double rho, int bounces) { return std::pow(rho, bounces + 1) / (1
 Statistic statistic(const MeanWithError& m) { return {Rgb(m.mean), Rgb(m.standard_error)}; }
 
 struct Sampling {
-    Method method;
+    PathMethod method;
     const char* name;
     std::uint32_t samples;  // a pixel, in each of 64 replicates
     int bounces = 8;
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
 constexpr Sampling samplings[] = {
-    {Method::walk, "walk", 16, 8, 0.9},     {Method::guided, "guided", 32, 8, 0.9},          {Method::surface, "surface", 16},
-    {Method::light, "light", 2048, 2},      {Method::bidirectional, "bidirectional", 32, 4}, {Method::classic, "classic", 16},
-    {Method::pointwise, "pointwise", 16, 5}};
+    {PathMethod::walk, "walk", 16, 8, 0.9},     {PathMethod::guided, "guided", 32, 8, 0.9},          {PathMethod::surface, "surface", 16},
+    {PathMethod::light, "light", 2048, 2},      {PathMethod::bidirectional, "bidirectional", 32, 4}, {PathMethod::classic, "classic", 16},
+    {PathMethod::pointwise, "pointwise", 16, 5}};
 
 PictureSampler::Settings settings_of(const Sampling& sampling, const Scene& scene, std::uint64_t seed) {
     PictureSampler::Settings settings;
     settings.method = sampling.method;
     settings.walk.bounces = sampling.bounces;
     settings.walk.rest_probability = 0.0;
-    if (sampling.method == Method::surface || sampling.method == Method::classic)
+    if (sampling.method == PathMethod::surface || sampling.method == PathMethod::classic)
         settings.walk.direct = {.direct = DirectLight::light};
-    if (sampling.method == Method::guided)
+    if (sampling.method == PathMethod::guided)
         settings.tables = std::make_shared<const DirectionTables>(
             scene, GuideSettings{.patches = 100, .rays = 2048, .bounces = sampling.bounces, .seed = seed});
     settings.seed = seed;

@@ -5,14 +5,14 @@ namespace neumann {
 bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
     if (!is_finite(scene.emitters.largest_radiance())) return false;  // some light has no extent
     switch (settings.method) {
-        case Method::pointwise:
+        case PathMethod::pointwise:
             return true;
-        case Method::walk:
-        case Method::guided: {
+        case PathMethod::walk:
+        case PathMethod::guided: {
             const DirectLight direct = settings.walk.direct.direct;
             return direct == DirectLight::bsdf || direct == DirectLight::mis;
         }
-        case Method::bidirectional:
+        case PathMethod::bidirectional:
             return !settings.ways_of_last_bounce;  // half of these are not weighted
         default:
             return false;

@@ -107,9 +107,10 @@ public:
         text += fmt::format("the largest is {:.2g}, in bounce {}; {}", now.error, now.bounce, why_);
         if (errors_.stands(now.bounce)) {
             const auto k = static_cast<int>(std::lround(std::sqrt(finest_)));
-            text += fmt::format("; it hardly falls with more patches, for directions on mirrors, glass and rough metal are held in "
-                                "cells, {}×{} to a side at most",
-                                k, k);
+            text += fmt::format(
+                "; it hardly falls with more patches, for directions on mirrors, glass and rough metal are held in "
+                "cells, {}×{} to a side at most",
+                k, k);
         }
         return text;
     }
@@ -144,7 +145,8 @@ private:
     std::nullopt_t stop_short(const FieldSettings& step) {
         const FieldCost cost = costs_.predict(step);
         const std::string what = fmt::format(
-            "another refinement, to {} patches, {} directions and {} samples, would take about {} and {:.2g} GiB and bring it to {:.2g}",
+            "another refinement, to {} patches, {} directions and {} samples, would take about {} and {:.2g} GiB and bring it to "
+            "{:.2g}",
             step.patching.patches, std::uint64_t{step.rays} * step.replicates, std::uint64_t{step.samples} * step.replicates,
             seconds_text(cost.seconds), cost.bytes / 0x1p30, errors_.predict(step).error);
         if (!in_memory(cost))
@@ -169,16 +171,15 @@ private:
 
 }  // namespace
 
-std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings,
-                                           const std::function<bool()>& interrupted) {
-    const Stopwatch watch;
-    auto pictures = render_fields(scene, settings, interrupted);
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop) {
+    const Stopwatch clock;
+    auto pictures = render_fields(scene, settings, stop);
     if (!pictures) return std::nullopt;
-    return make_run(std::move(*pictures), settings, {}, watch.seconds());
+    return make_run(std::move(*pictures), settings, {}, clock.seconds());
 }
 
-FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const RenderObserver& observer) {
-    const Stopwatch watch;
+FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch) {
+    const Stopwatch clock;
     const FieldSettings most = goal.most.value_or(largest(settings));
     settings.patching.patches = std::min(fewest_patches, most.patching.patches);
     settings.rays = std::min(fewest_rays, most.rays);
@@ -189,13 +190,13 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
     steps.add(run, run.seconds);
 
     const auto tell = [&] {
-        const double seconds = watch.seconds(), worst = steps.worst().error;
-        RenderProgress progress{run.pictures.samples, seconds, 0.0, std::nullopt};
+        const double seconds = clock.seconds(), worst = steps.worst().error;
+        RenderProgress progress{settings.bounces, run.pictures.samples, seconds, 0.0, std::nullopt};
         if (goal.relative_error && worst > 0.0) progress.fraction = *goal.relative_error / worst;
         if (goal.seconds) progress.fraction = std::max(progress.fraction, seconds / *goal.seconds);
         if (goal.seconds && !goal.relative_error) progress.seconds_left = std::max(*goal.seconds - seconds, 0.0);
         progress.fraction = std::min(progress.fraction, 1.0);
-        observer.progress(progress);
+        watch.progress(progress);
     };
     const double end = goal.seconds ? 1.1 * *goal.seconds + 1.0 : std::numeric_limits<double>::infinity();
     for (;;) {
@@ -204,7 +205,7 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
             run.outcome = Outcome::error_reached;
             return run;
         }
-        const double begin = watch.seconds();
+        const double begin = clock.seconds();
         const auto next = steps.next(begin);
         if (!next) {
             run.outcome = steps.outcome();
@@ -213,17 +214,18 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
         }
         const auto stopped = [&] {
             tell();
-            return observer.interrupted() || watch.seconds() > end;
+            return watch.stop() || clock.seconds() > end;
         };
         auto pictures = render_fields(scene, *next, stopped);
         if (!pictures) {
-            run.outcome = observer.interrupted() ? Outcome::interrupted : Outcome::time_reached;
-            run.why = fmt::format("the largest error is {:.2g}, in bounce {}; the next refinement took longer than foretold and was given up",
-                                  steps.worst().error, steps.worst().bounce);
+            run.outcome = watch.stop() ? Outcome::interrupted : Outcome::time_reached;
+            run.why = fmt::format(
+                "the largest error is {:.2g}, in bounce {}; the next refinement took longer than foretold and was given up",
+                steps.worst().error, steps.worst().bounce);
             return run;
         }
-        run = make_run(std::move(*pictures), *next, std::move(run.convergence), watch.seconds());
-        steps.add(run, watch.seconds() - begin);
+        run = make_run(std::move(*pictures), *next, std::move(run.convergence), clock.seconds());
+        steps.add(run, clock.seconds() - begin);
     }
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 
 #include <string>
 #include <vector>
@@ -31,11 +31,10 @@ struct FieldRun {
 
 // No render is begun that would go on beyond the time, as far as it can be foretold; one that does is given up a tenth and a second
 // later. Without an error to reach, it goes on while that falls by a twentieth a step. Interrupted or out of time, it returns what
-// the render before reached; the first one is not interrupted. observer.judge is not asked.
-FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const RenderObserver& observer);
+// the render before reached; the first one is not stopped. watch.judge is not asked.
+FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch);
 
 // What the settings of a single render reach; nothing where it is interrupted.
-std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings,
-                                           const std::function<bool()>& interrupted);
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop);
 
 }  // namespace neumann

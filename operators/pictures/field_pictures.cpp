@@ -132,8 +132,7 @@ PictureMeans FieldPictures::means(std::size_t first, std::size_t last) const {
     return means;
 }
 
-std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings,
-                                           const std::function<bool()>& interrupted) {
+std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop) {
     const Stopwatch field_watch;
     const auto asked = static_cast<double>(settings.patching.patches);
     check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
@@ -149,7 +148,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
     const auto checkpoint = [&] {
-        if (interrupted()) throw GivenUp();
+        if (stop()) throw GivenUp();
     };
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
         const auto trace = result.importance ? trace_importance : trace_series;
@@ -245,7 +244,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::atomic<bool> dropped = false;
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
-        if (interrupted()) dropped = true;
+        if (stop()) dropped = true;
         if (dropped) return;
         Workspace& work = workspaces.local();
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) render(group, work);

@@ -94,9 +94,9 @@ private:
     RayResolution resolution_;
 };
 
-// Nothing where `interrupted` answers true meanwhile; asked from any thread.
+// Nothing where `stop` answers true meanwhile; asked from any thread.
 std::optional<FieldPictures> render_fields(
-    const Scene& scene, const FieldSettings& settings, const std::function<bool()>& interrupted = [] { return false; });
+    const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop = [] { return false; });
 
 // The error of a whole picture, relative as relative_standard_error(): of the samples, of the patches, and of both. Rays make the
 // finer and the coarser fields differ, too: that much is not the patches'.

@@ -4,7 +4,7 @@
 
 #include "operators/pictures/checkup.h"
 #include "operators/pictures/remedy.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 
 #include <optional>
 #include <vector>

@@ -13,7 +13,7 @@
 // reflects.
 #pragma once
 
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/pictures/series_report.h"
 
 #include <vector>

@@ -15,7 +15,7 @@ enum class Paths {
 };
 // Some material sends light in a single direction.
 bool has_specular(const Materials& materials);
-Paths paths_of(Method method, const Scene& scene);
+Paths paths_of(PathMethod method, const Scene& scene);
 
 // What is missing of each bounce: mean(pilot) − mean(picture), whose walks are independent, for as many bounces as the pilot knows.
 void report_missing(SeriesReport& report, const Pilot& pilot);

@@ -93,7 +93,7 @@ PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
         throw std::logic_error("PictureSampler: replicate_size is not a power of two");
 }
 
-std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
                                                std::vector<double> memory) const {
     if (!std::has_single_bit(count) || first % count != 0)
         throw std::logic_error("PictureSampler: not a node of the tree of replicates");

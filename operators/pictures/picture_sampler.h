@@ -31,7 +31,7 @@ public:
     // `tally`, which has the replicates before, unless the work is dropped. `watch` is told the pixels that are done as work goes
     // on, from any thread, and drops the work by answering true. `memory` is used for the node: fresh pages for every block would
     // cost as much as the moments themselves.
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch = {},
                                    std::vector<double> memory = {}) const;
 
     // Traces some paths of run() again and tells of them: those of a replicate that advance together (path_group.h), `first` among

@@ -35,14 +35,14 @@ std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, 
     const SamplingSettings& settings = sampler.settings();
     const bool rest = quantity == settings.quantities() - 1;
     switch (settings.method) {
-        case Method::pointwise:
+        case PathMethod::pointwise:
             return {scene.hide_emitters ? Remedy::ask_lights : Remedy::bidirectional};
-        case Method::surface:
-        case Method::classic:
+        case PathMethod::surface:
+        case PathMethod::classic:
             return {Remedy::ask_lights};
-        case Method::light:
+        case PathMethod::light:
             return {Remedy::bidirectional};
-        case Method::bidirectional:
+        case PathMethod::bidirectional:
             return rest ? std::vector{Remedy::more_bounces} : std::vector<Remedy>();
         default:
             break;

@@ -47,7 +47,7 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = std::min(paths_at_once, pixels_ * settings_.replicate_size - first);
     Workspace work(Q);
-    const bool light = settings_.method == Method::light;
+    const bool light = settings_.method == PathMethod::light;
     PathGroup& group = work.group;
     group.rays.resize(samples);  // where trace_group() puts them, so that T can point there
     const WatchedHalves T(scene_->geometry, light ? work.light.walkers : work.bidirectional.light, work.bidirectional.walker,

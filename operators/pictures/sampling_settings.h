@@ -13,7 +13,7 @@ namespace neumann {
 
 class DirectionTables;
 
-enum class Method {
+enum class PathMethod {
     walk,           // from the camera, by directions of the material
     guided,         // the same by directions from which light comes, as tables tell
     surface,        // by points on all surfaces
@@ -23,10 +23,10 @@ enum class Method {
     pointwise       // each term by itself
 };
 // What its samples find counts for pixels all over the film.
-inline bool splats(Method method) { return method == Method::light || method == Method::bidirectional; }
+inline bool splats(PathMethod method) { return method == PathMethod::light || method == PathMethod::bidirectional; }
 
 struct SamplingSettings {
-    Method method = Method::walk;
+    PathMethod method = PathMethod::walk;
     std::shared_ptr<const DirectionTables> tables = {};  // of `guided`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;
@@ -41,6 +41,6 @@ struct SamplingSettings {
 };
 
 // Is told how many pixels are done as work goes on, from any thread, and drops the work by answering true.
-using Watch = std::function<bool(std::uint64_t pixels_done)>;
+using PixelWatch = std::function<bool(std::uint64_t pixels_done)>;
 
 }  // namespace neumann

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <optional>

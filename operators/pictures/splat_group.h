@@ -39,7 +39,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
-    if (settings_.method == Method::light) {
+    if (settings_.method == PathMethod::light) {
         LightWalkSettings walk;
         walk.vertices = settings_.walk.bounces;
         walk.rest_probability = settings_.walk.rest_probability;

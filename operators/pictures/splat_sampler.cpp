@@ -105,7 +105,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
             spread(position, q, value, name(i), chunk, work);
         },
         work);
-    if (settings_.method == Method::light) return;
+    if (settings_.method == PathMethod::light) return;
     for (std::uint32_t i = 0; i < samples; ++i) {
         const SamplePlace place{name(i).pixel, name(i)};
         for (std::size_t q = 0; q < Q; ++q) {
@@ -188,7 +188,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     return true;
 }
 
-std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
                                              std::vector<double> memory) const {
     const std::size_t Q = settings_.quantities(), stride = Q * PixelMoments::doubles_per_quantity;
     std::vector<std::vector<double>> waiting(static_cast<std::size_t>(std::countr_zero(count)) + 1);
@@ -227,7 +227,7 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
     tally.merge(new_tally);
     // Where something comes from the lights, most paths bring nothing.
     for (SampleRange& range : ranges.shares.of)
-        if (range.largest[0] >= range.smallest[0] || settings_.method == Method::light) range.add(Rgb(0.0));
+        if (range.largest[0] >= range.smallest[0] || settings_.method == PathMethod::light) range.add(Rgb(0.0));
     ranges.own.merge(ranges.shares);
     return MomentsNode{first, count, std::move(waiting.back()), std::move(ranges.own)};
 }

@@ -19,7 +19,7 @@ public:
     SplatSampler(const Scene& scene, const SamplingSettings& settings);
 
     // As PictureSampler::run().
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
                                    std::vector<double> memory) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;

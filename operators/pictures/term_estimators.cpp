@@ -6,13 +6,13 @@ namespace neumann {
 
 TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings) {
     switch (settings.method) {
-        case Method::pointwise:
+        case PathMethod::pointwise:
             return PointwiseEstimator(scene, settings.walk.bounces);
-        case Method::surface:
+        case PathMethod::surface:
             return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
-        case Method::classic:
+        case PathMethod::classic:
             return WalkEstimator(scene, settings.walk, SpecularContinuation());
-        case Method::guided:
+        case PathMethod::guided:
             if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
             return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
         default:

@@ -155,8 +155,9 @@ Plan make_plan(const Scene& scene) {
     return plan;
 }
 
-void leave_out(const Plan& plan, Scene& scene) {
-    if (!plan.sides.empty()) scene.materials = Materials(scene.materials.bsdfs(), plan.sides, scene.geometry.shared_shapes());
+std::optional<Scene> without_unlit_materials(const Plan& plan, const Scene& scene) {
+    if (plan.sides.empty()) return std::nullopt;
+    return scene.with(Materials(scene.materials.bsdfs(), plan.sides, scene.geometry.shared_shapes()));
 }
 
 }  // namespace neumann

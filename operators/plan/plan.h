@@ -7,6 +7,7 @@
 #include "core/scene/scene.h"
 #include "operators/walk/left_out.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ Plan make_plan(const Scene& scene);
 // The part that is no property of the scene: who asks for it keeps it.
 inline constexpr const char* roulette_part = "roulette before the last picture";
 
-// Leaves out of the scene itself what the plan says so of: materials where no light arrives.
-void leave_out(const Plan& plan, Scene& scene);
+// The scene without materials where no light arrives, as the plan says; nothing where there are none. Its geometry and its lights
+// are those of `scene`, shared.
+std::optional<Scene> without_unlit_materials(const Plan& plan, const Scene& scene);
 
 }  // namespace neumann

@@ -91,4 +91,25 @@ std::uint64_t study_seed(std::uint64_t seed, std::uint64_t method, std::uint64_t
     return x >> 16;
 }
 
+Method with_effort(Method method, const Effort& effort) {
+    std::visit(
+        [&](auto& m) {
+            if constexpr (requires { m.patches; }) {
+                if (!m.patches) m.patches = effort.patches;
+                if (!m.directions) m.directions = effort.directions;
+            }
+        },
+        method);
+    return method;
+}
+
+bool patches_are_given(const Method& method) {
+    return std::visit(
+        [](const auto& m) {
+            if constexpr (requires { m.patches; }) return m.patches.has_value();
+            return false;
+        },
+        method);
+}
+
 }  // namespace neumann

@@ -5,6 +5,8 @@
 //                1/√patches and 1/patches, of rays and of pixels stay of one size
 #pragma once
 
+#include "operators/methods/method.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -23,6 +25,9 @@ constexpr int largest_effort = 30;
 
 Effort sampling_effort(int level);
 Effort field_effort(double level);
+// A method with the patches and rays of an effort, where it has these and leaves them open; and whether it leaves patches open.
+Method with_effort(Method method, const Effort& effort);
+bool patches_are_given(const Method& method);
 // With the patches and rays of the level that comes nearest to these samples a pixel.
 Effort field_effort_of_samples(std::uint64_t samples);
 

@@ -6,7 +6,7 @@
 // the first one is behind by max ρ, the second one by 1 / min ρ.
 #pragma once
 
-#include "operators/pictures/bounce_series.h"
+#include "operators/methods/bounce_series.h"
 
 #include <span>
 #include <vector>

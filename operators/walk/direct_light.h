@@ -28,6 +28,8 @@ struct DirectLightSettings {
     LightChoice lights = LightChoice::mixed;
     LightPlace place = LightPlace::area;
     Heuristic heuristic = Heuristic::power;
+
+    bool operator==(const DirectLightSettings&) const = default;
 };
 
 // A question for the light at a point: is that point seen, or what is seen in that direction?

@@ -18,6 +18,8 @@ struct Roulette {
     Kind kind = Kind::none;
     double survival = 1.0;  // of `fixed`
 
+    bool operator==(const Roulette&) const = default;
+
     // Of going on, largest channels counting. `reflected`: the weight of the last reflection; `beta`: of the walk; `kept`: of the
     // walk when it last went on. `rest`: beyond the last picture.
     double probability(bool rest, double reflected, double beta, double kept) const {

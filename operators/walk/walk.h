@@ -31,6 +31,8 @@ namespace neumann {
 // 1990).
 struct Split {
     int lights = 1, walks = 1;
+
+    bool operator==(const Split&) const = default;
 };
 
 struct WalkSettings {

@@ -5,7 +5,7 @@
 //     bench_generators [SCENE.xml [RESOLUTION [SECONDS]]]
 #include "core/reader/read_scene.h"
 #include "operators/guide/direction_tables.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -54,14 +54,14 @@ int main(int argc, char** argv) {
     const Scene scene = read_scene(path, {{"res", resolution}});
 
     std::vector<Generator> generators;
-    for (const auto& [name, method] : {std::pair("walk", Method::walk), std::pair("guided", Method::guided),
-                                       std::pair("surface", Method::surface), std::pair("classic", Method::classic),
-                                       std::pair("light", Method::light), std::pair("bidirectional", Method::bidirectional)}) {
+    for (const auto& [name, method] : {std::pair("walk", PathMethod::walk), std::pair("guided", PathMethod::guided),
+                                       std::pair("surface", PathMethod::surface), std::pair("classic", PathMethod::classic),
+                                       std::pair("light", PathMethod::light), std::pair("bidirectional", PathMethod::bidirectional)}) {
         Generator g{.name = name, .settings = {}};
         g.settings.method = method;
         g.settings.replicate_size = largest_replicate;
         g.settings.walk.bounces = bounces;
-        if (method == Method::guided)
+        if (method == PathMethod::guided)
             g.setup = seconds_of([&] {
                 GuideSettings guide;
                 guide.bounces = bounces;

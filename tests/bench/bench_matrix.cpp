@@ -16,7 +16,7 @@
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/sides.h"
 #include "operators/pictures/field_pictures.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/series/product.h"
 #include "operators/statistics/metrics.h"
 #include "tests/bench/recorded_rays.h"

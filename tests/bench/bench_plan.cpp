@@ -142,8 +142,8 @@ int main(int argc, char** argv) {
     for (const auto& [name, make] : scenes) {
         const Scene whole = make();
         const Plan plan = make_plan(whole);
-        Scene scene = make();
-        leave_out(plan, scene);
+        const std::optional<Scene> reduced = without_unlit_materials(plan, whole);
+        const Scene& scene = reduced ? *reduced : whole;
         struct Kept {
             std::string part;
             const Scene* scene;

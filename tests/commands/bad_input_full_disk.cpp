@@ -1,7 +1,7 @@
 // A disk that is full: seen before sampling where that can be, and otherwise said, exit code 1, an earlier set of pictures
 // untouched, no parts of files, and what was sampled kept elsewhere.
+#include "apps/commands/render_command.h"
 #include "apps/files/output_folder.h"
-#include "apps/rendering/rendering.h"
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
 #include "tests/commands/render_output.h"
@@ -75,9 +75,9 @@ TEST_F(BadInputFullDisk, WhatFitsIsKeptBeside) {
 TEST_F(BadInputFullDisk, AllIsKeptWhereThereIsRoom) {
     RenderRequest request;
     request.scene = path("scene.xml").string();
-    request.bounces = 1;
-    request.samples = 2;
-    const auto rendering = neumann::render(request, read_scene(request.scene, {}));
+    request.goal.bounces = 1;
+    request.goal.samples = 2;
+    const auto rendering = neumann::render(request, std::make_shared<const Scene>(read_scene(request.scene, {})), {});
     const std::string text = keep_elsewhere(*rendering, path("a").string()), before = "All of it is in ",
                       after = " instead; move it to where it is to stay";
     ASSERT_TRUE(text.starts_with(before) && text.ends_with(after)) << text;

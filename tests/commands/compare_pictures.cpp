@@ -1,5 +1,5 @@
 // `neumann compare`: tables, JSON, and what cannot be compared.
-#include "apps/commands/compare.h"
+#include "apps/commands/compare_command.h"
 #include "apps/files/rendered_picture.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"

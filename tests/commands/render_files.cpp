@@ -129,6 +129,7 @@ TEST_F(RenderFiles, FourBounces) {
                                                  {"method", "walk"},
                                                  {"direct", "mis"},
                                                  {"lights", "mixed"},
+                                                 {"plan", "auto"},
                                                  {"roulette", "none"},
                                                  {"split", "1,1"},
                                                  {"sampler", "sobol"},

@@ -87,8 +87,8 @@ TEST_F(RenderInterrupt, WithinTheFirstMoments) {
 // In the first of many samples of a large picture, of which even one replicate would take long: a single sample is taken.
 using RenderInterruptSlow = RenderInterrupt;
 TEST_F(RenderInterruptSlow, LongBeforeTheFirstReplicateEnds) {
-    RunningCommand command = start(
-        {"render", SCENES "/cornell-box/cornell-box.xml", "-o", "a", "-n", "2", "--spp", "4096", "-t", "1", "-D", "res=512"});
+    RunningCommand command =
+        start({"render", SCENES "/cornell-box/cornell-box.xml", "-o", "a", "-n", "2", "--spp", "4096", "-t", "1", "-D", "res=512"});
     wait_for_folder();
     std::this_thread::sleep_for(milliseconds(4500));
     command.signal(SIGINT);

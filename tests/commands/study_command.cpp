@@ -255,12 +255,16 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_NE(refusal({"--methods", "walk:direct=nowhere"}).find("--methods walk:direct=nowhere: --direct: nowhere not in {"),
               std::string::npos);
     EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
-              "matrix:direct=light: --direct, --lights, --roulette and --split belong to --method walk and bidirectional, not to "
-              "matrix\n");
+              "--methods matrix:direct=light: --direct belongs to --method walk and bidirectional, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "walk:patches=100", "--samples", "4"}),
-              "walk:patches=100: --patches and --directions belong to --method guided, patches, matrix and gather, not to walk\n");
-    EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
-              "matrix:sampler=sobol: --sampler belongs to the methods that make paths, not to matrix\n");
+              "--methods walk:patches=100: --patches belongs to --method guided, matrix, gather and patches, not to walk\n");
+    EXPECT_EQ(
+        refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
+        "--methods matrix:sampler=sobol: --sampler belongs to --method walk, guided, surface, light, bidirectional, classic and "
+        "pointwise, not to matrix\n");
+    EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),
+              "--methods patches:importance=true: ways and importance have no place in a study, which compares pictures of "
+              "radiance\n");
     EXPECT_EQ(refusal({"--methods", "walk", "--budgets", "1,1"}), "--budgets: 1 after 1; budgets have to grow\n");
     EXPECT_EQ(refusal({"--methods", "walk", "--samples", "16,4"}), "--samples: 4 after 16; budgets have to grow\n");
     EXPECT_EQ(refusal({"--methods", "walk", "--samples", "4", "--budgets", "1"}),

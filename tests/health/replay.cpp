@@ -16,7 +16,7 @@ constexpr int bounces = 3;
 
 struct Case {
     const char* name;
-    Method method;
+    PathMethod method;
     SamplerKind sampler = SamplerKind::sobol;
     Split split = {};
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -34,7 +34,7 @@ protected:
                            .sampler = GetParam().sampler,
                            .seed = 5,
                            .replicate_size = size};
-        if (s.method == Method::guided)
+        if (s.method == PathMethod::guided)
             s.tables = std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
         return s;
     }
@@ -80,7 +80,7 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     const PictureSampler sampler(scene, settings());
     for (std::uint32_t pixel = 0; pixel < 49; pixel += 6) {
         const Replay found = replay(sampler, {pixel, 2});
-        if (!splats(GetParam().method) || GetParam().method == Method::bidirectional) {
+        if (!splats(GetParam().method) || GetParam().method == PathMethod::bidirectional) {
             EXPECT_FALSE(found.steps.empty());
         }
         std::vector<Rgb> sum(sampler.quantities(), Rgb(0.0));
@@ -93,12 +93,12 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Method, ReplayEvery,
-    testing::Values(Case{"Walk", Method::walk}, Case{"WalkIndependent", Method::walk, SamplerKind::independent},
-                    Case{"WalkSplit", Method::walk, SamplerKind::sobol, {3, 2}}, Case{"Guided", Method::guided},
-                    Case{"Surface", Method::surface}, Case{"Classic", Method::classic}, Case{"Light", Method::light},
-                    Case{"LightIndependent", Method::light, SamplerKind::independent}, Case{"Bidirectional", Method::bidirectional},
-                    Case{"BidirectionalSplit", Method::bidirectional, SamplerKind::sobol, {3, 2}}),
+    PathMethod, ReplayEvery,
+    testing::Values(Case{"Walk", PathMethod::walk}, Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
+                    Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}}, Case{"Guided", PathMethod::guided},
+                    Case{"Surface", PathMethod::surface}, Case{"Classic", PathMethod::classic}, Case{"Light", PathMethod::light},
+                    Case{"LightIndependent", PathMethod::light, SamplerKind::independent}, Case{"Bidirectional", PathMethod::bidirectional},
+                    Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.

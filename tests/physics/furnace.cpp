@@ -41,9 +41,9 @@ TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
         enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
         const Scene scene = enclosure.maker.make();
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol})
-            for (const Method method : {Method::walk, Method::pointwise}) {
+            for (const PathMethod method : {PathMethod::walk, PathMethod::pointwise}) {
                 SCOPED_TRACE(enclosure.name + (sampler == SamplerKind::sobol ? ", Sobol'" : ", independent") +
-                             (method == Method::walk ? ", walk" : ", operators"));
+                             (method == PathMethod::walk ? ", walk" : ", operators"));
                 PictureSampler::Settings settings;
                 settings.method = method;
                 settings.sampler = sampler;

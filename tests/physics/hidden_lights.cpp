@@ -45,7 +45,7 @@ void expect_floor(const Estimate& first, const Estimate& second, double toleranc
     EXPECT_NEAR(mean(second.mean).g, rho * radiance * form_factor(), tolerance * rho * radiance * form_factor());
 }
 
-PictureSampler::Settings settings(Method method) {
+PictureSampler::Settings settings(PathMethod method) {
     PictureSampler::Settings s;
     s.method = method;
     s.walk.bounces = 1;
@@ -60,13 +60,13 @@ PictureSampler::Settings settings(Method method) {
 // samples of a pixel; pointwise finds the lamp by chance.
 TEST(HiddenLights, WalkSeesTheFloor) {
     for (const bool towards_camera : {false, true}) {
-        const Pictures found = render(lamps(true, towards_camera), settings(Method::walk), 64);
+        const Pictures found = render(lamps(true, towards_camera), settings(PathMethod::walk), 64);
         expect_floor(found.result.term(0), found.result.term(1), 0.003);
     }
 }
 
 TEST(HiddenLights, PointwiseSeesTheFloor) {
-    const Pictures found = render(lamps(true, true), settings(Method::pointwise), 64);
+    const Pictures found = render(lamps(true, true), settings(PathMethod::pointwise), 64);
     expect_floor(found.result.term(0), found.result.term(1), 0.05);
 }
 
@@ -85,11 +85,11 @@ TEST(HiddenLights, FieldsSeeTheFloor) {
 }
 
 TEST(HiddenLights, NothingIsHiddenWithoutBeingAskedFor) {
-    const Pictures found = render(lamps(false, true), settings(Method::walk), 2);
+    const Pictures found = render(lamps(false, true), settings(PathMethod::walk), 2);
     EXPECT_EQ(mean(found.result.term(0).mean), Rgb(radiance));
     EXPECT_EQ(mean(found.result.term(1).mean), Rgb(0.0));
     // From behind, a lamp is black and covers the floor.
-    EXPECT_EQ(mean(render(lamps(false, false), settings(Method::walk), 2).result.sum(1).mean), Rgb(0.0));
+    EXPECT_EQ(mean(render(lamps(false, false), settings(PathMethod::walk), 2).result.sum(1).mean), Rgb(0.0));
 }
 
 // The surroundings are not seen, but light the floor: with all of the sky above it, ρ L exactly.
@@ -108,7 +108,7 @@ TEST(HiddenLights, SurroundingsLightWhatIsSeen) {
         s.bounces = 1;
         s.samples = 64;
         const FieldPictures fields = *render_fields(scene, s);
-        const Pictures walked = render(scene, settings(Method::walk), 64);
+        const Pictures walked = render(scene, settings(PathMethod::walk), 64);
         for (int i = 0; i < 2; ++i) {
             const Estimate pictures[] = {i == 0 ? walked.result.term(0) : walked.result.term(1),
                                          fields.term(static_cast<std::size_t>(i))};

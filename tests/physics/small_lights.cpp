@@ -160,7 +160,7 @@ TEST(SmallLights, AnEnvironmentIsSeenDirectly) {
     maker.parts.camera.fov = 1.0;
     maker.parts.film = {4, 2, 0, 0, 4, 2, BoxFilter()};
     const Scene scene = maker.make();
-    for (const Method method : {Method::walk, Method::pointwise}) {
+    for (const PathMethod method : {PathMethod::walk, PathMethod::pointwise}) {
         const Pictures pictures =
             render(scene, {.method = method, .walk = {.bounces = 2}, .seed = fixed_seed, .replicate_size = 8}, 2);
         for (int y = 0; y < 2; ++y)

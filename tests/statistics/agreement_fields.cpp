@@ -2,7 +2,7 @@
 #include "operators/pictures/field_pictures.h"
 
 #include "core/reader/read_scene.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/statistics/student_t.h"
 
 #include <fmt/format.h>

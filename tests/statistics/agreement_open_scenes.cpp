@@ -2,7 +2,7 @@
 // picture.
 #include "core/reader/read_scene.h"
 #include "operators/pictures/field_pictures.h"
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/pictures/series_report.h"
 #include "operators/statistics/picture_statistics.h"
 
@@ -42,7 +42,7 @@ Scene open_scene(const std::string& lights) {
     return scene;
 }
 
-RenderedSeries sample(const Scene& scene, Method method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
+RenderedSeries sample(const Scene& scene, PathMethod method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
     PictureSampler::Settings settings;
     settings.method = method;
     settings.walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0};
@@ -73,11 +73,11 @@ void expect_alike(const Means& a, const Means& b, const std::string& what, doubl
 
 void expect_agreement(const std::string& lights, bool found_by_chance) {
     const Scene scene = open_scene(lights);
-    const Means walked = means(sample(scene, Method::walk, DirectLight::mis, 1, 2048));
-    expect_alike(means(sample(scene, Method::walk, DirectLight::light, 2, 2048)), walked, "walk by lights alone");
+    const Means walked = means(sample(scene, PathMethod::walk, DirectLight::mis, 1, 2048));
+    expect_alike(means(sample(scene, PathMethod::walk, DirectLight::light, 2, 2048)), walked, "walk by lights alone");
     if (found_by_chance) {
-        expect_alike(means(sample(scene, Method::walk, DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
-        expect_alike(means(sample(scene, Method::pointwise, DirectLight::mis, 4, 1024)), walked, "pointwise");
+        expect_alike(means(sample(scene, PathMethod::walk, DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
+        expect_alike(means(sample(scene, PathMethod::pointwise, DirectLight::mis, 4, 1024)), walked, "pointwise");
     }
     for (const FieldMethod method : {FieldMethod::matrix, FieldMethod::gather}) {
         FieldSettings settings;

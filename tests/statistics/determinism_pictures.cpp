@@ -14,7 +14,7 @@ namespace {
 
 struct Case {
     const char* name;
-    Method method;
+    PathMethod method;
     SamplerKind sampler;
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
@@ -88,7 +88,7 @@ TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
         return outcome;
     };
     const Outcome one = with_threads(1);
-    if (GetParam().method == Method::walk) {
+    if (GetParam().method == PathMethod::walk) {
         EXPECT_GT(one.tally.given_up, 0u);
     }
     for (const int threads : {2, 7, 7, 7}) {
@@ -195,15 +195,15 @@ TEST_P(Determinism, ADroppedBlockLeavesNoTrace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllWays, Determinism,
-                         testing::Values(Case{"WalkIndependent", Method::walk, SamplerKind::independent},
-                                         Case{"WalkSobol", Method::walk, SamplerKind::sobol},
-                                         Case{"PointwiseIndependent", Method::pointwise, SamplerKind::independent},
-                                         Case{"PointwiseSobol", Method::pointwise, SamplerKind::sobol},
-                                         Case{"SurfaceSobol", Method::surface, SamplerKind::sobol},
-                                         Case{"LightIndependent", Method::light, SamplerKind::independent},
-                                         Case{"LightSobol", Method::light, SamplerKind::sobol},
-                                         Case{"BidirectionalIndependent", Method::bidirectional, SamplerKind::independent},
-                                         Case{"BidirectionalSobol", Method::bidirectional, SamplerKind::sobol}),
+                         testing::Values(Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
+                                         Case{"WalkSobol", PathMethod::walk, SamplerKind::sobol},
+                                         Case{"PointwiseIndependent", PathMethod::pointwise, SamplerKind::independent},
+                                         Case{"PointwiseSobol", PathMethod::pointwise, SamplerKind::sobol},
+                                         Case{"SurfaceSobol", PathMethod::surface, SamplerKind::sobol},
+                                         Case{"LightIndependent", PathMethod::light, SamplerKind::independent},
+                                         Case{"LightSobol", PathMethod::light, SamplerKind::sobol},
+                                         Case{"BidirectionalIndependent", PathMethod::bidirectional, SamplerKind::independent},
+                                         Case{"BidirectionalSobol", PathMethod::bidirectional, SamplerKind::sobol}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "operators/study/effort.h"
 
-#include "operators/pictures/render.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/study/method_summary.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,29 @@
+#include "apps/commands/plan_command.h"
+
+#include "apps/commands/definitions.h"
+#include "apps/files/plan_json.h"
+#include "core/reader/read_scene.h"
+#include "operators/methods/method_plan.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+int plan_command(const PlanRequest& request) {
+    const Plan plan = plan_with_bounces(read_scene(request.scene, parse_definitions(request.definitions)));
+    if (request.json) {
+        fmt::print("{}\n", plan_json(plan).dump(2));
+        return 0;
+    }
+    for (const bool kept : {true, false}) {
+        fmt::print("{}\n", kept ? "Kept:" : "\nLeft out:");
+        for (const PlanPart& p : plan.parts) {
+            if (p.kept != kept) continue;
+            fmt::print("  {}\n      {}\n", p.part, p.reason);
+            if (!kept) fmt::print("      saves {}\n", p.saves);
+        }
+    }
+    return 0;
+}
+
+}  // namespace neumann

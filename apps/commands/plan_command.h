@@ -1,0 +1,18 @@
+// `neumann plan`: what a scene needs of the machinery, what is left out, and why.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct PlanRequest {
+    std::string scene;
+    std::vector<std::string> definitions;  // -D, as typed
+    bool json = false;
+};
+
+// Exit code 0. Throws InputError.
+int plan_command(const PlanRequest& request);
+
+}  // namespace neumann

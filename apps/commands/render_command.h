@@ -1,0 +1,31 @@
+// `neumann render`: a scene in, its bounce pictures out.
+#pragma once
+
+#include "apps/files/rendering_files.h"
+#include "operators/methods/goal.h"
+#include "operators/methods/method_options.h"
+
+namespace neumann {
+
+struct RenderRequest {
+    std::string scene;
+    std::vector<std::string> definition_texts;       // -D name=value, as typed
+    std::map<std::string, std::string> definitions;  // likewise, read
+    std::string output;                              // a folder; empty: out/NAME
+    MethodText method;
+    Goal goal;
+    std::optional<double> memory;  // GiB
+    std::string reference;         // a folder of an earlier render, or empty
+    int threads = 0;               // 0: all
+    bool quiet = false;
+    bool json = false;
+    std::string command_line;  // as typed, for run.json
+};
+
+// Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
+int render_command(const RenderRequest& request);
+
+// The same, from a scene in memory to pictures in memory. `watch` without a judge. Throws InputError and RunError.
+std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch);
+
+}  // namespace neumann

@@ -1,0 +1,230 @@
+#include "apps/commands/replay_command.h"
+
+#include "apps/files/health_json.h"
+#include "apps/files/method_json.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/reader/read_scene.h"
+#include "operators/methods/method_plan.h"
+#include "operators/methods/sampling.h"
+#include "operators/pictures/path_group.h"
+#include "operators/pictures/replay.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace neumann {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What run.json tells of a render, in so far as it decides about its samples.
+struct RecordedRun {
+    std::string scene, hash, version;
+    std::map<std::string, std::string> definitions;
+    Method method;
+    std::uint64_t seed = 0;
+    int bounces = 0;
+    double rest_probability = 0.0;
+    std::uint32_t replicate_size = 1;
+    std::uint64_t samples = 0;
+    Json named;  // samples of the health report
+};
+
+RecordedRun read_run(const std::string& folder) {
+    if (!std::filesystem::is_directory(folder)) throw InputError(folder + ": is not a folder; expected that of a render");
+    const std::string path = (std::filesystem::path(folder) / "run.json").string();
+    std::ifstream file(path);
+    if (!file) throw InputError(path + ": cannot be read; expected the folder of a finished render");
+    try {
+        const Json json = Json::parse(file);
+        const Json &options = json.at("options"), &samples = json.at("samples");
+        RecordedRun run;
+        run.method = method_from_json(options);
+        const bool pointwise = std::holds_alternative<method::Pointwise>(run.method);
+        if (has_fields(run.method) || pointwise)
+            throw InputError(
+                fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(run.method),
+                            pointwise ? "each of its bounces is asked for anew" : "its bounces are read from fields on patches"));
+        run.scene = json.at("scene").at("file");
+        json.at("scene").at("definitions").get_to(run.definitions);
+        run.hash = json.at("scene").at("hash");
+        run.version = json.at("program").at("version");
+        run.seed = options.at("seed");
+        run.bounces = options.at("bounces");
+        run.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
+        run.replicate_size = samples.at("replicate_size");
+        run.samples = samples.at("per_pixel");
+        run.named = json.at("health").at("samples");
+        return run;
+    } catch (const Json::exception& e) {
+        throw InputError(fmt::format("{}: is not a run.json of this program's renders: {}", path, e.what()));
+    }
+}
+
+// The pixel's number, that of the sample there, and why it was named.
+struct Chosen {
+    SampleName name;
+    std::string why;
+};
+
+std::uint32_t pixel_number(const Film& film, int x, int y) {
+    const int column = x - film.crop_x, row = y - film.crop_y;
+    if (column < 0 || row < 0 || column >= film.crop_width || row >= film.crop_height)
+        throw InputError(fmt::format("--pixel {},{}: the picture has x from {} to {} and y from {} to {}", x, y, film.crop_x,
+                                     film.crop_x + film.crop_width - 1, film.crop_y, film.crop_y + film.crop_height - 1));
+    return static_cast<std::uint32_t>(row * film.crop_width + column);
+}
+
+Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
+    if (!request.number) {
+        if (*request.sample >= run.samples)
+            throw InputError(
+                fmt::format("--sample {}: expected 0 to {}, as many as the render has a pixel", *request.sample, run.samples - 1));
+        return {{pixel_number(film, request.pixel[0], request.pixel[1]), *request.sample}, ""};
+    }
+    for (const Json& sample : run.named) {
+        if (sample.at("number") != *request.number) continue;
+        const Json& pixel = sample.contains("pixel_of_path") ? sample.at("pixel_of_path") : sample.at("pixel");
+        return {{pixel_number(film, pixel.at(0), pixel.at(1)), sample.at("sample").get<std::uint64_t>()},
+                fmt::format("bounce {}: {}", sample.at("bounce").get<int>(), sample.at("why").get<std::string>())};
+    }
+    throw InputError(run.named.empty()
+                         ? fmt::format("{}: its health report names no sample; take --pixel X,Y --sample S", request.folder)
+                         : fmt::format("{}: its health report names samples 1 to {}, not {}", request.folder, run.named.size(),
+                                       *request.number));
+}
+
+SamplingSettings settings_of(const RecordedRun& run, const Scene& scene, const Plan& plan) {
+    SamplingSettings settings = sampling_settings(run.method, scene, plan, run.seed);
+    settings.walk.bounces = run.bounces;
+    settings.walk.rest_probability = run.rest_probability;
+    settings.replicate_size = run.replicate_size;
+    if (const auto* guided = std::get_if<method::Guided>(&run.method))
+        settings.tables = direction_tables(*guided, scene, run.bounces, run.seed, default_memory());
+    return settings;
+}
+
+std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
+// The only direction has an infinite density on purpose.
+bool is_sound(const ReplayedStep& s) {
+    const PathStep& step = s.step;
+    if (!is_finite(step.w) || !is_finite(step.beta) || !(std::isfinite(step.pdf) || step.pdf == delta_pdf)) return false;
+    if (step.found && !step.to.is_infinite() && !is_finite(step.to.position)) return false;
+    for (const auto& found : s.found)
+        if (!is_finite(found.value)) return false;
+    return true;
+}
+
+std::string heading(const PathStep& step) {
+    const char* half = step.from_light ? "light" : "camera";
+    switch (step.kind) {
+        case PathStep::Kind::first:
+            return fmt::format("from the {}", half);
+        case PathStep::Kind::goes_on:
+            return fmt::format("reflection {}{}", step.bounce, step.from_light ? " of the light's path" : "");
+        case PathStep::Kind::asks:
+            return fmt::format("{} for bounce {}", step.from_light ? "looks at the camera" : "looks for light", step.bounce);
+    }
+    return "";
+}
+
+void print(const ReplayedStep& s, const Scene& scene, bool first_unsound) {
+    const PathStep& step = s.step;
+    fmt::print("{}{}\n", heading(step), first_unsound ? "    <── here a value is no finite number any more" : "");
+    fmt::print("    from      {}\n    along     {}\n", text(step.from.position), text(step.w));
+    if (step.kind == PathStep::Kind::goes_on && !step.from_light)
+        fmt::print("    pdf       {}\n", step.pdf == delta_pdf ? "the only direction" : fmt::format("{:.6g} per sr", step.pdf));
+    if (step.kind != PathStep::Kind::asks)
+        fmt::print("    {} {}\n", step.from_light ? "power     " : "throughput", text(step.beta));
+    if (step.kind == PathStep::Kind::asks)
+        fmt::print("    {}\n", step.found ? "nothing is in between" : "hidden, or nothing is there");
+    else if (step.to.is_infinite())
+        fmt::print("    meets     nothing\n");
+    else
+        fmt::print("    meets     {}, triangle {}\n    at        {}\n    normal    {}\n", name_of_shape(scene, step.to.shape),
+                   step.to.primitive, text(step.to.position), text(step.to.normal));
+    for (const auto& found : s.found)
+        fmt::print("    brings    {} in bounce {}{}\n", text(found.value), found.quantity,
+                   found.pixel ? fmt::format(", at {:.6g}, {:.6g} on the film", found.pixel->x, found.pixel->y) : "");
+}
+
+Json rgb(const Vec3& x) {
+    Json json = Json::array();
+    for (int c = 0; c < 3; ++c) json.push_back(std::isfinite(x[c]) ? Json(x[c]) : Json(fmt::format("{}", x[c])));
+    return json;
+}
+
+Json as_json(const ReplayedStep& s, const Scene& scene) {
+    const PathStep& step = s.step;
+    Json json = {{"ray", heading(step)}, {"bounce", step.bounce}, {"from", rgb(step.from.position)}, {"along", rgb(step.w)}};
+    if (step.kind == PathStep::Kind::goes_on && !step.from_light)
+        json["pdf"] = step.pdf == delta_pdf ? Json("delta") : Json(step.pdf);
+    if (step.kind != PathStep::Kind::asks) json[step.from_light ? "power" : "throughput"] = rgb(step.beta);
+    json["found"] = step.found;
+    if (step.found && step.kind != PathStep::Kind::asks)
+        json["meets"] = {{"shape", name_of_shape(scene, step.to.shape)},
+                         {"triangle", step.to.primitive},
+                         {"at", rgb(step.to.position)},
+                         {"normal", rgb(step.to.normal)}};
+    for (const auto& found : s.found) {
+        Json brought = {{"bounce", found.quantity}, {"value", rgb(found.value)}};
+        if (found.pixel) brought["film"] = {found.pixel->x, found.pixel->y};
+        json["brings"].push_back(brought);
+    }
+    json["finite"] = is_sound(s);
+    return json;
+}
+
+}  // namespace
+
+int replay_command(const ReplayRequest& request) {
+    if (!request.number && request.pixel.empty())
+        throw InputError("which sample? Take N, the number of one that the health report names, or --pixel X,Y --sample S");
+    const RecordedRun run = read_run(request.folder);
+    if (!std::filesystem::exists(run.scene))
+        throw InputError(fmt::format("{}: the scene of {} is not there; the name is relative to where the render was started",
+                                     run.scene, request.folder));
+    const Scene whole = read_scene(run.scene, run.definitions);
+    if (whole.hash != run.hash)
+        fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n", run.scene,
+                   request.folder);
+    if (run.version != NEUMANN_VERSION)
+        fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
+                   NEUMANN_VERSION);
+    const Chosen chosen = choose(request, run, whole.film);
+    const Plan plan = plan_for(run.method, whole);
+    const std::optional<Scene> reduced = without_unlit_materials(plan, whole);
+    const Scene& scene = reduced ? *reduced : whole;
+    const PictureSampler sampler(scene, settings_of(run, scene, plan));
+    const Replay found = replay(sampler, chosen.name);
+    const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
+    const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_sound(s); });
+
+    if (request.json) {
+        Json json = {{"pixel", {pixel.x, pixel.y}}, {"sample", chosen.name.sample}, {"method", name_of(run.method)}};
+        if (!chosen.why.empty()) json["why"] = chosen.why;
+        json["terms"] = Json::array();
+        for (const Rgb& term : found.terms) json["terms"].push_back(rgb(term));
+        json["steps"] = Json::array();
+        for (const ReplayedStep& s : found.steps) json["steps"].push_back(as_json(s, scene));
+        if (unsound != found.steps.end()) json["first_step_that_is_not_finite"] = unsound - found.steps.begin();
+        fmt::print("{}\n", json.dump(2));
+        return 0;
+    }
+    fmt::print("Sample {} of pixel {},{} by {}{}\n\n", chosen.name.sample, pixel.x, pixel.y, name_of(run.method),
+               chosen.why.empty() ? "" : "; " + chosen.why);
+    for (auto s = found.steps.begin(); s != found.steps.end(); ++s) print(*s, scene, s == unsound);
+    fmt::print("\nWhat it brings to its own pixel\n");
+    for (std::size_t q = 0; q < found.terms.size(); ++q)
+        fmt::print("{:>8}  {}\n", q + 1 == found.terms.size() ? "rest" : fmt::format("bounce {}", q),
+                   fmt::format("{:.9g} {:.9g} {:.9g}", found.terms[q].r, found.terms[q].g, found.terms[q].b));
+    return 0;
+}
+
+}  // namespace neumann

@@ -1,0 +1,166 @@
+#include "apps/commands/solve_command.h"
+
+#include "apps/commands/interrupt.h"
+#include "apps/files/json_number.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace neumann {
+
+namespace {
+
+bool is_reference(const SolverRow& row) { return std::string_view(row.solver->name) == "lu"; }
+
+std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : ""; }
+
+std::string applications_text(double n) { return n == std::floor(n) ? fmt::format("{:.0f}", n) : fmt::format("{:.1f}", n); }
+
+// `text` in lines of at most 100 columns, all but the first indented.
+std::string wrapped(const std::string& text, std::size_t indent) {
+    constexpr std::size_t width = 100;
+    std::string result;
+    std::size_t column = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        const auto columns =
+            static_cast<std::size_t>(std::count_if(word.begin(), word.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+        if (column > 0 && column + 1 + columns > width) {
+            result += "\n" + std::string(indent, ' ');
+            column = indent;
+        } else if (column > 0) {
+            result += " ";
+            ++column;
+        }
+        result += word;
+        column += columns;
+        begin = end + 1;
+    }
+    return result;
+}
+
+// What is the same for several solvers is said once.
+void print_notes(const SideBySide& all) {
+    const auto other = [](const SolverRow& a, const SolverRow& b) {
+        return a.result.verdict != b.result.verdict || a.result.why != b.result.why;
+    };
+    for (std::size_t i = 0; i < all.rows.size(); ++i) {
+        const SolverRow& row = all.rows[i];
+        if (row.result.verdict == Verdict::converged) continue;
+        std::string who;
+        bool said = false;
+        for (std::size_t k = 0; k < all.rows.size(); ++k) {
+            if (other(row, all.rows[k])) continue;
+            said = said || k < i;
+            who += (who.empty() ? "" : "; ") + std::string(all.rows[k].solver->title);
+        }
+        if (!said) fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}.", who, name(row.result.verdict), row.result.why), 4));
+    }
+    if (all.interrupted) fmt::print("Interrupted: the other solvers were not run.\n");
+}
+
+void print_table(const PatchScene& scene, const SolveRequest& request, const ChosenChannel& chosen, const SideBySide& all) {
+    fmt::print("{}\n", scene.title());
+    fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n", scene.channel_name(chosen.channel),
+               chosen.why, chosen.radius, applications_text(chosen.applications));
+    if (chosen.traps_light)
+        fmt::print(
+            "Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
+            "all the same: residuals alone are looked at.\n");
+    if (scene.system().samples_lights())
+        fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
+    if (!all.no_reference.empty())
+        fmt::print("{}\n", wrapped("LU is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
+    fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>14}   {}\n", "solver", "applications", "seconds", "estimate", "error to LU",
+               "verdict");
+    for (const SolverRow& row : all.rows)
+        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>14}   {}\n", row.solver->title, applications_text(row.result.applications),
+                   row.seconds, short_number(row.estimate()),
+                   is_reference(row) && all.no_reference.empty() ? "reference" : short_number(row.error), name(row.result.verdict));
+    fmt::print(
+        "\nApplications are of K, setup included; at most {} were allowed. Errors are relative, in the\n"
+        "largest value; {:g} was asked for.\n",
+        request.most, request.tolerance);
+    print_notes(all);
+}
+
+void print_csv(const SideBySide& all) {
+    fmt::print("solver,applications,estimate,error,seconds\n");
+    const auto cell = [](double x) { return std::isnan(x) ? std::string() : fmt::format("{:.9g}", x); };
+    for (const SolverRow& row : all.rows)
+        for (const SolverStep& step : row.result.history)
+            fmt::print("{},{:.9g},{},{},{:.6f}\n", row.solver->name, step.applications, cell(step.estimate), cell(step.error),
+                       step.seconds);
+}
+
+}  // namespace
+
+nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved) {
+    const auto& [chosen, all] = solved;
+    using Json = nlohmann::ordered_json;
+    Json json = scene.json();
+    json["channel"] = {{"name", scene.channel_name(chosen.channel)}, {"why", chosen.why}};
+    json["spectral_radius"] = json_number(chosen.radius);
+    json["unknown"] = scene.system().samples_lights() ? "L - Le" : "L";
+    json["tolerance"] = request.tolerance;
+    json["most_applications"] = request.most;
+    json["reference"] = all.no_reference.empty() ? Json("lu") : Json(nullptr);
+    if (!all.no_reference.empty()) json["no_reference"] = all.no_reference;
+    json["interrupted"] = all.interrupted;
+    json["solvers"] = Json::array();
+    for (const SolverRow& row : all.rows) {
+        Json solver = {{"name", row.solver->name},
+                       {"title", row.solver->title},
+                       {"verdict", name(row.result.verdict)},
+                       {"why", row.result.why},
+                       {"applications", row.result.applications},
+                       {"setup_applications", row.result.setup},
+                       {"seconds", row.seconds},
+                       {"estimate", json_number(row.estimate())},
+                       {"error", json_number(row.error)},
+                       {"history", Json::array()}};
+        for (const SolverStep& step : row.result.history)
+            solver["history"].push_back({{"applications", step.applications},
+                                         {"estimate", json_number(step.estimate)},
+                                         {"error", json_number(step.error)},
+                                         {"seconds", step.seconds}});
+        json["solvers"].push_back(solver);
+    }
+    return json;
+}
+
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories) {
+    const ChosenChannel chosen = choose_channel(scene, request.channel);
+    const TracedChannel K = scene.system().channel(chosen.channel);
+
+    Problem problem;
+    problem.K = &K;
+    problem.Le = scene.system().samples_lights() ? scene.system().direct(chosen.channel) : scene.system().emitted(chosen.channel);
+    problem.tolerance = request.tolerance;
+    problem.most = request.most;
+    if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
+    problem.reflectance = &K.reflectance();
+    return {chosen, solve_side_by_side(problem, {histories, interrupted})};
+}
+
+int solve_command(const SolveRequest& request) {
+    check_channel_name(request.channel);
+    const PatchScene scene(request.patches);
+    catch_interrupts();
+    const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json);
+
+    print_warnings(scene.warnings(), request.patches.quiet);
+    if (request.patches.json)
+        fmt::print("{}\n", solve_json(scene, request, solved).dump(2));
+    else if (request.csv)
+        print_csv(solved.all);
+    else
+        print_table(scene, request, solved.chosen, solved.all);
+    return 0;
+}
+
+}  // namespace neumann

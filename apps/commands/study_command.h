@@ -1,0 +1,34 @@
+// `neumann study`: methods side by side, error against time, bounce by bounce.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct StudyRequest {
+    std::string scene;
+    std::vector<std::string> definition_texts;
+    std::map<std::string, std::string> definitions;
+    std::string output;
+    std::vector<std::string> methods;  // as read_method() reads them
+    std::string reference;             // a method that makes one, a folder of an earlier render, or values:…; empty: chosen
+    std::optional<std::uint64_t> reference_samples;
+    std::vector<double> budgets;         // seconds of a run; empty: chosen
+    std::vector<std::uint64_t> samples;  // instead of them
+    std::size_t repeats = 16;
+    std::optional<int> bounces;
+    std::optional<double> error;  // relative RMSE, for the time to a given error
+    std::uint64_t seed = 0;
+    int threads = 0;
+    bool resume = false, quiet = false, json = false;
+    std::string command_line;
+};
+
+// Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
+int study_command(const StudyRequest& request);
+
+}  // namespace neumann

@@ -1,0 +1,13 @@
+// A plan in JSON.
+#pragma once
+
+#include "operators/plan/plan.h"
+
+#include <nlohmann/json.hpp>
+
+namespace neumann {
+
+// A list of parts, each kept or left out, with its reason.
+nlohmann::ordered_json plan_json(const Plan& plan);
+
+}  // namespace neumann

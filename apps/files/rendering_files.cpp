@@ -1,0 +1,44 @@
+#include "apps/files/rendering_files.h"
+
+#include "apps/files/health_json.h"
+#include "apps/files/run_json.h"
+#include "apps/files/series_files.h"
+#include "apps/files/ways_files.h"
+#include "apps/pages/explorer_page.h"
+#include "core/base/stopwatch.h"
+
+namespace neumann {
+
+Warnings Rendering::warnings() const {
+    Warnings all = scene->warnings;
+    for (const auto& [text, count] : series.warnings.counts()) all.add(text, count);
+    return all;
+}
+
+std::vector<std::string> Rendering::complaints(const std::string& folder) const {
+    const auto health = health_json(series, *scene, folder);
+    return health.is_null() ? std::vector<std::string>() : health.at("complaints").get<std::vector<std::string>>();
+}
+
+WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder) {
+    const Stopwatch watch;
+    const BounceSeries& series = rendering.series;
+    const Film& film = rendering.scene->film;
+    Warnings warnings = rendering.warnings();
+    PackedSeries packed(film.crop_width, film.crop_height, series.report.bounces.size() + (series.rest ? 1 : 0));
+    const WrittenPictures written = write_pictures(folder, series, packed);
+    if (!written.warning.empty()) warnings.add(written.warning);
+    if (packed.factor() > 1) warnings.add(packed.reduction());
+    if (series.ways) write_ways(folder, *series.ways);
+    folder.write("series.csv", series_table(series.report));
+    const std::string convergence = convergence_table(series.convergence);
+    folder.write("convergence.csv", convergence);
+    const auto json = run_json(rendering, warnings, folder.path().string(), rendering.seconds + watch.seconds());
+    const ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
+    folder.write("index.html", explorer_page({&explored}));
+    folder.write("run.json", json.dump(2) + "\n");
+    folder.commit();
+    return {warnings, json};
+}
+
+}  // namespace neumann

@@ -1,0 +1,50 @@
+#include "operators/methods/bounces.h"
+
+#include "core/base/error.h"
+#include "operators/methods/render_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+// Until the rest is below this part of the sum.
+constexpr double default_tail = 0.01;
+// At least the last of the sums that strip-doubling shows.
+constexpr int default_least_bounces = 16, default_most_bounces = 64;
+
+int bounces_for(double tail, const Pilot& pilot) {
+    if (!pilot.converges())
+        throw RunError(fmt::format(
+            "--tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the bounces with -n",
+            tail, pilot.given_up(), pilot.walks(), Pilot::bounces + Pilot::give_up));
+    const int n = pilot.bounces_for_tail(tail);
+    if (n < 0)
+        throw RunError(
+            fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", tail, Pilot::bounces));
+    return n;
+}
+
+}  // namespace
+
+int default_bounces(const Pilot& pilot) {
+    const int n = pilot.converges() ? pilot.bounces_for_tail(default_tail) : -1;
+    const int enough = n < 0 ? default_least_bounces : std::clamp(n, default_least_bounces, default_most_bounces);
+    const int end = pilot.bounces_for_tail(0.0);
+    return end < 0 ? enough : std::min(enough, end);
+}
+
+int choose_bounces(const RenderJob& job) {
+    const Goal& goal = job.goal;
+    const int bounces = goal.bounces        ? *goal.bounces
+                        : goal.tail         ? bounces_for(*goal.tail, job.pilot())
+                        : job.scene.bounces ? *job.scene.bounces
+                                            : default_bounces(job.pilot());
+    job.watch.chosen(bounces);
+    return bounces;
+}
+
+}  // namespace neumann

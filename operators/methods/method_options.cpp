@@ -1,0 +1,349 @@
+#include "operators/methods/method_options.h"
+
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+namespace neumann {
+
+namespace {
+
+using Kind = MethodOption::Kind;
+
+const std::vector<Method>& all_methods() {
+    static const std::vector<Method> all{method::Walk{},          method::Guided{},  method::Surface{},   method::Light{},
+                                         method::Bidirectional{}, method::Classic{}, method::Pointwise{}, method::Matrix{},
+                                         method::Gather{},        method::Patches{}};
+    return all;
+}
+
+std::string not_in(const std::string& text, const std::vector<std::string>& names) {
+    return fmt::format("{} not in {{{}}}", text, fmt::join(names, ","));
+}
+
+// Values by name.
+template <class Value>
+using Named = std::vector<std::pair<std::string, Value>>;
+
+template <class Value>
+std::vector<std::string> names(const Named<Value>& all) {
+    std::vector<std::string> found;
+    for (const auto& [name, value] : all) found.push_back(name);
+    return found;
+}
+
+template <class Value>
+std::optional<Value> value(const Named<Value>& all, const std::string& name) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.first == name; });
+    return found == all.end() ? std::nullopt : std::optional(found->second);
+}
+
+template <class Value>
+std::string name(const Named<Value>& all, const Value& value) {
+    return std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.second == value; })->first;
+}
+
+// How lights are found, whichever of them are asked.
+struct Strategy {
+    DirectLight direct = DirectLight::mis;
+    LightPlace place = LightPlace::area;
+    Heuristic heuristic = Heuristic::power;
+    bool operator==(const Strategy&) const = default;
+};
+const Named<Strategy> strategies{{"hemisphere", {DirectLight::hemisphere}},
+                                 {"cosine", {DirectLight::cosine}},
+                                 {"bsdf", {DirectLight::bsdf}},
+                                 {"surfaces", {DirectLight::surfaces}},
+                                 {"light", {DirectLight::light}},
+                                 {"solid-angle", {DirectLight::light, LightPlace::solid_angle}},
+                                 {"mis", {}},
+                                 {"mis-balance", {.heuristic = Heuristic::balance}},
+                                 {"mis-solid-angle", {.place = LightPlace::solid_angle}}};
+Strategy strategy(const DirectLightSettings& direct) { return {direct.direct, direct.place, direct.heuristic}; }
+bool asks_lights(const DirectLightSettings& s) { return s.direct == DirectLight::light || s.direct == DirectLight::mis; }
+
+const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed},
+                                       {"uniform", LightChoice::uniform},
+                                       {"power", LightChoice::power},
+                                       {"contribution", LightChoice::contribution},
+                                       {"all", LightChoice::all}};
+const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
+const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
+
+template <class Number>
+std::optional<Number> number(const std::string& text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<Roulette> read_roulette(const std::string& text) {
+    if (text == "none") return Roulette{};
+    if (text == "albedo") return Roulette{Roulette::Kind::albedo};
+    if (text == "throughput") return Roulette{Roulette::Kind::throughput};
+    const auto survival = number<double>(text);
+    return survival && *survival > 0.0 && *survival <= 1.0 ? std::optional(Roulette{Roulette::Kind::fixed, *survival})
+                                                           : std::nullopt;
+}
+
+std::string print_roulette(const Roulette& roulette) {
+    switch (roulette.kind) {
+        case Roulette::Kind::none:
+            return "none";
+        case Roulette::Kind::fixed:
+            return fmt::format("{}", roulette.survival);
+        case Roulette::Kind::albedo:
+            return "albedo";
+        case Roulette::Kind::throughput:
+            return "throughput";
+    }
+    return "";
+}
+
+std::optional<Split> read_split(const std::string& text) {
+    constexpr int most = 4096;
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) return std::nullopt;
+    const auto lights = number<int>(text.substr(0, comma)), walks = number<int>(text.substr(comma + 1));
+    const auto in_range = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= most; };
+    return in_range(lights) && in_range(walks) ? std::optional(Split{*lights, *walks}) : std::nullopt;
+}
+
+// Of an option: `get` gives its value in a method that has it, and is not to be called with others; `set` puts one there. `read`
+// gives nothing where a text is wrong.
+template <class Get, class Set, class Read, class Print>
+MethodOption option(Kind kind, std::string name, std::string type, std::string help, Get get, Set set, Read read, Print print,
+                    std::string expected) {
+    MethodOption o;
+    o.kind = kind;
+    o.name = std::move(name);
+    o.type = std::move(type);
+    o.help = std::move(help);
+    o.wrong = [=](const std::string& text) { return read(text) ? "" : fmt::format("'{}' is not {}", text, expected); };
+    o.belongs_to = [](const Method& method) {
+        return std::visit([]<class M>(const M&) { return std::is_invocable_v<Get, const M&>; }, method);
+    };
+    o.read = [=](Method& method, const std::string& text) {
+        std::visit(
+            [&]<class M>(M& m) {
+                if constexpr (std::is_invocable_v<Get, const M&>) set(m, *read(text));
+            },
+            method);
+    };
+    o.text = [=](const Method& method) {
+        return std::visit(
+            [&]<class M>(const M& m) -> std::string {
+                if constexpr (std::is_invocable_v<Get, const M&>)
+                    return print(get(m));
+                else
+                    return "";
+            },
+            method);
+    };
+    return o;
+}
+
+template <class Value, class Get, class Set>
+MethodOption choice(std::string option_name, std::string type, std::string help, const Named<Value>& all, Get get, Set set) {
+    MethodOption o = option(
+        Kind::text, std::move(option_name), std::move(type), std::move(help), get, set,
+        [&all](const std::string& text) { return value(all, text); },
+        [&all](const std::optional<Value>& v) { return v ? name(all, *v) : ""; }, "");
+    o.wrong = [&all](const std::string& text) { return value(all, text) ? "" : not_in(text, names(all)); };
+    return o;
+}
+
+template <class Number, class Get, class Set>
+MethodOption whole(std::string name, std::string type, std::string help, std::uint64_t low, std::uint64_t high, Get get, Set set) {
+    return option(
+        Kind::number, std::move(name), std::move(type), std::move(help), get, set,
+        [=](const std::string& text) -> std::optional<Number> {
+            const auto n = number<std::uint64_t>(text);
+            return n && *n >= low && *n <= high ? std::optional(static_cast<Number>(*n)) : std::nullopt;
+        },
+        [](const std::optional<Number>& n) { return n ? fmt::format("{}", *n) : std::string(); },
+        fmt::format("a whole number from {} to {}", low, high));
+}
+
+// A method has an option if it has a member for it.
+std::vector<MethodOption> make_options() {
+    return {
+        choice(
+            "direct", "HOW",
+            "How a walk finds lights. By directions: hemisphere (uniform), cosine, bsdf (of the material). By points: surfaces "
+            "(all "
+            "of them), light (on lights), solid-angle (on lights, uniform as seen). Both: mis (bsdf and light by the power "
+            "heuristic, the default), mis-balance, mis-solid-angle",
+            strategies, [](const auto& m) requires requires { m.direct; } { return strategy(m.direct); },
+            [](auto& m, const Strategy& s) {
+                m.direct = {s.direct, m.direct.lights, s.place, s.heuristic};
+            }),
+        choice(
+            "lights", "WHICH",
+            "Which light is asked: mixed (half by power, half alike, the default), uniform, power, contribution (radiance times "
+            "solid angle), all (each in turn)",
+            light_choices, [](const auto& m) requires requires { m.direct; } {
+                return asks_lights(m.direct) ? std::optional(m.direct.lights) : std::nullopt;
+            },
+            [](auto& m, LightChoice c) { m.direct.lights = c; }),
+        option(
+            Kind::text, "roulette", "HOW",
+            "How walks end: none (not before the last picture, the default), albedo (by what the last reflection left of the "
+            "weight), throughput (by what all of them left), or a probability of going on, such as 0.9",
+            [](const auto& m) requires requires { m.roulette; } { return m.roulette; },
+            [](auto& m, const Roulette& r) { m.roulette = r; }, read_roulette, print_roulette,
+            "none, albedo, throughput or a number above 0 and at most 1"),
+        option(
+            Kind::text, "split", "L,C",
+            "At the first surface point of each camera ray, ask L times for light and let C walks go on; 1,1 without it",
+            [](const auto& m) requires requires { m.split; } { return m.split; }, [](auto& m, const Split& s) { m.split = s; },
+            read_split, [](const Split& s) { return fmt::format("{},{}", s.lights, s.walks); },
+            "two whole numbers from 1 to 4096 with a comma between, such as 8,8"),
+        choice(
+            "sampler", "NAME",
+            "Random numbers of the methods that make paths: sobol (scrambled Sobol' points) or independent; the scene's without it",
+            samplers, [](const auto& m) requires requires { m.sampler; } { return m.sampler; },
+            [](auto& m, SamplerKind s) { m.sampler = s; }),
+        choice(
+            "plan", "NAME",
+            "Of the methods that make paths: auto, and what the scene does not need is left out, as `neumann plan` tells (the "
+            "default); full, and nothing is left out",
+            plans, [](const auto& m) requires requires { m.plan; } { return m.plan; },
+            [](auto& m, method::LeavingOut p) { m.plan = p; }),
+        whole<std::size_t>(
+            "patches", "N", "Patches of guided, patches, matrix and gather; about as many", 0, std::uint64_t{1} << 40,
+            [](const auto& m) requires requires { m.patches; } { return m.patches; },
+            [](auto& m, std::size_t n) { m.patches = n; }),
+        whole<std::uint32_t>(
+            "directions", "N", "Rays of a patch, of guided, patches, matrix and gather", 1, 1u << 20,
+            [](const auto& m) requires requires { m.directions; } { return m.directions; },
+            [](auto& m, std::uint32_t n) { m.directions = n; }),
+        whole<int>(
+            "ways", "BOUNCE",
+            "Of bidirectional: pictures of every way (s, t) to make this bounce, s vertices from the light and t from the camera, "
+            "weighted and by itself",
+            1, 1000, [](const auto& m) requires requires { m.ways; } { return m.ways; }, [](auto& m, int n) { m.ways = n; }),
+        option(
+            Kind::flag, "importance", "",
+            "Of patches: pictures of K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows with the "
+            "radiance given off at each point, per area and projected solid angle (m⁻²·sr⁻¹), mean over directions",
+            [](const auto& m) requires requires { m.importance; } { return m.importance; },
+            [](auto& m, bool on) { m.importance = on; },
+            [](const std::string& text) {
+                return text == "true" || text == "false" ? std::optional(text == "true") : std::nullopt;
+            },
+            [](bool on) { return on ? "true" : ""; }, "true or false")};
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    if (names.size() == 1) return names.front();
+    return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
+// Options that exclude each other. `lights`: which of them are asked was given.
+void expect_sense(const method::Walk& walk, bool lights) {
+    if (lights && !asks_lights(walk.direct))
+        throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
+                                     name(strategies, strategy(walk.direct))));
+}
+void expect_sense(const method::Bidirectional& both, bool) {
+    if (both.direct.direct != DirectLight::mis)
+        throw InputError(
+            fmt::format("--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or "
+                        "mis-solid-angle, not {}",
+                        name(strategies, strategy(both.direct))));
+    if (both.direct.lights == LightChoice::all)
+        throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
+}
+void expect_sense(const auto&, bool) {}
+
+}  // namespace
+
+std::span<const MethodOption> method_options() {
+    static const std::vector<MethodOption> all = make_options();
+    return all;
+}
+
+std::vector<std::string> method_names() {
+    std::vector<std::string> names;
+    for (const Method& method : all_methods()) names.push_back(name_of(method));
+    return names;
+}
+
+const std::string& method_help() {
+    static const std::string text =
+        "walk: one walk for all bounces, the default; guided: the same with directions drawn by the fields of a matrix solution; "
+        "surface: the same by points on all surfaces; light: from the lights to the camera; bidirectional: from both ends, joined "
+        "everywhere; classic: by mirrors and glass alone, some of all paths; pointwise: each bounce by itself, slow and plain; "
+        "matrix: T and R on patches, fast; gather: the same with K once more at the pixel; patches: the patches as they are";
+    return text;
+}
+
+std::string name_of(const DirectLightSettings& direct) { return name(strategies, strategy(direct)); }
+
+Method make_method(const MethodText& text) {
+    const auto is_it = [&](const Method& method) { return name_of(method) == text.name; };
+    const auto found = std::find_if(all_methods().begin(), all_methods().end(), is_it);
+    if (found == all_methods().end()) throw InputError("--method: " + not_in(text.name, method_names()));
+    Method method = *found;
+    bool lights = false;
+    for (const auto& [name, value] : text.options) {
+        const auto all = method_options();
+        const auto o =
+            std::find_if(all.begin(), all.end(), [&, &n = name](const MethodOption& option) { return option.name == n; });
+        if (o == all.end())
+            throw InputError(fmt::format("'{}' is not an option of a method, such as direct, lights or roulette", name));
+        if (!o->belongs_to(method)) {
+            std::vector<std::string> owners;
+            for (const Method& m : all_methods())
+                if (o->belongs_to(m)) owners.push_back(name_of(m));
+            throw InputError(fmt::format("--{} belongs to --method {}, not to {}", name, listed(owners), text.name));
+        }
+        if (const std::string wrong = o->wrong(value); !wrong.empty()) throw InputError(fmt::format("--{}: {}", name, wrong));
+        o->read(method, value);
+        lights = lights || name == "lights";
+    }
+    std::visit([&](const auto& m) { expect_sense(m, lights); }, method);
+    return method;
+}
+
+Method read_method(const std::string& word) {
+    MethodText text;
+    std::istringstream parts(word);
+    std::string part;
+    std::getline(parts, text.name, ':');
+    while (std::getline(parts, part, ':')) {
+        const std::size_t equals = part.find('=');
+        if (equals == std::string::npos)
+            throw InputError(fmt::format("{}: '{}' is no option, expected NAME=VALUE as in direct=bsdf", word, part));
+        text.options.emplace_back(part.substr(0, equals), part.substr(equals + 1));
+    }
+    try {
+        return make_method(text);
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", word, e.what()));
+    }
+}
+
+MethodText text_of(const Method& method) {
+    MethodText text{name_of(method)};
+    for (const MethodOption& o : method_options())
+        if (const std::string value = o.text(method); !value.empty()) text.options.emplace_back(o.name, value);
+    return text;
+}
+
+MethodText differences_of(const Method& method) {
+    const MethodText usual = text_of(make_method({name_of(method), {}}));
+    MethodText text = text_of(method);
+    std::erase_if(text.options, [&](const auto& option) {
+        return std::find(usual.options.begin(), usual.options.end(), option) != usual.options.end();
+    });
+    return text;
+}
+
+}  // namespace neumann

@@ -1,0 +1,42 @@
+#include "operators/methods/render.h"
+
+#include "core/base/error.h"
+#include "operators/methods/method_plan.h"
+#include "operators/methods/render_job.h"
+
+namespace neumann {
+
+namespace {
+
+DirectLightSettings direct_of_pilot(const Method& method) {
+    return std::visit(
+        [](const auto& m) {
+            if constexpr (requires { m.direct; })
+                return m.direct;
+            else
+                return DirectLightSettings{};
+        },
+        method);
+}
+
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const PilotOnDemand& pilot) {
+    Plan plan = plan_for(method, scene);
+    const std::optional<Scene> reduced = without_unlit_materials(plan, scene);
+    const RenderJob job{reduced ? *reduced : scene, plan, goal, watch, pilot};
+    BounceSeries series = has_fields(method) ? render_by_fields(method, job) : render_by_paths(method, job);
+    series.seed = goal.seed;
+    series.plan = std::move(plan);
+    return series;
+}
+
+}  // namespace
+
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
+    return render(scene, method, goal, watch, PilotOnDemand(scene, direct_of_pilot(method), goal.seed));
+}
+
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot) {
+    return render(scene, method, goal, watch, PilotOnDemand(pilot));
+}
+
+}  // namespace neumann

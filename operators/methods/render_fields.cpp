@@ -1,0 +1,160 @@
+// Renders from fields on patches.
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/scene/shading_normals.h"
+#include "operators/methods/render_job.h"
+#include "operators/pictures/field_goal.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace neumann {
+
+namespace {
+
+// Of a replicate, with patches or directions given and no samples: about what default_error takes.
+constexpr std::uint32_t default_samples = 16;
+// Means that are known less well than to this part are told of.
+constexpr double wide_interval = 0.1;
+// Of a facet, where directions are given: as many as rays of T, in between. So do renders that choose their settings by
+// themselves, which is why theirs can be repeated.
+constexpr std::uint32_t fewest_light_samples = 16, most_light_samples = 64;
+
+template <class M>
+FieldMethod kind(const M& m) {
+    if constexpr (std::same_as<M, method::Matrix>) return FieldMethod::matrix;
+    if constexpr (std::same_as<M, method::Gather>) return FieldMethod::gather;
+    if constexpr (std::same_as<M, method::Patches>) return m.importance ? FieldMethod::importance : FieldMethod::patches;
+}
+
+// Of all replicates; in each, at least one, and a power of two.
+std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
+    return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(all / replicates, 1, 1u << 20)));
+}
+
+bool is_given(const method::FieldOptions& options, const Goal& goal) {
+    return goal.samples || options.patches || options.directions;
+}
+
+template <HasFields M>
+FieldSettings choose_settings(const M& m, const RenderJob& job) {
+    const Goal& goal = job.goal;
+    FieldSettings settings;
+    settings.method = kind(m);
+    settings.bounces = choose_bounces(job);
+    settings.seed = goal.seed;
+    settings.rest = !goal.only_pictures;
+    if (settings.method == FieldMethod::gather) settings.gather_rays = 16;
+    if (goal.samples) {
+        while (settings.replicates > 2 && *goal.samples < settings.replicates) settings.replicates /= 2;
+        settings.samples = share(*goal.samples, settings.replicates);
+    } else if (m.patches || m.directions) {
+        settings.samples = default_samples;
+    }
+    if (m.patches) settings.patching.patches = *m.patches;
+    if (m.directions) {
+        settings.rays = share(*m.directions, settings.replicates);
+        settings.light_samples = std::clamp(settings.rays, fewest_light_samples, most_light_samples);
+    }
+    settings.memory = goal.memory.value_or(default_memory());
+    return settings;
+}
+
+void warn_of_wide_intervals(const SeriesReport& report, Warnings& warnings) {
+    std::vector<std::size_t> wide;
+    for (std::size_t i = 0; i < report.bounces.size(); ++i) {
+        const MeanWithError& m = report.bounces[i].mean;
+        if (m.interval() > wide_interval * std::abs(m.mean)) wide.push_back(i);
+    }
+    if (wide.empty()) return;
+    warnings.add(fmt::format("the mean's interval is wider than {:.0f}% of it in bounce {}; more samples (--spp) make it narrower",
+                             100.0 * wide_interval, fmt::join(wide, ", ")));
+}
+
+FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool given) {
+    FieldGoal chosen{goal.relative_error, goal.seconds, std::nullopt};
+    if (given) chosen.most = settings;
+    // Without any goal, what a short wait gives.
+    if (!chosen.relative_error && !chosen.seconds) chosen = {default_error, default_seconds, std::nullopt};
+    if (!chosen.seconds) chosen.seconds = longest_search;
+    return chosen;
+}
+
+template <HasFields M>
+BounceSeries render_by(M m, const RenderJob& job) {
+    const Goal& goal = job.goal;
+    const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldMethod::importance;
+    if (importance && goal.tail)
+        throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
+    const FieldSettings settings = choose_settings(m, job);
+    if (goal.relative_error && given)
+        throw InputError(
+            "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
+    auto rendered = given && !goal.seconds
+                        ? render_fields_once(job.scene, settings, job.watch.stop)
+                        : std::optional(render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given), job.watch));
+    if (!rendered) throw RunError("interrupted before the pictures were finished: nothing was written");
+    FieldRun& run = *rendered;
+    const auto pictures = std::make_shared<FieldPictures>(std::move(run.pictures));
+    if (job.watch.judge)
+        job.watch.judge([&](std::size_t i) { return pictures->term_mean(i); }, pictures->sum(pictures->bounces()).mean,
+                        run.convergence.back());
+
+    BounceSeries series;
+    series.term = [pictures](std::size_t i) { return pictures->term(i); };
+    series.sum = [pictures](std::size_t i) { return pictures->sum(i); };
+    series.means_of_term = [pictures](std::size_t i) { return pictures->means_of_term(i); };
+    series.means_of_sum = [pictures](std::size_t i) { return pictures->means_of_sum(i); };
+    if (pictures->rest_converges) {
+        series.rest = pictures->rest();
+        series.means_of_rest = pictures->means_of_rest();
+    }
+    series.report = report_series(job.scene, *pictures);
+    series.convergence = run.convergence;
+    series.outcome = run.outcome;
+    series.samples = pictures->samples;
+    series.rays = run.convergence.back().rays;
+    series.seconds = run.seconds;
+    series.setup_seconds = pictures->field_seconds;
+    series.degrees_of_freedom = run.settings.replicates - 1.0;
+
+    if (has_shading_normals(job.scene)) series.warnings.add(patches_are_flat);
+    warn_of_wide_intervals(series.report, series.warnings);
+    // Without an error to reach, to be out of time is no surprise.
+    const bool ended_early = run.outcome == Outcome::memory_reached || run.outcome == Outcome::does_not_pay;
+    if (!run.why.empty() && (goal.relative_error || ended_early)) series.warnings.add(run.why);
+
+    const std::uint64_t directions = std::uint64_t{run.settings.rays} * run.settings.replicates;
+    // With these and as many samples it is repeated.
+    if (!given || goal.seconds || m.patches) m.patches = run.settings.patching.patches;
+    if (!given || m.directions || run.settings.rays != settings.rays) m.directions = static_cast<std::uint32_t>(directions);
+    series.method = m;
+    FieldRecord record;
+    record.replicates = run.settings.replicates;
+    record.patches = pictures->patches;
+    record.unknowns = pictures->unknowns;
+    record.directions = directions;
+    if (run.settings.method == FieldMethod::gather) record.gather_rays = run.settings.gather_rays;
+    record.why = run.why;
+    if (!pictures->rest_converges) record.why_no_rest = "the terms do not fall, or too slowly to add them up";
+    record.power = pictures->power;
+    series.record = std::move(record);
+    return series;
+}
+}  // namespace
+
+BounceSeries render_by_fields(const Method& method, const RenderJob& job) {
+    return std::visit(
+        [&]<class M>(const M& m) -> BounceSeries {
+            if constexpr (HasFields<M>)
+                return render_by(m, job);
+            else
+                throw InputError(fmt::format("--method {} has no fields on patches", M::name));
+        },
+        method);
+}
+
+}  // namespace neumann

@@ -1,0 +1,46 @@
+// What the realisations of render() share.
+#pragma once
+
+#include "operators/methods/render.h"
+#include "operators/pictures/pilot.h"
+
+#include <optional>
+
+namespace neumann {
+
+// Made when it is first asked for: a render whose bounces and samples are given may need none.
+class PilotOnDemand {
+public:
+    PilotOnDemand(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed)
+        : scene_(&scene), direct_(direct), seed_(seed) {}
+    explicit PilotOnDemand(const Pilot& given) : given_(&given) {}
+
+    const Pilot& operator()() const {
+        if (given_) return *given_;
+        if (!made_) made_.emplace(*scene_, direct_, seed_);
+        return *made_;
+    }
+
+private:
+    const Scene* scene_ = nullptr;
+    DirectLightSettings direct_;
+    std::uint64_t seed_ = 0;
+    const Pilot* given_ = nullptr;
+    mutable std::optional<Pilot> made_;
+};
+
+struct RenderJob {
+    const Scene& scene;  // without what the plan leaves out
+    const Plan& plan;
+    const Goal& goal;
+    const Watch& watch;
+    const PilotOnDemand& pilot;
+};
+
+BounceSeries render_by_paths(const Method& method, const RenderJob& job);
+BounceSeries render_by_fields(const Method& method, const RenderJob& job);
+
+// The last bounce with a picture of its own; the watch is told. Throws RunError where a tail cannot be met.
+int choose_bounces(const RenderJob& job);
+
+}  // namespace neumann

@@ -1,0 +1,249 @@
+// Renders by sampling paths.
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/base/stopwatch.h"
+#include "operators/guide/direction_tables.h"
+#include "operators/methods/render_job.h"
+#include "operators/methods/sampling.h"
+#include "operators/pictures/least_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace neumann {
+
+namespace {
+
+// Left to sampling where the set-up has taken all of the time, seconds.
+constexpr double shortest_sampling = 1e-3;
+
+// Samples a pixel in one replicate: as many as still give several replicates.
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const PilotOnDemand& pilot, const Split& split) {
+    if (goal.samples) return replicate_size(*goal.samples);
+    if (!goal.seconds) return largest_replicate;
+    const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
+                 seconds = pilot().seconds_per_walk() * std::max(split.lights, split.walks),
+                 affordable = *goal.seconds / (pixels * seconds);
+    return std::bit_floor(
+        static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
+}
+
+// What the moments of all pictures need at most: refused before the machine starts to swap.
+void check_memory(const Goal& goal, const Film& film, int bounces) {
+    const double nodes = 7.0;  // of the tree of replicates, at most, with the result and the samples' ranges
+    const double bytes =
+        nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
+    // All of it is known beforehand, so that it may be more than what grows by itself takes.
+    const double memory = goal.memory.value_or(0.8 * usable_memory());
+    if (bytes > memory)
+        throw InputError(
+            fmt::format("{} bounces of {}×{} pixels need about {:.1f} GiB, and {:.1f} may be taken; take fewer bounces or a "
+                        "smaller film",
+                        bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
+}
+
+std::vector<std::pair<double, FurnaceWalk>> furnaces(const Roulette& roulette, double largest_albedo, int bounces) {
+    std::vector<std::pair<double, FurnaceWalk>> all;
+    for (const double albedo : {largest_albedo, 0.9, 0.99, 0.999})
+        all.emplace_back(albedo, furnace_walk(roulette, albedo, bounces));
+    return all;
+}
+
+SamplingGoal sampling_goal(const Goal& goal) {
+    if (!goal.samples && !goal.seconds && !goal.relative_error) return {std::nullopt, default_seconds, default_error};
+    return {goal.samples, goal.seconds, goal.relative_error};
+}
+
+RestVerdict rest_verdict(PathMethod method, const RenderJob& job) {
+    if (method == PathMethod::pointwise || job.goal.only_pictures) return RestVerdict::not_sampled;
+    return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
+}
+
+BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
+                           const std::shared_ptr<const LeastErrors>& least, SeriesReport report) {
+    BounceSeries out;
+    out.term = [result, least](std::size_t i) {
+        PixelEstimate term = result->term(i);
+        if (least) term.least_error = least->of_term(i);
+        return term;
+    };
+    out.sum = [result, least](std::size_t i) {
+        PixelEstimate sum = result->sum(i);
+        if (least) sum.least_error = least->of_sum(i);
+        return sum;
+    };
+    out.means_of_term = [result](std::size_t i) { return result->means_of_term(i); };
+    out.means_of_sum = [result](std::size_t i) { return result->means_of_sum(i); };
+    if (report.rest_verdict == RestVerdict::measured) {
+        out.rest = out.term(result->quantities() - 1);
+        out.means_of_rest = result->means_of_term(result->quantities() - 1);
+    }
+    out.report = std::move(report);
+    out.convergence = series.convergence;
+    out.outcome = series.outcome;
+    out.samples = series.samples;
+    out.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
+    out.seconds = series.seconds;
+    out.degrees_of_freedom = result->degrees_of_freedom();
+    return out;
+}
+
+// What is to be known of a series: what its paths miss, what its samples cannot tell, what was not reached.
+void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& settings, const RenderedSeries& sampled,
+          double albedo) {
+    const Scene& scene = job.scene;
+    const Goal& goal = job.goal;
+    Warnings& warnings = series.warnings;
+    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.method != PathMethod::light)
+        warnings.add(settings.method == PathMethod::bidirectional
+                         ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
+                         : "what a mirror throws on from a light without extent is not found by the walk and is missing");
+    if (series.paths == Paths::seen_directly)
+        warnings.add(
+            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else "
+            "that "
+            "sends light in a single direction, and does not see what surrounds the scene: these are missing");
+    if (series.paths == Paths::specular)
+        warnings.add(
+            "--method classic makes only paths whose reflections are specular but for the last one: the light of all other "
+            "paths is missing");
+    if (series.paths == Paths::without_specular)
+        warnings.add(
+            "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
+            "direction: what these reflect and let through is missing");
+    if (settings.method == PathMethod::surface)
+        warnings.add(
+            "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
+    if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
+        warnings.add(
+            fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
+                        "largest here is {:.3g}",
+                        settings.walk.roulette.survival, std::sqrt(settings.walk.roulette.survival), albedo));
+    if (sampled.moments.replicates() < 2 && !goal.only_pictures)
+        warnings.add("a single replicate was sampled: the standard errors are unknown");
+    warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up),
+                 sampled.tally.given_up);
+    if (series.report.infinite_variance()) warnings.add("the variance of some bounces is infinite: their intervals do not hold");
+    if (series.report.rare_large_samples())
+        warnings.add(
+            "the largest samples of some bounces are rare and make much of what is there: their intervals may be too short");
+    if (goal.relative_error && series.outcome == Outcome::time_reached) {
+        const auto& errors = series.convergence.back().term_error;
+        const auto worst = std::max_element(errors.begin(), errors.end());
+        warnings.add(fmt::format("an error of {:g} was not reached in {:.0f} s: the largest is {:.2g}, in bounce {}",
+                                 *goal.relative_error, series.seconds, *worst, worst - errors.begin()));
+    }
+}
+
+// A last bounce until the rest is as small as asked for: the pilot chose it, the render judges it.
+struct Sampled {
+    RenderedSeries series;
+    SeriesReport report;
+};
+Sampled sample(SamplingSettings& settings, const SamplingGoal& goal, RestVerdict verdict, const RenderJob& job) {
+    for (;;) {
+        const int N = settings.walk.bounces;
+        check_memory(job.goal, job.scene.film, N);
+        settings.walk.rest_probability =
+            verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
+        Watch watch = job.watch;
+        watch.checkpoints = watch.checkpoints && !job.goal.only_pictures;
+        RenderedSeries series = render_series(job.scene, settings, goal, watch);
+        SeriesReport report = report_series(job.scene, series, verdict);
+        const double tail = job.goal.tail.value_or(0.0);
+        if (!job.goal.tail || job.goal.bounces || watch.stop() || verdict != RestVerdict::measured ||
+            report.tail_fraction() <= tail)
+            return {std::move(series), std::move(report)};
+        settings.walk.bounces += std::max(1, N / 4);
+        watch.tell(fmt::format("The rest is {:.3g} of the sum, more than {}: once more with {} bounces", report.tail_fraction(),
+                               tail, settings.walk.bounces));
+        watch.chosen(settings.walk.bounces);
+    }
+}
+
+// With what was left open.
+Method as_it_ran(Method method, const SamplingSettings& settings) {
+    std::visit(
+        [&]<class M>(M& m) {
+            if constexpr (MakesPaths<M>) m.sampler = settings.sampler;
+            if constexpr (std::same_as<M, method::Guided>) {
+                m.patches = settings.tables->settings().patches;
+                m.directions = settings.tables->settings().rays;
+            }
+        },
+        method);
+    return method;
+}
+
+}  // namespace
+
+BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
+    const Scene& scene = job.scene;
+    const Goal& goal = job.goal;
+    SamplingSettings settings = sampling_settings(method, scene, job.plan, goal.seed);
+    settings.walk.bounces = choose_bounces(job);
+
+    SamplingGoal to_reach = sampling_goal(goal);
+    double setup_seconds = 0.0;
+    if (const auto* guided = std::get_if<method::Guided>(&method)) {
+        const Stopwatch clock;
+        settings.tables =
+            direction_tables(*guided, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()));
+        setup_seconds = clock.seconds();
+        // Of the time that was asked for.
+        if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
+    }
+    settings.replicate_size = choose_replicate_size(to_reach, scene.film, job.pilot, settings.walk.split);
+    if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
+
+    const Paths paths = paths_of(settings.method, scene);
+    const RestVerdict verdict = rest_verdict(settings.method, job);
+    auto [sampled, report] = sample(settings, to_reach, verdict, job);
+    if (paths != Paths::all) report_missing(report, job.pilot());
+
+    const auto moments = std::make_shared<const SeriesMoments::Result>(sampled.moments.result());
+    std::shared_ptr<const LeastErrors> least;
+    if (!goal.only_pictures) {
+        least = std::make_shared<const LeastErrors>(scene, settings, sampled, *moments);
+        report_unmet(report, *least);
+    }
+    BounceSeries series = bounce_series(sampled, moments, least, std::move(report));
+    series.paths = paths;
+    series.method = as_it_ran(method, settings);
+    const double albedo = max_component(scene.materials.largest_basic_albedo());
+    warn(series, job, settings, sampled, albedo);
+
+    if (const auto* both = std::get_if<method::Bidirectional>(&method); both && both->ways) {
+        check_memory(goal, scene.film, 2 * *both->ways + 2);
+        series.ways = render_ways(scene, settings, *both->ways, sampled.samples, {job.watch.stop, job.watch.progress});
+    }
+    if (settings.tables) {
+        series.setup_seconds = setup_seconds;
+        series.seconds += setup_seconds;
+        series.rays += settings.tables->rays();
+        for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
+    }
+
+    PathRecord record;
+    record.replicate_size = sampled.replicate_size;
+    record.replicates = sampled.moments.replicates();
+    record.walks_given_up = sampled.tally.given_up;
+    if (verdict == RestVerdict::measured) record.rest_probability = settings.walk.rest_probability;
+    if (verdict == RestVerdict::not_converging)
+        record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
+                                         job.pilot().walks(), Pilot::bounces + Pilot::give_up);
+    if (settings.method == PathMethod::walk) record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
+    if (goal.only_pictures) {
+        series.warnings.add("sample was not a finite number and was left out", sampled.tally.non_finite_samples());
+    } else {
+        settings.replicate_size = sampled.replicate_size;  // smaller where it was stopped early
+        record.health = examine(scene, settings, sampled, *moments);
+    }
+    series.record = std::move(record);
+    return series;
+}
+
+}  // namespace neumann

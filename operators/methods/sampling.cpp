@@ -1,0 +1,84 @@
+#include "operators/methods/sampling.h"
+
+#include "core/base/error.h"
+#include "operators/guide/direction_tables.h"
+#include "operators/methods/method_options.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+namespace neumann {
+
+namespace {
+
+template <class M>
+PathMethod kind() {
+    if constexpr (std::same_as<M, method::Walk>) return PathMethod::walk;
+    if constexpr (std::same_as<M, method::Guided>) return PathMethod::guided;
+    if constexpr (std::same_as<M, method::Surface>) return PathMethod::surface;
+    if constexpr (std::same_as<M, method::Light>) return PathMethod::light;
+    if constexpr (std::same_as<M, method::Bidirectional>) return PathMethod::bidirectional;
+    if constexpr (std::same_as<M, method::Classic>) return PathMethod::classic;
+    return PathMethod::pointwise;
+}
+
+void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters) {
+    if (misses_light(direct.direct, emitters))
+        throw InputError(fmt::format("--direct {} cannot find {}, of which the scene has some; take --direct mis or light",
+                                     name_of(direct),
+                                     emitters.has_delta_lights() ? "lights without extent (directional, point, projector, spot)"
+                                                                 : "light from infinitely far away (constant, envmap)"));
+}
+
+template <MakesPaths M>
+SamplingSettings settings_of(const M& m, const Scene& scene) {
+    SamplingSettings settings;
+    settings.method = kind<M>();
+    if (settings.method == PathMethod::pointwise && scene.emitters.has_delta_lights())
+        throw InputError(
+            "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+            "spot), of which the scene has some; take --method walk, matrix or gather");
+    if (scene.hide_emitters && splats(settings.method))
+        throw InputError(
+            fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk", M::name));
+    if constexpr (requires { m.direct; }) {
+        expect_in_reach(m.direct, scene.emitters);
+        settings.walk.direct = m.direct;
+    }
+    // Neither finds lights by directions of its own, but in mirrors.
+    if (settings.method == PathMethod::surface || settings.method == PathMethod::classic)
+        settings.walk.direct = {.direct = DirectLight::light};
+    if constexpr (requires { m.roulette; }) settings.walk.roulette = m.roulette;
+    if constexpr (requires { m.split; }) settings.walk.split = m.split;
+    settings.sampler = m.sampler.value_or(scene.sampler.value_or(SamplerKind::sobol));
+    return settings;
+}
+template <HasFields M>
+SamplingSettings settings_of(const M&, const Scene&) {
+    throw InputError(fmt::format("--method {} has no samples of paths: its bounces are read from fields on patches", M::name));
+}
+
+}  // namespace
+
+SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed) {
+    SamplingSettings settings = std::visit([&](const auto& m) { return settings_of(m, scene); }, method);
+    settings.walk.left_out = plan.walk;
+    settings.seed = seed;
+    return settings;
+}
+
+std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& guided, const Scene& scene, int bounces,
+                                                        std::uint64_t seed, double memory) {
+    GuideSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
+    if (guided.patches) settings.patches = *guided.patches;
+    if (guided.directions) {
+        settings.rays = *guided.directions;
+        if (!std::has_single_bit(settings.rays) || settings.rays < CellDistribution::cells)
+            throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
+                                         CellDistribution::cells));
+    }
+    return std::make_shared<const DirectionTables>(scene, settings);
+}
+
+}  // namespace neumann

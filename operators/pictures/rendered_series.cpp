@@ -1,0 +1,119 @@
+#include "operators/pictures/rendered_series.h"
+
+#include "core/base/stopwatch.h"
+#include "operators/pictures/bounded_samples.h"
+#include "operators/statistics/picture_statistics.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <thread>
+
+namespace neumann {
+
+namespace {
+
+// An interrupted render goes on to a number of samples that can be repeated, and to the end of its first replicate, only if it has
+// not run for longer, seconds.
+constexpr double patience = 3.0;
+
+Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
+    Checkpoint checkpoint;
+    checkpoint.samples = series.samples;
+    checkpoint.seconds = series.seconds;
+    checkpoint.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
+    const auto result = series.moments.result();
+    const std::size_t terms = result.quantities() - 1;
+    for (std::size_t i = 0; i < terms; ++i) checkpoint.term_error.push_back(relative_standard_error(result.term(i)));
+    checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
+    if (watch.judge) watch.judge([&](std::size_t i) { return result.term(i).mean; }, result.sum(terms - 1).mean, checkpoint);
+    return checkpoint;
+}
+
+}  // namespace
+
+std::uint32_t replicate_size(std::uint64_t samples) {
+    std::uint32_t size = largest_replicate;
+    while (size > 1 && (samples % size != 0 || samples / size < fewest_replicates)) size /= 2;
+    return size;
+}
+
+RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
+                             const Watch& watch) {
+    const PictureSampler sampler(scene, settings);
+    const std::uint64_t size = settings.replicate_size;
+    const auto pixels = static_cast<double>(sampler.width()) * sampler.height();
+    RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
+    series.replicate_size = settings.replicate_size;
+    series.samples_are_bounded = samples_are_bounded(scene, settings);
+    const Stopwatch clock;
+
+    const auto report = [&](double replicates_done) {
+        const double seconds = clock.seconds();
+        RenderProgress progress{settings.walk.bounces, series.samples, seconds, 0.0, std::nullopt};
+        const double samples = replicates_done * static_cast<double>(size);
+        if (goal.samples) progress.fraction = samples / static_cast<double>(*goal.samples);
+        if (goal.seconds) progress.fraction = std::max(progress.fraction, seconds / *goal.seconds);
+        if (progress.fraction > 0.0) progress.seconds_left = std::max(seconds / progress.fraction - seconds, 0.0);
+        watch.progress(progress);
+    };
+
+    // Whether --spp finds the same replicates again.
+    const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
+    std::vector<double> memory;
+    bool error_reached = false;
+    for (std::uint64_t done = 0;;) {
+        // Blocks of at most a sixteenth of what is done: few nodes are kept, and little is lost when one is dropped.
+        std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
+        if (goal.samples)
+            while (block > 1 && (done + block) * size > *goal.samples) block /= 2;
+        if (goal.seconds && done > 0) {
+            const double each = clock.seconds() / static_cast<double>(done), left = *goal.seconds - clock.seconds();
+            while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
+            if (each > left && repeatable(done)) {
+                series.outcome = Outcome::time_reached;
+                break;
+            }
+        }
+
+        auto node = sampler.run(
+            done, block, series.tally,
+            [&](std::uint64_t pixels_done) {
+                report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
+                const bool may_drop = clock.seconds() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
+                return may_drop && watch.stop();
+            },
+            std::move(memory));
+        if (!node && done == 0) {
+            PictureSampler::Settings single = settings;
+            single.replicate_size = 1;
+            return render_series(scene, single, goal, watch);
+        }
+        if (!node) {
+            series.outcome = Outcome::interrupted;
+            break;
+        }
+        memory = series.moments.add(std::move(*node));
+        done += block;
+        series.samples = done * size;
+        series.seconds = clock.seconds();
+
+        const bool last = goal.samples && series.samples >= *goal.samples;
+        const bool stop = watch.stop() && (repeatable(done) || series.seconds > patience);
+        if (std::has_single_bit(series.samples) && !last && (watch.checkpoints || goal.relative_error)) {
+            series.convergence.push_back(make_checkpoint(series, watch));
+            const auto& errors = series.convergence.back().term_error;
+            if (goal.relative_error && done > 1 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error)
+                error_reached = true;
+        }
+        if (last || stop || (error_reached && repeatable(done))) {
+            series.outcome = last ? Outcome::samples_reached : stop ? Outcome::interrupted : Outcome::error_reached;
+            break;
+        }
+    }
+    if (series.convergence.empty() || series.convergence.back().samples != series.samples)
+        series.convergence.push_back(make_checkpoint(series, watch));
+    return series;
+}
+
+}  // namespace neumann

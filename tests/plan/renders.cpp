@@ -1,0 +1,82 @@
+// A render is a function: of the same scene, method and goal it is the same, and it leaves the scene as it was.
+#include "core/geometry/ray_caster.h"
+#include "operators/methods/method_options.h"
+#include "operators/methods/render.h"
+#include "tests/physics/seed.h"
+#include "tests/plan/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+
+namespace neumann::physics {
+namespace {
+
+Goal quick() {
+    Goal goal;
+    goal.bounces = 2;
+    goal.samples = 4;
+    goal.seed = fixed_seed;
+    goal.only_pictures = true;
+    return goal;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+    return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)) == 0;
+}
+
+// By every method, whatever the plan leaves out, twice.
+TEST(Renders, OneTreeServesAllAndNothingChanges) {
+    const Scene scene = room_from_behind();
+    const std::uint64_t trees = trees_built();
+    for (const std::string& name : method_names()) {
+        MethodText text{name};
+        if (has_fields(make_method(text)) || name == "guided") text.options.emplace_back("patches", "50");
+        const BounceSeries first = render(scene, make_method(text), quick()), second = render(scene, make_method(text), quick());
+        EXPECT_EQ(first.bounces(), 2);
+        for (std::size_t i = 0; i <= 2; ++i) EXPECT_TRUE(same_bits(first.term(i).mean, second.term(i).mean)) << name << " " << i;
+        EXPECT_TRUE(first.method == second.method) << name;
+    }
+    EXPECT_EQ(trees_built(), trees);
+}
+
+// As it ran it is repeated: what was left open is in it.
+TEST(Renders, TheMethodOfAResultRepeatsIt) {
+    const Scene scene = room_from_behind();
+    Goal goal = quick();
+    goal.samples.reset();
+    goal.seconds = 0.3;
+    for (const Method& method : {Method(method::Walk{}), Method(method::Matrix{})}) {
+        const BounceSeries timed = render(scene, method, goal);
+        Goal again = quick();
+        again.samples = timed.samples;
+        const BounceSeries repeated = render(scene, timed.method, again);
+        for (std::size_t i = 0; i <= 2; ++i)
+            EXPECT_TRUE(same_bits(timed.term(i).mean, repeated.term(i).mean)) << name_of(method) << " " << i;
+    }
+}
+
+TEST(Renders, AWatchIsToldTheBouncesFirstAndStopsIt) {
+    const Scene scene = room_from_behind();
+    Goal goal = quick();
+    goal.samples = 1 << 20;
+    Watch watch;
+    int chosen = -1;
+    std::atomic<int> bounces_of_progress = -1;
+    std::atomic<bool> stop = false;
+    watch.chosen = [&](int n) { chosen = n; };
+    watch.progress = [&](const RenderProgress& p) {
+        EXPECT_EQ(chosen, 2);
+        bounces_of_progress = p.bounces;
+        stop = true;
+    };
+    watch.stop = [&] { return stop.load(); };
+    const BounceSeries series = render(scene, method::Walk{}, goal, watch);
+    EXPECT_EQ(series.outcome, Outcome::interrupted);
+    EXPECT_LT(series.samples, *goal.samples);
+    EXPECT_EQ(bounces_of_progress, 2);
+}
+
+}  // namespace
+}  // namespace neumann::physics
