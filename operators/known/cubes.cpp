@@ -59,8 +59,8 @@ void add_walks(Cases& cases) {
                                           4.0 * g[i][wall_mean] + g[i][floor_mean] + g[i][ceiling_mean], 1.0, 1e-8);
                      }});
     for (std::size_t column = 0; column < 6; ++column)
-        for (const Way way : {Way::mis, Way::bsdf, Way::pointwise}) {
-            const std::size_t bounces = way == Way::pointwise ? 2 : way == Way::bsdf ? 4 : 10;
+        for (const Technique way : {Technique::mis, Technique::bsdf, Technique::pointwise}) {
+            const std::size_t bounces = way == Technique::pointwise ? 2 : way == Technique::bsdf ? 4 : 10;
             cases.push_back({fmt::format("cube/ceiling-lit/{}/{}", column_names[column], short_name(way)),
                              "rho^i g_i: closed form, quadrature 1e-13, Galerkin 2.4e-8",
                              [=](Figures& figures, std::uint64_t seed) {
@@ -71,16 +71,16 @@ void add_walks(Cases& cases) {
                              }});
         }
     // By superposition: with one wall instead of the ceiling, g_i at the floor's centre is (1 − g_floor − g_ceiling)/4.
-    cases.push_back(
-        {"cube/wall-lit/floor-centre/mis", "superposition of the above", [](Figures& figures, std::uint64_t seed) {
-             const Scene scene = cube_lit_by(right);
-             std::vector<double> exact;
-             for (const auto& row : g)
-                 exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 *
-                                 (1.0 - row[floor_center] - row[ceiling_center]));
-             figures.terms(sharp_probe(scene, place(scene, floor_center), Way::mis, {.samples = 1024, .bounces = 10, .seed = seed}),
-                           exact, 1, accuracy);
-         }});
+    cases.push_back({"cube/wall-lit/floor-centre/mis", "superposition of the above", [](Figures& figures, std::uint64_t seed) {
+                         const Scene scene = cube_lit_by(right);
+                         std::vector<double> exact;
+                         for (const auto& row : g)
+                             exact.push_back(std::pow(rho, static_cast<double>(exact.size() + 1)) * 0.25 *
+                                             (1.0 - row[floor_center] - row[ceiling_center]));
+                         figures.terms(sharp_probe(scene, place(scene, floor_center), Technique::mis,
+                                                   {.samples = 1024, .bounces = 10, .seed = seed}),
+                                       exact, 1, accuracy);
+                     }});
     // Σ_{i>2} with ρ = 0.8: the table, then g_i = 1/6 to 1e-6.
     cases.push_back({"cube/ceiling-lit/floor-centre/rest", "the same added up: 1e-6", [](Figures& figures, std::uint64_t seed) {
                          const Scene scene = cube_lit_by(ceiling);
@@ -88,7 +88,7 @@ void add_walks(Cases& cases) {
                          for (std::size_t i = 2; i < 10; ++i)
                              exact += g[i][floor_center] * std::pow(rho, static_cast<double>(i + 1));
                          const Estimates found =
-                             sharp_probe(scene, place(scene, floor_center), Way::mis,
+                             sharp_probe(scene, place(scene, floor_center), Technique::mis,
                                          {.samples = 1024, .bounces = 2, .rest_probability = 1.0, .seed = seed});
                          figures.sampled("sum of K^i Le, i > 2", found.rest, exact, 1e-6);
                      }});

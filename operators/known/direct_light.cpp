@@ -19,7 +19,7 @@ struct Receiver {
 
 // By ways that look for the light, and by chance where that is not too rare.
 void add_point(Cases& cases, const std::string& name, const Shape& light, const Receiver& receiver, double F) {
-    for (const Way way : {Way::mis, Way::light, Way::bsdf, Way::pointwise, Way::surfaces}) {
+    for (const Technique way : {Technique::mis, Technique::light, Technique::bsdf, Technique::pointwise, Technique::surfaces}) {
         if (!looks_for_lights(way) && F < 0.1) continue;
         cases.push_back({fmt::format("direct-light/{}/{}", name, short_name(way)), "rho Le F: closed form",
                          [=](Figures& figures, std::uint64_t seed) {
@@ -72,8 +72,8 @@ void add_pairs(Cases& cases) {
                              const Parallelogram a = flat(pair.receiver), b = flat(pair.light);
                              figures.near("F", exchange_area(a, b) / a.area(), pair.F, 1e-13);
                          }});
-        for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
-            if ((pair.touching && way == Way::light) || (pair.F < 0.1 && way == Way::bsdf)) continue;
+        for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
+            if ((pair.touching && way == Technique::light) || (pair.F < 0.1 && way == Technique::bsdf)) continue;
             cases.push_back({name(short_name(way).c_str()), "rho Le F: closed form", [=](Figures& figures, std::uint64_t seed) {
                                  SceneMaker maker;
                                  const std::uint32_t receiver = maker.add(pair.receiver, matte(receiver_rho));
@@ -109,7 +109,7 @@ void add_far_pairs(Cases& cases) {
 // E/π of environments of radiance 1, ω·n, (ω·n)², (ω·t)² and ω_n ω_t over the upper half, put together as 1 + b·ω + (q·ω)²:
 // K Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²].
 void add_sky(Cases& cases) {
-    for (const Way way : {Way::mis, Way::bsdf, Way::light})
+    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light})
         cases.push_back(
             {"direct-light/sky/" + short_name(way), "rho [1 + 2/3 b.n + |q|^2/4 + (q.n)^2/4]: exact",
              [way](Figures& figures, std::uint64_t seed) {
@@ -147,9 +147,9 @@ void add_point_lights(Cases& cases) {
                  else
                      maker.parts.lights.delta = {PointLight(from, grey(5.0))};
                  const Scene scene = maker.make();
-                 const Statistic found =
-                     sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Way::mis, {.samples = 1024, .bounces = 1, .seed = seed})
-                         .terms[1];
+                 const Statistic found = sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Technique::mis,
+                                                     {.samples = 1024, .bounces = 1, .seed = seed})
+                                             .terms[1];
                  const double exact = receiver_rho * 5.0 * cosine / pi / (parallel ? 1.0 : d * d);
                  figures.near(parallel ? "K Le, parallel light" : "K Le, point light", found.mean.r, exact, 1e-14 * exact);
              }

@@ -52,20 +52,22 @@ void add_powers(Cases& cases) {
                                  const Scene scene = scene_of(rho);
                                  without_variance(
                                      figures,
-                                     probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40, .seed = seed}), rho);
+                                     probe(scene, anywhere(scene), Technique::bsdf, {.samples = 64, .bounces = 40, .seed = seed}),
+                                     rho);
                              }});
-        cases.push_back(
-            {"furnace/operators/" + short_name, "K^i Le = rho^i", [=](Figures& figures, std::uint64_t seed) {
-                 const Scene scene = scene_of(colour);
-                 without_variance(
-                     figures, probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12, .seed = seed}), colour);
-             }});
+        cases.push_back({"furnace/operators/" + short_name, "K^i Le = rho^i", [=](Figures& figures, std::uint64_t seed) {
+                             const Scene scene = scene_of(colour);
+                             without_variance(
+                                 figures,
+                                 probe(scene, anywhere(scene), Technique::pointwise, {.samples = 32, .bounces = 12, .seed = seed}),
+                                 colour);
+                         }});
         cases.push_back({"furnace/mis/" + short_name, "K^i Le = rho^i", [=](Figures& figures, std::uint64_t seed) {
                              const Scene scene = scene_of(grey(0.9));
                              std::vector<double> exact;
                              for (int i = 0; i <= 8; ++i) exact.push_back(std::pow(0.9, i));
-                             figures.terms(sharp_probe(scene, anywhere(scene), Way::mis, {.samples = 1024, .seed = seed}), exact,
-                                           0);
+                             figures.terms(sharp_probe(scene, anywhere(scene), Technique::mis, {.samples = 1024, .seed = seed}),
+                                           exact, 0);
                          }});
     }
 }
@@ -108,7 +110,7 @@ void add_laws(Cases& cases) {
                  SceneMaker maker;
                  for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == lit ? glowing(rho, 1.0) : matte(rho));
                  const Scene scene = maker.make();
-                 const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis,
+                 const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Technique::mis,
                                                {.samples = 2048, .bounces = 4, .seed = seed + lit});
                  for (std::size_t i = 0; i < sums.size(); ++i) {
                      const Rgb a = sums[i].standard_error, b = found.terms[i].standard_error;
@@ -146,7 +148,7 @@ void add_laws(Cases& cases) {
                                  start.weight = grey((1.0 - r) / r);
                                  return start;
                              };
-                             for (const Way way : {Way::mis, Way::bsdf})
+                             for (const Technique way : {Technique::mis, Technique::bsdf})
                                  figures.sampled(
                                      fmt::format("absorbed/emitted, {}", short_name(way)),
                                      scaled(sharp_probe(scene, absorbed, way,
@@ -169,8 +171,9 @@ void add_laws(Cases& cases) {
                          figures.near("emitting part of the area", fraction, 0.018868107508640625, 1e-12);
                          std::vector<double> exact;
                          for (int i = 1; i <= 6; ++i) exact.push_back(fraction * std::pow(rho, i));
-                         figures.terms(sharp_probe(scene, anywhere(scene), Way::mis, {.samples = 1024, .bounces = 6, .seed = seed}),
-                                       exact);
+                         figures.terms(
+                             sharp_probe(scene, anywhere(scene), Technique::mis, {.samples = 1024, .bounces = 6, .seed = seed}),
+                             exact);
                      }});
 }
 

@@ -46,7 +46,7 @@ std::vector<double> from_outside(double R, int count) {
 
 // Numbers are independent here: a Sobol' set has always as many points below R, and no spread to tell the error by. The standard
 // error of an outcome of probability p is √((1 − p)/(p N)) of it.
-Effort effort(double rarest, int bounces, std::uint64_t seed) {
+ProbeSettings effort(double rarest, int bounces, std::uint64_t seed) {
     const double samples = (1.0 - rarest) / rarest / std::pow(0.9 * largest_relative_error, 2) / batch_count;
     return {.samples = static_cast<std::uint32_t>(64.0 * std::ceil(samples / 64.0)),
             .bounces = bounces,
@@ -54,7 +54,7 @@ Effort effort(double rarest, int bounces, std::uint64_t seed) {
             .seed = seed};
 }
 
-void slab(Figures& figures, std::uint64_t seed, Way way, double degrees, double R) {
+void slab(Figures& figures, std::uint64_t seed, Technique way, double degrees, double R) {
     SceneMaker maker;
     maker.add(parallelogram({-90, -90, 0.5}, {180, 0, 0}, {0, 180, 0}), glass());
     maker.add(parallelogram({-90, -90, -0.5}, {0, 180, 0}, {180, 0, 0}), glass());
@@ -65,12 +65,12 @@ void slab(Figures& figures, std::uint64_t seed, Way way, double degrees, double 
     // The third term is rare at 60 degrees.
     const std::vector<double> exact = from_outside(R, R > 0.1 ? 4 : 2);
     figures.terms(sharp_probe(scene, start, way, effort(std::min(R, exact.back()), static_cast<int>(exact.size()), seed)), exact);
-    if (way == Way::pointwise) return;
+    if (way == Technique::pointwise) return;
     const Estimates all = probe(scene, start, way, {.samples = 64, .bounces = 60, .seed = seed});
     figures.near("sum of K^i Le, i <= 60", all.reflected.mean.r, 1.0, 1e-12);
 }
 
-void sphere(Figures& figures, std::uint64_t seed, Way way) {
+void sphere(Figures& figures, std::uint64_t seed, Technique way) {
     const Vec3 center(0.1, 0.2, 0.3);
     SceneMaker maker;
     maker.add(Sphere{center, 1.0, false}, glass());
@@ -89,14 +89,14 @@ void sphere(Figures& figures, std::uint64_t seed, Way way) {
         figures.sampled(fmt::format("K^{} Le, from inside", i), inside.terms[i],
                         n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)));
     const Estimates trapped =
-        probe(scene, from_inside(0.7), way, {.samples = 2, .bounces = way == Way::pointwise ? 12 : 100, .seed = seed});
+        probe(scene, from_inside(0.7), way, {.samples = 2, .bounces = way == Technique::pointwise ? 12 : 100, .seed = seed});
     double most = 0.0;
     for (const Statistic& term : trapped.terms) most = std::max(most, max_component(term.mean));
     figures.near("trapped light, largest term", most, 0.0, 0.0);
 }
 
 // What goes to and fro within a pane is one bounce, 2R/(1 + R) in all; nothing turns, so a lamp behind is seen where it is.
-void pane(Figures& figures, std::uint64_t seed, Way way) {
+void pane(Figures& figures, std::uint64_t seed, Technique way) {
     const double theta = pi / 3.0, R = 0.089186712802, share = 2.0 * R / (1.0 + R);
     figures.near("2R/(1 + R) at 60 degrees", share, 0.163767537, 1e-9);
     for (const bool behind : {true, false}) {
@@ -116,7 +116,7 @@ void pane(Figures& figures, std::uint64_t seed, Way way) {
 }
 
 // Le = 1 − ρ on a wall of reflectance ρ gives L = 1 everywhere outside glass, whatever glass is in the room.
-void glass_in_furnace(Figures& figures, std::uint64_t seed, Way way) {
+void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique way) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 2.0, true}, glowing(0.5, 0.5));
     maker.add(Sphere{{0.3, 0.1, 0}, 0.7, false}, glass());
@@ -133,7 +133,7 @@ void glass_in_furnace(Figures& figures, std::uint64_t seed, Way way) {
 Cases glass_cases() {
     Cases cases;
     cases.push_back({"glass/fresnel", "Fresnel, Walsh's closed form", fresnel});
-    for (const Way way : specular_ways) {
+    for (const Technique way : specular_techniques) {
         const std::string name = short_name(way);
         for (const auto& [degrees, R] : {reflected[2], reflected[3]})
             cases.push_back({fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact",
@@ -141,7 +141,7 @@ Cases glass_cases() {
         cases.push_back({"glass/sphere/" + name, "R, (1 - R)^2 R^(i-2); inside n^2 (1 - R) R^(i-1): exact",
                          [way](Figures& f, std::uint64_t seed) { sphere(f, seed, way); }});
         cases.push_back({"glass/pane/" + name, "2R/(1 + R): exact", [way](Figures& f, std::uint64_t seed) { pane(f, seed, way); }});
-        if (way != Way::pointwise)
+        if (way != Technique::pointwise)
             cases.push_back({"glass/furnace/" + name, "L = 1: exact",
                              [way](Figures& f, std::uint64_t seed) { glass_in_furnace(f, seed, way); }});
     }

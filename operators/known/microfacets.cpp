@@ -85,16 +85,16 @@ Cases microfacet_cases() {
                                  figures.near(fmt::format("K Le, cosine {:g}", cosines[k]), albedo(f.bsdf(), cosines[k]), f.K[0][k],
                                               1e-9);
                          }});
-        cases.push_back(
-            {"microfacets/sphere/" + name, "quadrature, 3e-11", [f](Figures& figures, std::uint64_t seed) {
-                 const Scene scene = sphere(f.bsdf());
-                 for (const std::size_t k : {0, 2, 4}) {
-                     const Estimates found =
-                         sharp_probe(scene, under(scene, cosines[k]), Way::bsdf, {.samples = 1024, .bounces = 3, .seed = seed});
-                     for (std::size_t i = 1; i <= 3; ++i)
-                         figures.sampled(fmt::format("K^{} Le, cosine {:g}", i, cosines[k]), found.terms[i], f.K[i - 1][k]);
-                 }
-             }});
+        cases.push_back({"microfacets/sphere/" + name, "quadrature, 3e-11", [f](Figures& figures, std::uint64_t seed) {
+                             const Scene scene = sphere(f.bsdf());
+                             for (const std::size_t k : {0, 2, 4}) {
+                                 const Estimates found = sharp_probe(scene, under(scene, cosines[k]), Technique::bsdf,
+                                                                     {.samples = 1024, .bounces = 3, .seed = seed});
+                                 for (std::size_t i = 1; i <= 3; ++i)
+                                     figures.sampled(fmt::format("K^{} Le, cosine {:g}", i, cosines[k]), found.terms[i],
+                                                     f.K[i - 1][k]);
+                             }
+                         }});
     }
     // 1/(1 + μ) is an eigenfunction with the eigenvalue 2 ln 2 − 1, the spectral radius.
     cases.push_back(
@@ -108,7 +108,7 @@ Cases microfacet_cases() {
                  figures.near(fmt::format("eigenvalue, cosine {:g}", mu), reflected * (1.0 + mu), 2.0 * ln2 - 1.0, 1e-10);
              }
          }});
-    for (const Way way : {Way::mis, Way::bsdf})
+    for (const Technique way : {Technique::mis, Technique::bsdf})
         cases.push_back({"microfacets/series/ggx-1-" + short_name(way), "2(1 - ln 2)/(1 + mu) (2 ln 2 - 1)^(i-1): exact",
                          [way](Figures& figures, std::uint64_t seed) {
                              const Scene scene = sphere(RoughConductor(Ggx(1.0)));

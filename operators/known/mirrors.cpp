@@ -17,8 +17,8 @@ constexpr double mirror_rho = 0.9;
 
 Conductor mirror() { return Conductor({}, grey(mirror_rho)); }
 // Few samples are enough: all have to be the same. Operators start anew for every term.
-Effort effort(Way way, int bounces, std::uint64_t seed) {
-    return {.samples = 2, .bounces = way == Way::pointwise ? std::min(bounces, 12) : bounces, .seed = seed};
+ProbeSettings effort(Technique way, int bounces, std::uint64_t seed) {
+    return {.samples = 2, .bounces = way == Technique::pointwise ? std::min(bounces, 12) : bounces, .seed = seed};
 }
 
 // The first and the last few terms one by one, and the worst of all.
@@ -37,7 +37,7 @@ void add_terms(Figures& figures, const Estimates& found, const std::function<dou
 
 // A ray in a cube of mirrors goes straight on through the cube's mirror images. Le is the position, as a colour: a face is known by
 // its 0 or 1.
-void unfold(Figures& figures, Way way, std::uint64_t seed) {
+void unfold(Figures& figures, Technique way, std::uint64_t seed) {
     const Vec3 origin(0.3, 0.4, 0.5), direction(1.0, 0.7, 0.45);
     constexpr int faces[] = {1, 3, 5, 0, 2, 1, 4, 0, 3, 1, 2, 5, 0, 3, 1, 0, 4, 2, 1, 3, 0,
                              5, 1, 2, 0, 4, 3, 1, 0, 2, 5, 1, 3, 0, 2, 4, 1, 0, 3, 1, 5};
@@ -66,7 +66,7 @@ void unfold(Figures& figures, Way way, std::uint64_t seed) {
 
 // In a sphere a ray goes round in equal steps α = π − 2θ: K^i Le = ρ^i (1 + cos 3iα) for Le = 1 + cos 3φ. The eigenvalues are
 // complex.
-void rotate(Figures& figures, Way way, std::uint64_t seed) {
+void rotate(Figures& figures, Technique way, std::uint64_t seed) {
     const double theta = 37.0 * pi / 180.0, alpha = pi - 2.0 * theta;
     SceneMaker maker;
     const auto emitted = [](const ShadingPoint& p, const Vec3&) {
@@ -78,7 +78,7 @@ void rotate(Figures& figures, Way way, std::uint64_t seed) {
     const auto exact = [&](int i) { return std::pow(mirror_rho, i) * (1.0 + std::cos(3.0 * i * alpha)); };
     const Estimates found = probe(scene, seen(scene, Vec3(1, 0, 0) + 0.5 * towards, -towards), way, effort(way, 60, seed));
     add_terms(figures, found, exact, 1e-10);
-    if (way == Way::pointwise) return;
+    if (way == Technique::pointwise) return;
     // Beyond term 60 there is at most 2 ρ^61/(1 − ρ).
     double sum = 0.0;
     for (const Statistic& term : found.terms) sum += term.mean.r;
@@ -86,7 +86,7 @@ void rotate(Figures& figures, Way way, std::uint64_t seed) {
 }
 
 // In a prism over an equilateral triangle the path through the middles of the sides closes after three bounces.
-void go_round(Figures& figures, Way way, std::uint64_t seed) {
+void go_round(Figures& figures, Technique way, std::uint64_t seed) {
     const Vec3 corner[] = {{1, 0, 0}, {-0.5, std::sqrt(0.75), 0}, {-0.5, -std::sqrt(0.75), 0}};
     SceneMaker maker;
     for (int side = 0; side < 3; ++side) {
@@ -102,7 +102,7 @@ void go_round(Figures& figures, Way way, std::uint64_t seed) {
 }
 
 // m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le.
-void look_round_corners(Figures& figures, Way way, std::uint64_t seed, int m) {
+void look_round_corners(Figures& figures, Technique way, std::uint64_t seed, int m) {
     SceneMaker maker;
     // Light is followed along +x into the first mirror, up to the second, along +x, …
     Vec3 at(0.0), along(1, 0, 0), across(0, 0, 1);
@@ -120,7 +120,7 @@ void look_round_corners(Figures& figures, Way way, std::uint64_t seed, int m) {
 }
 
 // Retroreflectors: K = ρ T, so that K² = ρ² I shows T² = I, wherever and along whatever direction.
-void go_back(Figures& figures, Way way, std::uint64_t seed) {
+void go_back(Figures& figures, Technique way, std::uint64_t seed) {
     SceneMaker maker;
     const auto emitted = [](const ShadingPoint& p, const Vec3& w) { return grey(2.0 + p.position.x * p.position.y + 0.5 * w.z); };
     for (const TriangleMesh& face : room({-0.7, -1.1, -0.9}, {0.8, 1.2, 1.3}))
@@ -168,7 +168,7 @@ void diverge(Figures& figures, std::uint64_t) {
 
 Cases mirror_cases() {
     Cases cases;
-    for (const Way way : specular_ways) {
+    for (const Technique way : specular_techniques) {
         const std::string name = short_name(way);
         cases.push_back(
             {"mirrors/cube/" + name, "unfolding: exact", [way](Figures& f, std::uint64_t seed) { unfold(f, way, seed); }});

@@ -19,7 +19,7 @@ Scene cube() {
     for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == ceiling ? glowing(1.0, 1.0) : matte(1.0));
     return maker.make();
 }
-Effort independent(std::uint32_t samples, int bounces, std::uint64_t seed) {
+ProbeSettings independent(std::uint32_t samples, int bounces, std::uint64_t seed) {
     return {.samples = samples, .bounces = bounces, .sampler = SamplerKind::independent, .seed = seed};
 }
 StartPicker middle_of_floor(const Scene& scene) { return at(scene, {0.5, 0.5, 0}, {0, 0, 1}); }
@@ -27,25 +27,26 @@ StartPicker middle_of_floor(const Scene& scene) { return at(scene, {0.5, 0.5, 0}
 // A walk finds the light or does not, so the variance is g (1 − g); by uniform directions and by points on the light, quadrature.
 void variances(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
-    const Estimates by_walk = probe(scene, middle_of_floor(scene), Way::bsdf, independent(65536, 2, seed));
+    const Estimates by_walk = probe(scene, middle_of_floor(scene), Technique::bsdf, independent(65536, 2, seed));
     figures.sampled("K Le by cosine", by_walk.variance[1], g1 * (1.0 - g1));
     figures.sampled("K^2 Le by cosine", by_walk.variance[2], g2 * (1.0 - g2));
     figures.sampled("K Le by points on the light",
-                    probe(scene, middle_of_floor(scene), Way::light, independent(16384, 1, seed)).variance[1],
+                    probe(scene, middle_of_floor(scene), Technique::light, independent(16384, 1, seed)).variance[1],
                     0.0017405096111192883);
-    Effort uniform = independent(32768, 1, seed);
+    ProbeSettings uniform = independent(32768, 1, seed);
     uniform.direct = DirectLightSettings{.direct = DirectLight::hemisphere};
-    figures.sampled("K Le by uniform directions", probe(scene, middle_of_floor(scene), Way::mis, uniform).variance[1],
+    figures.sampled("K Le by uniform directions", probe(scene, middle_of_floor(scene), Technique::mis, uniform).variance[1],
                     0.39080403967926547);
     figures.sampled("K Le by operators",
-                    probe(scene, middle_of_floor(scene), Way::pointwise, independent(65536, 1, seed)).variance[1], g1 * (1.0 - g1));
+                    probe(scene, middle_of_floor(scene), Technique::pointwise, independent(65536, 1, seed)).variance[1],
+                    g1 * (1.0 - g1));
 }
 
 // On a wall, d below the ceiling: → 1/(24 π d²).
 void near_an_edge(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     figures.sampled("0.5 below the light",
-                    probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Way::light, independent(65536, 1, seed)).variance[1],
+                    probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Technique::light, independent(65536, 1, seed)).variance[1],
                     0.00846772891327989);
 }
 
@@ -55,7 +56,7 @@ void says_infinite(Figures& figures, const std::string& quantity, const Scene& s
                    std::uint64_t seed) {
     double said = 0.0;
     for (std::uint64_t run = 0; run < 6; ++run) {
-        const Estimates found = probe(scene, from, Way::light, independent(16384, 2, seed + (run << 32)));
+        const Estimates found = probe(scene, from, Technique::light, independent(16384, 2, seed + (run << 32)));
         const auto tail = tail_index(found.largest[term]);
         said += tail && tail->variance_is_infinite();
     }
@@ -69,7 +70,7 @@ void shared_edge(Figures& figures, std::uint64_t seed) {
     const std::uint32_t receiver = maker.add(parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(1.0));
     maker.add(parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), lamp(1.0));
     const Scene scene = maker.make();
-    const Estimates found = probe(scene, anywhere_on(scene, receiver), Way::light, independent(65536, 1, seed));
+    const Estimates found = probe(scene, anywhere_on(scene, receiver), Technique::light, independent(65536, 1, seed));
     const auto n = static_cast<double>(found.samples);
     const std::vector<double> largest = found.largest[1].sorted();
     for (const double x : {30.0, 60.0, 120.0}) {
@@ -92,7 +93,7 @@ void coverage(Figures& figures, std::uint64_t seed) {
     const std::uint32_t receiver = maker.add(parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(1.0));
     maker.add(parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), lamp(1.0));
     const Scene scene = maker.make();
-    for (const Way way : {Way::light, Way::bsdf}) {
+    for (const Technique way : {Technique::light, Technique::bsdf}) {
         double covered = 0.0, below = 0.0;
         for (std::uint64_t k = 0; k < repetitions; ++k) {
             const Statistic found = probe(scene, anywhere_on(scene, receiver), way, independent(16, 1, seed + (k << 32))).terms[1];
@@ -100,10 +101,10 @@ void coverage(Figures& figures, std::uint64_t seed) {
             covered += std::abs(error) <= t * found.standard_error.r;
             below += error < -t * found.standard_error.r;
         }
-        const double expected = way == Way::light ? 0.75 : 0.95;
+        const double expected = way == Technique::light ? 0.75 : 0.95;
         figures.near(fmt::format("intervals that hold the truth, {}", short_name(way)), covered / repetitions, expected,
-                     z_limit * std::sqrt(expected * (1.0 - expected) / repetitions) + (way == Way::light ? 0.05 : 0.0));
-        if (way == Way::light) figures.at_least("of the others, below", below / (repetitions - covered), 0.95);
+                     z_limit * std::sqrt(expected * (1.0 - expected) / repetitions) + (way == Technique::light ? 0.05 : 0.0));
+        if (way == Technique::light) figures.at_least("of the others, below", below / (repetitions - covered), 0.95);
     }
 }
 
@@ -115,17 +116,17 @@ void touching_light(Figures& figures, std::uint64_t seed) {
         const auto tail = tail_index(largest);
         return tail ? tail->upper : 1e9;
     };
-    const Estimates by_light = probe(scene, middle_of_floor(scene), Way::light, independent(16384, 2, seed));
+    const Estimates by_light = probe(scene, middle_of_floor(scene), Technique::light, independent(16384, 2, seed));
     says_infinite(figures, "K^2 Le by points", scene, middle_of_floor(scene), 2, seed);
     figures.at_least("K Le by points: tail index", upper(by_light.largest[1]), 2.0);
-    for (const Way way : {Way::mis, Way::bsdf}) {
+    for (const Technique way : {Technique::mis, Technique::bsdf}) {
         const Estimates found = probe(scene, middle_of_floor(scene), way, independent(16384, 2, seed));
         figures.at_least(fmt::format("K^2 Le by {}: tail index", short_name(way)), upper(found.largest[2]), 2.0);
     }
     // 4e6 paths of another program: its own error as ours for as many.
-    Effort balance = independent(65536, 2, seed);
+    ProbeSettings balance = independent(65536, 2, seed);
     balance.direct = DirectLightSettings{.direct = DirectLight::mis, .heuristic = Heuristic::balance};
-    const Estimates mixed = probe(scene, middle_of_floor(scene), Way::mis, balance);
+    const Estimates mixed = probe(scene, middle_of_floor(scene), Technique::mis, balance);
     const double error = mixed.variance[2].standard_error.r;
     figures.sampled("K^2 Le by MIS, balance", mixed.terms[2], g2);
     figures.near("its variance", mixed.variance[2].mean.r, 0.03543286681558638,
@@ -140,7 +141,8 @@ void slope(Figures& figures, std::uint64_t seed) {
     for (int k = 0; k < sizes; ++k) {
         const auto samples = static_cast<std::uint32_t>(64) << (2 * k);
         const Statistic found =
-            probe(scene, middle_of_floor(scene), Way::bsdf, independent(samples, 1, seed + static_cast<std::uint64_t>(k))).terms[1];
+            probe(scene, middle_of_floor(scene), Technique::bsdf, independent(samples, 1, seed + static_cast<std::uint64_t>(k)))
+                .terms[1];
         const double n = batch_count, spread = found.standard_error.r * found.standard_error.r * (n - 1.0),
                      mse = spread + std::pow(found.mean.r - g1, 2), x = std::log(static_cast<double>(samples)), y = std::log(mse);
         x1 += x / sizes;
@@ -163,10 +165,10 @@ void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double
     const FurnaceWalk known = furnace_walk(fixed, rho, 0);
     const bool finite = rho * rho < q;
     figures.near("vertices, by formula", known.vertices, 1.0 / (1.0 - q), 1e-12 / (1.0 - q));
-    Effort effort = independent(16384, 0, seed);
+    ProbeSettings effort = independent(16384, 0, seed);
     effort.rest_probability = 1.0;
     effort.roulette = fixed;
-    const Estimates found = probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), Way::bsdf, effort);
+    const Estimates found = probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), Technique::bsdf, effort);
     figures.sampled("vertices", {Rgb(found.rays_mean), Rgb(found.rays_error)}, 1.0 / (1.0 - q));
     if (finite) {
         const double mean = 1.0 / (1.0 - rho);
@@ -193,9 +195,9 @@ void roulette_by_albedo(Figures& figures, std::uint64_t seed, double rho) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
     const Scene scene = maker.make();
-    Effort effort = independent(rho > 0.95 ? 8192 : 16384, 0, seed);
+    ProbeSettings effort = independent(rho > 0.95 ? 8192 : 16384, 0, seed);
     effort.rest_probability = 1.0;
-    const Estimates found = probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), Way::bsdf, effort);
+    const Estimates found = probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), Technique::bsdf, effort);
     figures.sampled("rays of a walk", {Rgb(found.rays_mean), Rgb(found.rays_error)}, 1.0 / (1.0 - rho));
     figures.sampled("sum of K^i Le, i > 0", found.rest, rho / (1.0 - rho));
     const double variance = rho / std::pow(1.0 - rho, 2);

@@ -20,12 +20,12 @@ void add_convex(Cases& cases, const char* name, const Shape& body) {
              const std::uint32_t shape = maker.add(body, matte(rho));
              under_the_sky(maker);
              const Scene scene = maker.make();
-             const Estimates found = sharp_probe(scene, anywhere_on(scene, shape), Way::bsdf,
+             const Estimates found = sharp_probe(scene, anywhere_on(scene, shape), Technique::bsdf,
                                                  {.samples = 1024, .bounces = 3, .rest_probability = 1.0, .seed = seed});
              figures.near("K Le", found.terms[1].mean.r, rho, 8.0 * std::numeric_limits<double>::epsilon());
              figures.near("K^2 Le", found.terms[2].mean.r, 0.0, 0.0);
              figures.near("rays after the first reflection", found.rays[2] + found.rays[3] + found.rays[4], 0.0, 0.0);
-             for (const Way way : {Way::mis, Way::light})
+             for (const Technique way : {Technique::mis, Technique::light})
                  figures.sampled(
                      fmt::format("K Le, {}", short_name(way)),
                      sharp_probe(scene, anywhere_on(scene, shape), way, {.samples = 1024, .bounces = 1, .seed = seed}).terms[1],
@@ -35,7 +35,7 @@ void add_convex(Cases& cases, const char* name, const Shape& body) {
 
 // A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside, apparent emissivity of
 // the opening ε/(ε + f (1 − ε)), ε = 1 − ρ: 1 less what comes back out, the sum of K^i Le.
-void cavity(Figures& figures, std::uint64_t seed, double f, Way way) {
+void cavity(Figures& figures, std::uint64_t seed, double f, Technique way) {
     const double rho = 0.5, height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, matte(rho));
@@ -55,7 +55,7 @@ void cavity(Figures& figures, std::uint64_t seed, double f, Way way) {
 // gets more.
 constexpr double size = 1e4, missing = 0.5684 / size;
 
-void wedge(Figures& figures, std::uint64_t seed, double degrees, Way way) {
+void wedge(Figures& figures, std::uint64_t seed, double degrees, Technique way) {
     const double rho = 0.8, a = degrees * pi / 180.0;
     SceneMaker maker;
     maker.add(parallelogram({0, -size, 0}, {size, 0, 0}, {0, 2.0 * size, 0}), matte(rho));
@@ -71,7 +71,7 @@ void wedge(Figures& figures, std::uint64_t seed, double degrees, Way way) {
 
 // Le = d^(-1/2) on both walls of a right angle, d from their edge, is an eigenfunction: K Le = λ Le, λ = ρ/4 B(3/4, 3/4). Walls
 // that end at L lose L^(-3/2)/(3/4 B) of it, 8e-7.
-void power_law(Figures& figures, std::uint64_t seed, Way way) {
+void power_law(Figures& figures, std::uint64_t seed, Technique way) {
     const double rho = 0.8, eigenvalue = 0.25 * rho * std::beta(0.75, 0.75), brightest = 1e6, L = 1e4, lost = 1e-6;
     const auto radiance = [=](const SurfacePoint& p, const Vec3&) {
         return grey(std::min(1.0 / std::sqrt(std::hypot(p.position.x, p.position.z)), brightest));
@@ -87,7 +87,7 @@ void power_law(Figures& figures, std::uint64_t seed, Way way) {
                   exact, 1, eigenvalue * lost);
 }
 
-void corner(Figures& figures, std::uint64_t seed, Way way) {
+void corner(Figures& figures, std::uint64_t seed, Technique way) {
     const double rho = 0.8;
     SceneMaker maker;
     maker.add(parallelogram({0, 0, 0}, {size, 0, 0}, {0, size, 0}), matte(rho));
@@ -102,7 +102,7 @@ void corner(Figures& figures, std::uint64_t seed, Way way) {
 }
 
 // 90°, sides of length 1. Here it is 100 long: the ends are seen under (1/50)³ of the cosine-weighted hemisphere, below 1e-5.
-void groove(Figures& figures, std::uint64_t seed, Way way) {
+void groove(Figures& figures, std::uint64_t seed, Technique way) {
     const double rho = 0.9, half = 50.0;
     constexpr double g[3][3] = {{0.6212678125181664, 0.2510345548884595, 0.08430301090477688},
                                 {0.7236067977499789, 0.19621633067369174, 0.0548462711986844},
@@ -114,7 +114,7 @@ void groove(Figures& figures, std::uint64_t seed, Way way) {
     const Scene scene = maker.make();
     for (std::size_t k = 0; k < 3; ++k) {
         // Points on the sky are mostly hidden, which takes many samples: in one place.
-        if (way == Way::mis && k != 1) continue;
+        if (way == Technique::mis && k != 1) continue;
         const double x = 0.25 * static_cast<double>(k + 1);
         const Estimates found =
             sharp_probe(scene, at(scene, {x, 0.3, 0}, {0, 0, 1}), way, {.samples = 1024, .bounces = 3, .seed = seed});
@@ -125,7 +125,7 @@ void groove(Figures& figures, std::uint64_t seed, Way way) {
 }
 
 // As long as wide, open at both ends.
-void tube(Figures& figures, std::uint64_t seed, Way way) {
+void tube(Figures& figures, std::uint64_t seed, Technique way) {
     const double rho = 0.9;
     constexpr std::pair<double, double> g[] = {{.4811842985908824, .34164078649987384},
                                                {.21671812111920113, .26138288101519924},
@@ -154,15 +154,15 @@ Cases open_cases() {
     add_convex(cases, "icosphere-20480", icosphere(5));
     add_convex(cases, "prism-of-4000-needles", prism(2000));
     add_convex(cases, "flat-floor", strips({-1, -1, 0.3}, {2, 0, 0}, {0, 2, 0}, 200));
-    for (const Way way : {Way::mis, Way::bsdf}) {
+    for (const Technique way : {Technique::mis, Technique::bsdf}) {
         const std::string name = short_name(way);
         for (const double f : {0.5, 0.25, 0.1}) {
-            if (f < 0.2 && way == Way::bsdf) continue;  // too rare
+            if (f < 0.2 && way == Technique::bsdf) continue;  // too rare
             cases.push_back({fmt::format("open/cavity-{:g}/{}", f, name), "rho f (rho(1 - f))^(i-1): exact",
                              [=](Figures& figures, std::uint64_t seed) { cavity(figures, seed, f, way); }});
         }
         for (const double degrees : {30.0, 60.0, 90.0, 120.0})
-            if (way == Way::mis || degrees == 60.0)
+            if (way == Technique::mis || degrees == 60.0)
                 cases.push_back({fmt::format("open/wedge-{:g}/{}", degrees, name),
                                  "rho^i sin^2(a/2) cos^2(i-1)(a/2), walls of 1e4: 2e-4",
                                  [=](Figures& figures, std::uint64_t seed) { wedge(figures, seed, degrees, way); }});

@@ -64,8 +64,8 @@ struct FromSampler : Random {
     Sampler& sampler;
 };
 
-DirectLight direct_light(Way way) {
-    return way == Way::bsdf ? DirectLight::bsdf : way == Way::light ? DirectLight::light : DirectLight::mis;
+DirectLight direct_light(Technique way) {
+    return way == Technique::bsdf ? DirectLight::bsdf : way == Technique::light ? DirectLight::light : DirectLight::mis;
 }
 
 // The terms as functions, for the ways that are not walks.
@@ -79,9 +79,9 @@ struct Series {
         NeumannSeries series(K, emission(scene.emitters));
         for (terms.push_back(series.term()); series.bounce() < bounces; terms.push_back(series.term())) series.advance();
     }
-    Series(const Scene& scene, Way way, int bounces) {
-        if (way == Way::pointwise) develop(scene, ReflectionOperator(scene.materials), bounces);
-        if (way == Way::surfaces) {
+    Series(const Scene& scene, Technique way, int bounces) {
+        if (way == Technique::pointwise) develop(scene, ReflectionOperator(scene.materials), bounces);
+        if (way == Technique::surfaces) {
             surfaces.emplace(scene.geometry);
             develop(scene, SurfaceReflectionOperator(scene.geometry, *surfaces, scene.materials), bounces);
         }
@@ -101,7 +101,7 @@ constexpr std::uint32_t together = 64;  // walks
 
 // Adds the samples from `begin` to before `end`, a multiple of `together` or fewer than that.
 template <class Sampler>
-void run_batch(const Scene& scene, const StartPicker& pick, Way way, const Effort& effort, const Series& series,
+void run_batch(const Scene& scene, const StartPicker& pick, Technique way, const ProbeSettings& effort, const Series& series,
                const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
     const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
     const WalkSettings settings{.bounces = effort.bounces,
@@ -164,7 +164,7 @@ const SobolPoints& sobol_points(std::uint32_t size) {
 class Probe {
 public:
     // `most`: samples that a batch will ever have.
-    Probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most)
+    Probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort, std::uint32_t most)
         : scene_(scene),
           start_(start),
           way_(way),
@@ -192,8 +192,8 @@ public:
 private:
     const Scene& scene_;
     const StartPicker& start_;
-    Way way_;
-    const Effort& effort_;
+    Technique way_;
+    const ProbeSettings& effort_;
     const SobolPoints* points_;
     Series series_;
     std::vector<Batch> batches_;
@@ -274,34 +274,35 @@ StartPicker anywhere(const Scene& scene) {
     };
 }
 
-std::string name(Way way) {
+std::string name(Technique way) {
     switch (way) {
-        case Way::mis:
+        case Technique::mis:
             return "walk, direct light by MIS";
-        case Way::bsdf:
+        case Technique::bsdf:
             return "walk, direct light by BSDF sampling";
-        case Way::light:
+        case Technique::light:
             return "walk, direct light by light sampling";
-        case Way::pointwise:
+        case Technique::pointwise:
             return "operators, R over the hemisphere";
-        case Way::surfaces:
+        case Technique::surfaces:
             return "operators, R over surfaces";
     }
     return "";
 }
 
-std::string short_name(Way way) {
+std::string short_name(Technique way) {
     constexpr const char* names[] = {"mis", "bsdf", "light", "pointwise", "surfaces"};
     return names[static_cast<std::size_t>(way)];
 }
 
-Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort) {
+Estimates probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort) {
     Probe probe(scene, start, way, effort, effort.samples);
     probe.sample_to(effort.samples);
     return probe.estimates();
 }
 
-Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most) {
+Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort,
+                      std::uint32_t most) {
     const auto excess = [](const Statistic& s) { return s.standard_error.r / (0.0019 * std::abs(s.mean.r)); };  // NaN: 0 ± 0
     Probe probe(scene, start, way, effort, most);
     for (std::uint32_t samples = effort.samples;;) {

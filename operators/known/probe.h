@@ -35,24 +35,24 @@ StartPicker anywhere(const Scene& scene);
 
 // How the terms are estimated: by the walk with its three kinds of direct light, or by the series of operators, with R as an
 // integral over directions or over surfaces.
-enum class Way { mis, bsdf, light, pointwise, surfaces };
+enum class Technique { mis, bsdf, light, pointwise, surfaces };
 // Those that also go by mirrors and glass.
-inline constexpr Way specular_ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
-std::string name(Way way);
+inline constexpr Technique specular_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
+std::string name(Technique way);
 // In a word, for names of cases.
-std::string short_name(Way way);
+std::string short_name(Technique way);
 // The others find a light by chance, with a probability that is its form factor, and need many more samples.
-inline bool looks_for_lights(Way way) { return way == Way::mis || way == Way::light; }
+inline bool looks_for_lights(Technique way) { return way == Technique::mis || way == Technique::light; }
 
 // How walks go on: by directions of the material, by points on all surfaces, by mirrors alone.
 enum class GoingOn { material, surfaces, specular };
 
 inline constexpr int batch_count = 64;
 
-// Of Effort, if nothing else is said; the tests take another one from the environment.
+// Of ProbeSettings, if nothing else is said; the tests take another one from the environment.
 inline std::uint64_t default_seed = 20240229;
 
-struct Effort {
+struct ProbeSettings {
     std::uint32_t samples = 4096;  // a batch; a power of two
     int bounces = 8;
     double rest_probability = 0.0;  // 0: no rest
@@ -84,11 +84,12 @@ struct Estimates {
     std::uint64_t samples = 0;
 };
 
-Estimates probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort);
+Estimates probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort);
 
 // Goes on to more samples until the standard errors of all terms from K Le on that are not 0, and of the rest if it is asked for,
 // are at most 0.19% of them, or a batch has `most` samples.
-Estimates sharp_probe(const Scene& scene, const StartPicker& start, Way way, const Effort& effort, std::uint32_t most = 1u << 17);
+Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort,
+                      std::uint32_t most = 1u << 17);
 
 inline Rgb power_of(const Rgb& rho, int i) { return {std::pow(rho.r, i), std::pow(rho.g, i), std::pow(rho.b, i)}; }
 

@@ -20,9 +20,9 @@ namespace {
 
 const Vec3 center(0.3, -0.7, 1.1);
 constexpr double radius = 2.5;
-constexpr Way all_ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise, Way::surfaces};
+constexpr Technique all_ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise, Technique::surfaces};
 // Operators start anew for every term.
-int bounces_of(Way way) { return way == Way::pointwise || way == Way::surfaces ? 3 : 8; }
+int bounces_of(Technique way) { return way == Technique::pointwise || way == Technique::surfaces ? 3 : 8; }
 
 double height(const SurfacePoint& p) { return (p.position.z - center.z) / radius; }
 // The point in direction `n` from the centre.
@@ -47,7 +47,7 @@ SurfaceFunction two_halves(double above, double below) {
 
 Cases sphere_cases() {
     Cases cases;
-    for (const Way way : all_ways) {
+    for (const Technique way : all_ways) {
         const std::string name = short_name(way);
         cases.push_back(
             {"sphere/varying-albedo/" + name, "rho(p) <rho>^(i-1) <Le>: exact", [way](Figures& figures, std::uint64_t seed) {
@@ -59,7 +59,7 @@ Cases sphere_cases() {
                                geometric(0.7 * 4.0 / 3.0, 0.5, bounces_of(way)));
              }});
         // Other ways need minutes to 0.2%.
-        if (way == Way::mis)
+        if (way == Technique::mis)
             cases.push_back(
                 {"sphere/emitting-cap/" + name, "10 f rho^i, f = (1 - cos 20)/2: exact",
                  [way](Figures& figures, std::uint64_t seed) {
@@ -91,7 +91,7 @@ Cases sphere_cases() {
                                scene.warnings.counts().count(
                                    "reflectance above 1: a surface gives back up to 1.600 times the light that it receives") > 0);
                  figures.terms(
-                     sharp_probe(scene, at_pole(scene, pole(z)), Way::bsdf, {.samples = 1024, .bounces = 5, .seed = seed}),
+                     sharp_probe(scene, at_pole(scene, pole(z)), Technique::bsdf, {.samples = 1024, .bounces = 5, .seed = seed}),
                      geometric(z > 0.0 ? 1.6 : 0.2, 0.9, 5));
              }});
     // P(β > x) ~ x^−α with (1.6^α + 0.2^α)/2 = 1 for what roulette leaves alone: α = 1.25 where it cuts below 1.
@@ -99,13 +99,13 @@ Cases sphere_cases() {
         {"sphere/albedo-above-1/rest", "infinite variance: tail index below 2", [](Figures& figures, std::uint64_t seed) {
              const Scene scene = sphere(two_halves(1.6, 0.2), grey(1.0));
              const Estimates found =
-                 probe(scene, at_pole(scene, {0, 0, 1}), Way::bsdf,
+                 probe(scene, at_pole(scene, {0, 0, 1}), Technique::bsdf,
                        {.samples = 8192, .bounces = 4, .rest_probability = 1.0, .sampler = SamplerKind::independent, .seed = seed});
              const auto tail = tail_index(found.largest.back());
              figures.at_most("upper bound on the tail index", tail ? tail->upper : 1e9, 2.0);
          }});
     // Half of the material is a white diffuse surface, half a mirror of 0.6.
-    for (const Way way : {Way::mis, Way::bsdf, Way::pointwise})
+    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::pointwise})
         cases.push_back({"sphere/mirror-and-diffuse/" + short_name(way), "rs^i (mu^2 - 1/2) + (rs + rd)^i/2: exact",
                          [way](Figures& figures, std::uint64_t seed) {
                              const double rs = 0.3, rd = 0.5, mu = 0.1;
@@ -120,7 +120,7 @@ Cases sphere_cases() {
                              const SurfacePoint p = surface_point(scene, center + radius * pole(0.8), -pole(0.8));
                              const Start start{p, Frame(p.normal).to_world(at_cosine(mu))};
                              std::vector<double> exact;
-                             for (int i = 0; i <= (way == Way::pointwise ? 3 : 6); ++i)
+                             for (int i = 0; i <= (way == Technique::pointwise ? 3 : 6); ++i)
                                  exact.push_back(std::pow(rs, i) * (mu * mu - 0.5) + 0.5 * std::pow(rs + rd, i));
                              figures.terms(
                                  sharp_probe(scene, [start](Random&) { return start; }, way,

@@ -45,10 +45,13 @@ struct Sampling {
     int bounces = 8;
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
-constexpr Sampling samplings[] = {
-    {PathMethod::walk, "walk", 16, 8, 0.9},     {PathMethod::guided, "guided", 32, 8, 0.9},          {PathMethod::surface, "surface", 16},
-    {PathMethod::light, "light", 2048, 2},      {PathMethod::bidirectional, "bidirectional", 32, 4}, {PathMethod::classic, "classic", 16},
-    {PathMethod::pointwise, "pointwise", 16, 5}};
+constexpr Sampling samplings[] = {{PathMethod::walk, "walk", 16, 8, 0.9},
+                                  {PathMethod::guided, "guided", 32, 8, 0.9},
+                                  {PathMethod::surface, "surface", 16},
+                                  {PathMethod::light, "light", 2048, 2},
+                                  {PathMethod::bidirectional, "bidirectional", 32, 4},
+                                  {PathMethod::classic, "classic", 16},
+                                  {PathMethod::pointwise, "pointwise", 16, 5}};
 
 PictureSampler::Settings settings_of(const Sampling& sampling, const Scene& scene, std::uint64_t seed) {
     PictureSampler::Settings settings;
@@ -235,13 +238,14 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     const Scene scene = rooms_with_door(rho);
     // On the wall beside the door.
     const StartPicker here = at(scene, {1.0, 0.9, 0.2}, {-1, 0, 0});
-    const Estimates found = probe(scene, here, Way::mis, {.samples = 8192, .bounces = 12, .rest_probability = 1.0, .seed = seed});
+    const Estimates found =
+        probe(scene, here, Technique::mis, {.samples = 8192, .bounces = 12, .rest_probability = 1.0, .seed = seed});
     figures.near("K Le", found.terms[1].mean.r, 0.0, 0.0);
     figures.at_least("K^3 Le over K^2 Le", found.terms[3].mean.r / found.terms[2].mean.r, 1.5);
     figures.at_least("K^4 Le over K^3 Le", found.terms[4].mean.r / found.terms[3].mean.r, 1.0);
     // The rest, asked for while all is dark, is what comes later.
     const Estimates early =
-        probe(scene, here, Way::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
+        probe(scene, here, Technique::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
     figures.near("sum so far, at bounce 1", early.terms[0].mean.r + early.terms[1].mean.r, 0.0, 0.0);
     const double both = std::hypot(early.rest.standard_error.r, found.reflected.standard_error.r);
     figures.near("rest at bounce 1, and all K^i Le", early.rest.mean.r, found.reflected.mean.r, z_limit * both);
@@ -253,7 +257,7 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     };
     figures.sampled(
         "absorbed/emitted",
-        scaled(sharp_probe(scene, absorbed, Way::mis, {.samples = 1024, .bounces = 0, .rest_probability = 1.0, .seed = seed})
+        scaled(sharp_probe(scene, absorbed, Technique::mis, {.samples = 1024, .bounces = 0, .rest_probability = 1.0, .seed = seed})
                    .reflected,
                AreaSampler(scene.geometry).area() / emitted),
         1.0);
@@ -279,12 +283,13 @@ void two_furnaces(Figures& figures, std::uint64_t seed) {
         return Start{p, p.normal, grey(2.0)};
     };
     const auto t = [](int n) { return std::pow(0.5, n) + 1e-6 * std::pow(0.99, n); };
-    const Estimates found = probe(scene, both, Way::bsdf, {.samples = 64, .bounces = 20, .seed = seed});
+    const Estimates found = probe(scene, both, Technique::bsdf, {.samples = 64, .bounces = 20, .seed = seed});
     for (const int n : {1, 10, 20})
         figures.near(fmt::format("K^{} Le", n), found.terms[static_cast<std::size_t>(n)].mean.r, t(n), 1e-14 * t(n));
     const double exact = std::pow(0.5, 20) + 1e-4 * std::pow(0.99, 21), ratio = t(20) / t(19);
     figures.near("rest over what the ratio predicts", exact / (t(20) * ratio / (1.0 - ratio)), 25.11008731388987, 1e-9);
-    const Estimates rest = probe(scene, both, Way::bsdf, {.samples = 16384, .bounces = 20, .rest_probability = 1.0, .seed = seed});
+    const Estimates rest =
+        probe(scene, both, Technique::bsdf, {.samples = 16384, .bounces = 20, .rest_probability = 1.0, .seed = seed});
     figures.sampled("sum of K^i Le, i > 20", rest.rest, exact);
 }
 

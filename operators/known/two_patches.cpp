@@ -43,8 +43,8 @@ void add_matrix(Cases& cases, const std::string& name, DenseChannel (*matrix)(),
 }
 
 void add_dome(Cases& cases, double f, bool disc_glows) {
-    for (const Way way : {Way::mis, Way::bsdf}) {
-        if (way == Way::bsdf && f != 0.5) continue;
+    for (const Technique way : {Technique::mis, Technique::bsdf}) {
+        if (way == Technique::bsdf && f != 0.5) continue;
         cases.push_back(
             {fmt::format("two-patches/dome-{:g}-{}/{}", f, disc_glows ? "from-disc" : "from-dome", short_name(way)),
              "2 x 2 matrix: exact", [=](Figures& figures, std::uint64_t seed) {
@@ -57,7 +57,7 @@ void add_dome(Cases& cases, double f, bool disc_glows) {
                  const Scene scene = maker.make();
                  const auto exact = terms_of(two_by_two(0.0, rho_disc, rho_sphere * (1 - f), rho_sphere * f, 1.0, 1.0),
                                              vector({disc_glows ? 1.0 : 0.0, disc_glows ? 0.0 : 1.0}), 7);
-                 const Effort effort{.samples = 1024, .bounces = 5, .seed = seed};
+                 const ProbeSettings effort{.samples = 1024, .bounces = 5, .seed = seed};
                  const auto add = [&](const std::string& where, const StartPicker& start, const std::vector<double>& values) {
                      const Estimates found = sharp_probe(scene, start, way, effort);
                      for (std::size_t i = 1; i <= 5; ++i)
@@ -72,8 +72,8 @@ void add_dome(Cases& cases, double f, bool disc_glows) {
 }
 
 void add_concentric(Cases& cases, double inner, int bounces) {
-    for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
-        if (way == Way::light && inner > 0.5) continue;  // a narrow gap: much noise
+    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
+        if (way == Technique::light && inner > 0.5) continue;  // a narrow gap: much noise
         cases.push_back({fmt::format("two-patches/spheres-{:.2g}/{}", inner, short_name(way)), "2 x 2 matrix: exact",
                          [=](Figures& figures, std::uint64_t seed) {
                              const double rho = 0.9, F21 = inner * inner;
@@ -84,7 +84,7 @@ void add_concentric(Cases& cases, double inner, int bounces) {
                              const auto exact = terms_of(two_by_two(0.0, rho, rho * F21, rho * (1.0 - F21), F21, 1.0),
                                                          vector({1, 0}), bounces + 1);
                              const Vec3 n(0.48, 0.64, 0.6);
-                             const Effort effort{.samples = 1024, .bounces = bounces, .seed = seed};
+                             const ProbeSettings effort{.samples = 1024, .bounces = bounces, .seed = seed};
                              const Estimates on_inner = sharp_probe(scene, at(scene, Vec3(1, 2, 3) + n * inner, n), way, effort),
                                              on_outer = sharp_probe(scene, at(scene, Vec3(1, 2, 3) + n, -n), way, effort);
                              for (int i = 1; i <= bounces; ++i) {

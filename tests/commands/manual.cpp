@@ -1,4 +1,4 @@
-// The manual pages beside the options that the program has and the tables of README.md and docs/.
+// The manual pages beside the options that the program has and the tables of README.md and of the manual.
 #include "tests/commands/render_output.h"
 
 #include <regex>
@@ -70,7 +70,7 @@ protected:
     // The page that README.md names for each command.
     static std::map<std::string, std::string> pages_of_readme() {
         std::map<std::string, std::string> found;
-        const std::regex row(R"(^\| \[`(\w+)`\]\((docs/[^)]+)\) \|.*)");
+        const std::regex row(R"(^\| \[`(\w+)`\]\((apps/manual/[^)]+)\) \|.*)");
         for (const std::string& line : rows(repository / "README.md", "| command | what it does |")) {
             std::smatch match;
             EXPECT_TRUE(std::regex_match(line, match, row)) << line;
@@ -168,10 +168,11 @@ TEST_F(Manual, TablesOfOptionsAreComplete) {
     }
 }
 
-// What README.md and docs/ link to is there.
+// What README.md and the manual link to is there.
 TEST_F(Manual, LinksLeadSomewhere) {
     std::vector<std::filesystem::path> files{repository / "README.md", repository / "CONTRIBUTING.md"};
-    for (const auto& entry : std::filesystem::directory_iterator(repository / "docs")) files.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(repository / "apps" / "manual"))
+        if (entry.path().extension() == ".md") files.push_back(entry.path());
     for (const std::filesystem::path& file : files) {
         const std::string text = text_of(file);
         const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");

@@ -33,8 +33,8 @@ TEST(Continuations, SurfacesInASphereAreExact) {
     SceneMaker maker;
     maker.add(Sphere{{1, 2, 3}, 2.5, true}, glowing(rho, 1.0));
     const Scene scene = maker.make();
-    const Estimates found =
-        probe(scene, at(scene, {1, 2, 5.5}, {0, 0, -1}), Way::light, {.samples = 256, .bounces = 6, .going_on = GoingOn::surfaces});
+    const Estimates found = probe(scene, at(scene, {1, 2, 5.5}, {0, 0, -1}), Technique::light,
+                                  {.samples = 256, .bounces = 6, .going_on = GoingOn::surfaces});
     for (int i = 0; i <= 6; ++i)
         EXPECT_NEAR(found.terms[static_cast<std::size_t>(i)].mean.r, std::pow(rho, i), 1e-10) << "bounce " << i;
 }
@@ -44,10 +44,10 @@ TEST(Continuations, SurfacesInASphereAreExact) {
 TEST(ContinuationsSlow, SurfacesAgreeWithTheWalk) {
     const Scene scene = plates().make();
     const StartPicker start = anywhere_on(scene, plates_floor);
-    const Estimates plain = probe(scene, start, Way::mis, {.samples = 16384, .bounces = 3, .seed = fixed_seed + 1});
+    const Estimates plain = probe(scene, start, Technique::mis, {.samples = 16384, .bounces = 3, .seed = fixed_seed + 1});
     for (const DirectLight direct : {DirectLight::light, DirectLight::bsdf, DirectLight::mis})
         expect_agreement(
-            probe(scene, start, Way::mis,
+            probe(scene, start, Technique::mis,
                   {.samples = 32768, .bounces = 3, .direct = DirectLightSettings{.direct = direct}, .going_on = GoingOn::surfaces}),
             plain, 3, direct == DirectLight::bsdf ? 0.05 : 0.02);
 }
@@ -57,9 +57,9 @@ TEST(ContinuationsSlow, SurfacesHaveARest) {
     const Scene scene = plates().make();
     const StartPicker start = anywhere_on(scene, plates_floor);
     const Estimates plain =
-        probe(scene, start, Way::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = fixed_seed + 1});
-    const Estimates found =
-        probe(scene, start, Way::light, {.samples = 16384, .bounces = 1, .rest_probability = 1.0, .going_on = GoingOn::surfaces});
+        probe(scene, start, Technique::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = fixed_seed + 1});
+    const Estimates found = probe(scene, start, Technique::light,
+                                  {.samples = 16384, .bounces = 1, .rest_probability = 1.0, .going_on = GoingOn::surfaces});
     const double error = std::hypot(found.rest.standard_error.r, plain.rest.standard_error.r);
     EXPECT_NEAR(found.rest.mean.r, plain.rest.mean.r, 4.5 * error);
     EXPECT_LT(error, 0.02 * plain.rest.mean.r);
@@ -73,20 +73,20 @@ TEST(ContinuationsSlow, TheAlarmIsRaisedInCorners) {
     maker.add(room({0, 0, 0}, {1, 1, 1}), glowing(0.8, 1.0));
     const Scene closed = maker.make(), open = plates().make();
     for (std::uint64_t seed = fixed_seed; seed < fixed_seed + 3; ++seed) {
-        const auto tails = [&](const Scene& scene, const StartPicker& start, Way way, GoingOn going_on) {
+        const auto tails = [&](const Scene& scene, const StartPicker& start, Technique way, GoingOn going_on) {
             const Estimates found =
                 probe(scene, start, way,
                       {.samples = 16384, .bounces = 2, .sampler = SamplerKind::independent, .seed = seed, .going_on = going_on});
             return std::array{tail_index(found.largest[1]), tail_index(found.largest[2])};
         };
-        for (const auto& tail : tails(closed, anywhere(closed), Way::bsdf, GoingOn::surfaces)) {
+        for (const auto& tail : tails(closed, anywhere(closed), Technique::bsdf, GoingOn::surfaces)) {
             ASSERT_TRUE(tail);
             EXPECT_TRUE(tail->variance_is_infinite()) << "tail index " << tail->alpha;
             EXPECT_NEAR(tail->alpha, 1.5, 0.25);
         }
-        for (const auto& none : tails(closed, anywhere(closed), Way::bsdf, GoingOn::material))
+        for (const auto& none : tails(closed, anywhere(closed), Technique::bsdf, GoingOn::material))
             EXPECT_FALSE(none && none->variance_is_infinite()) << none->alpha;
-        for (const auto& none : tails(open, anywhere_on(open, plates_floor), Way::light, GoingOn::surfaces))
+        for (const auto& none : tails(open, anywhere_on(open, plates_floor), Technique::light, GoingOn::surfaces))
             EXPECT_FALSE(none && none->variance_is_infinite()) << none->alpha;
     }
 }
@@ -96,7 +96,7 @@ TEST(Continuations, SpecularEndsAtDiffuseSurfaces) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.7, 1.0));
     const Scene scene = maker.make();
-    for (const Way way : {Way::light, Way::mis}) {
+    for (const Technique way : {Technique::light, Technique::mis}) {
         const Estimates found =
             probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), way, {.samples = 64, .bounces = 3, .going_on = GoingOn::specular});
         EXPECT_NEAR(found.terms[0].mean.r, 1.0, 1e-12);
@@ -115,8 +115,8 @@ TEST(ContinuationsSlow, SpecularIsTheWalkByWayOfMirrors) {
     maker.add(parallelogram({-2, -0.5, 0.5}, {0, 1, 0}, {0, 0, 1}), lamp(4.0));
     const Scene scene = maker.make();
     const auto both = [&](const StartPicker& start) {
-        return std::pair(probe(scene, start, Way::light, {.bounces = 3, .going_on = GoingOn::specular}),
-                         probe(scene, start, Way::light, {.bounces = 3, .seed = fixed_seed + 1}));
+        return std::pair(probe(scene, start, Technique::light, {.bounces = 3, .going_on = GoingOn::specular}),
+                         probe(scene, start, Technique::light, {.bounces = 3, .seed = fixed_seed + 1}));
     };
     const auto [mirrored, all_mirrored] = both(anywhere_on(scene, mirror));
     const Statistic &a = mirrored.terms[2], &b = all_mirrored.terms[2];

@@ -132,7 +132,7 @@ Scene tube(double rho, const Vec3& to = Vec3(0.0), double scale = 1.0) {
 TEST(Cylinder, ScaleAndPlaceDoNotMatter) {
     const auto terms = [](const Vec3& to, double scale) {
         const Scene scene = tube(0.9, to, scale);
-        return probe(scene, at(scene, to + Vec3(0.5, 0, 0.3) * scale, {-1, 0, 0}, 1e-3 * scale), Way::mis,
+        return probe(scene, at(scene, to + Vec3(0.5, 0, 0.3) * scale, {-1, 0, 0}, 1e-3 * scale), Technique::mis,
                      {.samples = 64, .bounces = 6});
     };
     const Estimates one = terms({0, 0, 0}, 1.0);

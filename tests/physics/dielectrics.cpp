@@ -11,7 +11,7 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Way ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
+constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 constexpr double n = 1.5;
 
 Surface glass(double eta = n) { return boundary(Dielectric(eta), Dielectric(1.0 / eta)); }
@@ -105,7 +105,7 @@ TEST(ThinDielectric, AFurnaceSeesAllOfTheLight) {
     maker.add(patch({0, 0, 0}, {0, 0, 1}, 1.0), boundary(ThinDielectric(1.0 / n), ThinDielectric(1.0 / n)));
     maker.parts.lights.environment = ConstantEnvironment(Rgb(1.0));
     const Scene scene = maker.make();
-    for (const Way way : ways)
+    for (const Technique way : ways)
         for (const double x : {0.1, 3.0})
             expect_exact(probe(scene, seen(scene, {-x, 0.1, -1}, {x, 0, 1}), way, {.samples = 16, .bounces = 3}),
                          [](int i) { return grey(i == 1 ? 1.0 : 0.0); });

@@ -66,7 +66,7 @@ TEST(DirectStrategiesSlow, ARectangleByLambertsFormula) {
         settings.push_back({.direct = direct});
     for (const Settings& s : settings) {
         SCOPED_TRACE(describe(s));
-        const Estimates found = probe(scene, start, Way::mis, {.samples = 512, .bounces = 2, .direct = s});
+        const Estimates found = probe(scene, start, Technique::mis, {.samples = 512, .bounces = 2, .direct = s});
         expect_matches(found, std::vector{0.0, 0.7 * 3.0 * 0.1385316059948930, 0.0}, 0, asks_lights(s) ? power : 0.01);
     }
 }
@@ -81,7 +81,7 @@ TEST(DirectStrategiesSlow, VariancesBelowACeiling) {
     for (const auto& [direct, variance] :
          {std::pair(DirectLight::cosine, 0.18211707), std::pair(DirectLight::hemisphere, 0.39080404),
           std::pair(DirectLight::bsdf, 0.18211707), std::pair(DirectLight::light, 0.00174051)}) {
-        const Estimates found = probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Way::mis,
+        const Estimates found = probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Technique::mis,
                                       {.samples = 1 << 14,
                                        .bounces = 1,
                                        .sampler = SamplerKind::independent,
@@ -95,14 +95,14 @@ TEST(DirectStrategiesSlow, VariancesBelowACeiling) {
 TEST(DirectStrategiesSlow, ManyLights) {
     const Scene scene = many_lights().make();
     const StartPicker start = anywhere_on(scene, static_cast<std::uint32_t>(floor));
-    const Estimates plain = probe(scene, start, Way::bsdf, {.samples = 32768, .bounces = 3, .seed = fixed_seed + 1});
+    const Estimates plain = probe(scene, start, Technique::bsdf, {.samples = 32768, .bounces = 3, .seed = fixed_seed + 1});
     std::vector<Settings> settings = ways_to_ask_lights();
     for (const DirectLight direct : {DirectLight::hemisphere, DirectLight::cosine, DirectLight::surfaces})
         settings.push_back({.direct = direct});
     for (const Settings& s : settings) {
         SCOPED_TRACE(describe(s));
         const Estimates found =
-            probe(scene, start, Way::mis, {.samples = asks_lights(s) ? 4096u : 16384u, .bounces = 3, .direct = s});
+            probe(scene, start, Technique::mis, {.samples = asks_lights(s) ? 4096u : 16384u, .bounces = 3, .direct = s});
         for (std::size_t i = 1; i <= 3; ++i) {
             const Statistic &a = found.terms[i], &b = plain.terms[i];
             EXPECT_NEAR(a.mean.r, b.mean.r, 4.5 * std::hypot(a.standard_error.r, b.standard_error.r)) << "bounce " << i;
@@ -246,7 +246,7 @@ TEST(DirectStrategiesSlow, ARectangleHasNoMoreVarianceThanItsTriangles) {
         }
         maker.add(lamp_mesh, lamp(2.0));
         const Scene scene = maker.make();
-        return probe(scene, at(scene, {0.2, 0.3, 0}, {0, 0, 1}), Way::light,
+        return probe(scene, at(scene, {0.2, 0.3, 0}, {0, 0, 1}), Technique::light,
                      {.samples = 1 << 13,
                       .bounces = 1,
                       .sampler = SamplerKind::independent,

@@ -196,10 +196,10 @@ TEST(EnvironmentMapSlow, LightsASurfaceByItsIntegral) {
     maker.parts.lights.environment = map;
     const std::uint32_t ball = maker.add(Sphere{{0, 0, 0}, 1.0, false}, matte(rho));
     const Scene scene = maker.make();
-    for (const Way way : {Way::mis, Way::light, Way::bsdf}) {
+    for (const Technique way : {Technique::mis, Technique::light, Technique::bsdf}) {
         SCOPED_TRACE(name(way));
         // By chance the brightest pixel is found rarely.
-        const double largest_error = way == Way::bsdf ? 0.02 : power;
+        const double largest_error = way == Technique::bsdf ? 0.02 : power;
         for (const Vec3& n : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, -1)}) {
             const double exact = rho / pi * integral([&](const Vec3& w) { return std::max(glm::dot(n, w), 0.0); });
             expect_matches(probe(scene, at(scene, n, n), way, {.samples = 8192, .bounces = 2}), std::vector{0.0, exact, 0.0}, 0,
@@ -217,7 +217,7 @@ TEST(EnvironmentMap, MayBeBlack) {
     maker.add(Sphere{{0, 0, 0}, 1.0, false}, matte(0.5));
     const Scene scene = maker.make();
     EXPECT_TRUE(scene.emitters.empty());
-    for (const Way way : {Way::mis, Way::light, Way::bsdf})
+    for (const Technique way : {Technique::mis, Technique::light, Technique::bsdf})
         expect_exact(probe(scene, at(scene, {0, 0, 1}, {0, 0, 1}), way, {.samples = 64, .bounces = 2}),
                      [](int) { return grey(0.0); });
 }

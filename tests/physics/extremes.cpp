@@ -9,7 +9,7 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Way all_ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise, Way::surfaces};
+constexpr Technique all_ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise, Technique::surfaces};
 
 // A surface seen from behind is black: it neither shines nor reflects, and it hides what is beyond.
 TEST(Extremes, FromBehindASurfaceIsBlack) {
@@ -20,7 +20,7 @@ TEST(Extremes, FromBehindASurfaceIsBlack) {
     const SurfacePoint p = surface_point(scene, {0.2, 0.1, 0}, {0, 0, -1});
     ASSERT_EQ(p.shape, glowing_floor);
     const Vec3 down(0, 0.6, -0.8);
-    for (const Way way : all_ways) {
+    for (const Technique way : all_ways) {
         SCOPED_TRACE(name(way));
         const Estimates found = probe(scene,
                                       [=](Random&) {
@@ -31,7 +31,7 @@ TEST(Extremes, FromBehindASurfaceIsBlack) {
         expect_matches(found.rest, 0.0, "rest");
     }
     // The lower floor sees the upper one's back only: what it reflects is nothing.
-    for (const Way way : all_ways) {
+    for (const Technique way : all_ways) {
         SCOPED_TRACE(name(way));
         const Estimates found = probe(scene, at(scene, {0, 0, -2}, {0, 0, 1}), way, {.samples = 256, .bounces = 3});
         expect_matches(found, std::vector{3.0, 0.0, 0.0, 0.0});

@@ -43,7 +43,7 @@ TEST(Flux, WhatIsEmittedIsAbsorbed) {
         const Scene scene = maker.make();
         const AreaSampler surfaces(scene.geometry);
         const double emitted = 1.0 + 0.3 + (furnished ? 2.0 * 4.0 * pi * 0.05 * 0.05 : 0.0);
-        for (const Way way : {Way::mis, Way::bsdf}) {
+        for (const Technique way : {Technique::mis, Technique::bsdf}) {
             SCOPED_TRACE(name(way) + (furnished ? ", furnished" : ""));
             const Estimates found =
                 probe(scene, absorbed(scene, rho_of_shape), way, {.samples = 4096, .bounces = 4, .rest_probability = 1.0});
@@ -81,7 +81,7 @@ TEST(Flux, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
         const Scene scene = enclosure.maker.make();
         std::vector<double> exact;
         for (int i = 0; i <= 6; ++i) exact.push_back(std::pow(rho, i) * (2.0 + mean_height(scene)));
-        for (const Way way : {Way::mis, Way::bsdf}) {
+        for (const Technique way : {Technique::mis, Technique::bsdf}) {
             SCOPED_TRACE(enclosure.name + ", " + name(way));
             expect_matches(probe(scene, anywhere(scene), way, {.samples = 2048, .bounces = 6}), exact);
         }
@@ -102,10 +102,10 @@ TEST(FluxSlow, AMeshedSphereIsExactOnAverage) {
     EXPECT_NEAR(scene.geometry.area(0) / (scene.geometry.area(0) + scene.geometry.area(1)), fraction, 1e-12);
     std::vector<double> exact;
     for (int i = 1; i <= 6; ++i) exact.push_back(fraction * std::pow(rho, i));
-    for (const Way way : {Way::mis, Way::bsdf}) {
+    for (const Technique way : {Technique::mis, Technique::bsdf}) {
         SCOPED_TRACE(name(way));
-        expect_matches(probe(scene, anywhere(scene), way, {.samples = way == Way::mis ? 4096u : 32768u, .bounces = 6}), exact, 1,
-                       looks_for_lights(way) ? power : 0.008);
+        expect_matches(probe(scene, anywhere(scene), way, {.samples = way == Technique::mis ? 4096u : 32768u, .bounces = 6}), exact,
+                       1, looks_for_lights(way) ? power : 0.008);
     }
 }
 
@@ -119,8 +119,8 @@ TEST(SuperpositionSlow, SixGlowingFacesAddUpToTheFurnace) {
         for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == glowing_face ? glowing(rho, 1.0) : matte(rho));
         const Scene scene = maker.make();
         // Seeds of their own, so that the six errors are independent.
-        const Estimates found =
-            probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Way::mis, {.samples = 4096, .seed = fixed_seed + glowing_face});
+        const Estimates found = probe(scene, at(scene, {0.4, 0.2, 0.0}, {0, 0, 1}), Technique::mis,
+                                      {.samples = 4096, .seed = fixed_seed + glowing_face});
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i].mean += found.terms[i].mean;
             sums[i].standard_error = glm::sqrt(sums[i].standard_error * sums[i].standard_error +
@@ -140,7 +140,7 @@ TEST(Superposition, TwoLightsAddUpWalkByWalk) {
         for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == ceiling ? glowing(0.7, from_ceiling) : matte(0.7));
         maker.add(Disk{{0.5, 0.6, 0.4}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 1}}, glowing(0.4, from_disk));
         const Scene scene = maker.make();
-        return probe(scene, at(scene, {0.3, 0.3, 0.0}, {0, 0, 1}), Way::bsdf, {.samples = 64});
+        return probe(scene, at(scene, {0.3, 0.3, 0.0}, {0, 0, 1}), Technique::bsdf, {.samples = 64});
     };
     const Estimates both = lit_by(1.7, 0.3), one = lit_by(1.7, 0.0), other = lit_by(0.0, 0.3);
     for (std::size_t i = 0; i < both.terms.size(); ++i) {

@@ -20,7 +20,7 @@ TEST(Furnace, EveryWalkCarriesThePowersOfTheAlbedo) {
         for (const ClosedScene& enclosure : enclosures(furnace(rho))) {
             SCOPED_TRACE(enclosure.name);
             const Scene scene = enclosure.maker.make();
-            expect_exact(probe(scene, anywhere(scene), Way::bsdf, {.samples = 64, .bounces = 40}),
+            expect_exact(probe(scene, anywhere(scene), Technique::bsdf, {.samples = 64, .bounces = 40}),
                          [&](int i) { return power_of(rho, i); });
         }
 }
@@ -29,7 +29,7 @@ TEST(Furnace, EveryProductOfOperatorsIsThePowerOfTheAlbedo) {
     for (const ClosedScene& enclosure : enclosures(furnace(colour))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
-        expect_exact(probe(scene, anywhere(scene), Way::pointwise, {.samples = 32, .bounces = 12}),
+        expect_exact(probe(scene, anywhere(scene), Technique::pointwise, {.samples = 32, .bounces = 12}),
                      [](int i) { return power_of(colour, i); });
     }
 }
@@ -71,7 +71,7 @@ TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
             const Scene scene = enclosure.maker.make();
             std::vector<double> exact;
             for (int i = 0; i <= 8; ++i) exact.push_back(std::pow(rho, i));
-            expect_matches(probe(scene, anywhere(scene), Way::mis, {.samples = 1024}), exact);
+            expect_matches(probe(scene, anywhere(scene), Technique::mis, {.samples = 1024}), exact);
         }
 }
 
@@ -79,7 +79,7 @@ TEST(Furnace, WithoutReflectionNothingComesBack) {
     for (const ClosedScene& enclosure : enclosures(glowing(0.0, 1.0))) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
-        for (const Way way : {Way::mis, Way::bsdf, Way::light, Way::pointwise})
+        for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise})
             expect_exact(probe(scene, anywhere(scene), way, {.samples = 16, .rest_probability = 1.0}),
                          [](int i) { return grey(i == 0 ? 1.0 : 0.0); });
     }
@@ -90,7 +90,7 @@ TEST(Furnace, WithoutAbsorptionEveryTermIsOneAndTheWalksAreGivenUp) {
         SCOPED_TRACE(enclosure.name);
         const Scene scene = enclosure.maker.make();
         const Estimates found =
-            probe(scene, anywhere(scene), Way::bsdf, {.samples = 16, .bounces = 30, .rest_probability = 1.0, .give_up = 100});
+            probe(scene, anywhere(scene), Technique::bsdf, {.samples = 16, .bounces = 30, .rest_probability = 1.0, .give_up = 100});
         expect_exact(found, [](int) { return grey(1.0); });
         EXPECT_EQ(found.given_up, found.samples);
     }
@@ -102,7 +102,7 @@ TEST(Furnace, TheRestIsTheTailOfTheGeometricSeries) {
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.8, 1.0));
     const Scene scene = maker.make();
     for (const double go_on : {1.0, 0.5})
-        for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
+        for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
             SCOPED_TRACE(name(way));
             const Estimates found = probe(scene, anywhere(scene), way,
                                           {.samples = go_on < 1.0 ? 16384u : 8192u, .bounces = 3, .rest_probability = go_on});

@@ -170,7 +170,7 @@ TEST(Invariance, EveryChannelHasItsOwnPowers) {
     for (std::size_t i = 0; i < 6; ++i)
         maker.add(faces[i], {rho, i == ceiling ? std::optional<AreaLight>(grey(1.0)) : std::nullopt});
     const Scene scene = maker.make();
-    const Estimates found = probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Way::mis, {.samples = 64, .bounces = 10});
+    const Estimates found = probe(scene, at(scene, {0, 0.5, 0.5}, {1, 0, 0}), Technique::mis, {.samples = 64, .bounces = 10});
     for (int i = 1; i <= 10; ++i) {
         const Rgb& mean = found.terms[static_cast<std::size_t>(i)].mean;
         for (int c = 0; c < 3; ++c)

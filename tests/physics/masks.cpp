@@ -8,7 +8,7 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Way ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
+constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 
 std::shared_ptr<const Bsdf> shared(Bsdf bsdf) { return std::make_shared<const Bsdf>(std::move(bsdf)); }
 
@@ -19,7 +19,7 @@ TEST(Null, EveryPaneIsABounce) {
         for (int k = 0; k < m; ++k) maker.add(patch({0, 0, -k}, {0.3, 0.2, k % 2 ? -1.0 : 1.0}, 1.0), boundary(Null(), Null()));
         maker.add(patch({0, 0, -m}, {0, 0, 1}, 1.0), lamp(2.0));
         const Scene scene = maker.make();
-        for (const Way way : ways) {
+        for (const Technique way : ways) {
             SCOPED_TRACE(name(way) + ", panes: " + std::to_string(m));
             const StartPicker start = [p = surface_point(scene, {0, 0, 0}, glm::normalize(Vec3(0.3, 0.2, 1.0)))](Random&) {
                 return Start{p, Vec3(0, 0, 1)};
@@ -41,7 +41,7 @@ TEST(Mask, HolesAndWhatIsBetweenThemAddUp) {
         maker.add(patch({0, 0, -1}, {0, 0, 1}, 0.1), lamp(0.5));
         const Scene scene = maker.make();
         const double exact[] = {opacity * rho * F * 3.0 + (1.0 - opacity) * 0.5, 0.0};
-        for (const Way way : ways) {
+        for (const Technique way : ways) {
             SCOPED_TRACE(name(way) + ", opacity " + std::to_string(opacity));
             expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 1024, .bounces = 2}), exact, 1, 0.003);
         }
@@ -56,7 +56,7 @@ TEST(Mask, UnderTheSky) {
               boundary(Mask(shared(Diffuse(Rgb(rho))), Rgb(opacity)), Mask(nullptr, Rgb(opacity))));
     maker.parts.lights.environment = ConstantEnvironment(Rgb(1.0));
     const Scene scene = maker.make();
-    for (const Way way : ways)
+    for (const Technique way : ways)
         for (const double side : {1.0, -1.0}) {
             SCOPED_TRACE(name(way));
             const double exact[] = {(side > 0.0 ? opacity * rho : 0.0) + 1.0 - opacity, 0.0};
@@ -96,7 +96,7 @@ TEST(Blend, AMirrorAndAMattSurfaceMixAsOne) {
     const double exact[] = {0.01, 0.253, 0.2759, 0.24277, 0.200831, 0.1626493};
     const SurfacePoint p = surface_point(scene, {0, 0, -1}, {0, 0, 1});
     const StartPicker start = [p](Random&) { return Start{p, at_cosine(0.1)}; };
-    for (const Way way : ways) {
+    for (const Technique way : ways) {
         SCOPED_TRACE(name(way));
         expect_matches(probe(scene, start, way, {.samples = 512, .bounces = 5}), exact, 0, 0.006);
     }
@@ -157,13 +157,13 @@ TEST(Retroreflector, SendsLightBackWhereItCameFrom) {
     SurfacePoint here, there;
     ASSERT_TRUE(scene.geometry.first_hit({0.3, 0.4, 0.5}, d, 1e9, here));
     ASSERT_TRUE(scene.geometry.first_hit({0.3, 0.4, 0.5}, -d, 1e9, there));
-    for (const Way way : ways) {
+    for (const Technique way : ways) {
         SCOPED_TRACE(name(way));
         const Estimates found = probe(scene,
                                       [&](Random&) {
                                           return Start{here, -d};
                                       },
-                                      way, {.samples = 2, .bounces = way == Way::pointwise ? 10 : 40});
+                                      way, {.samples = 2, .bounces = way == Technique::pointwise ? 10 : 40});
         for (std::size_t i = 0; i < found.terms.size(); ++i)
             for (int c = 0; c < 3; ++c) {
                 EXPECT_NEAR(found.terms[i].mean[c], std::pow(rho, i) * (i % 2 ? there : here).position[c], 1e-12) << i;

@@ -11,13 +11,15 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Way ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
+constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 constexpr double rho = 0.9;
 
 Conductor mirror() { return Conductor({}, grey(rho)); }
 
 // Few samples are enough: all have to be the same.
-Effort effort(Way way, int bounces) { return {.samples = 2, .bounces = way == Way::pointwise ? std::min(bounces, 12) : bounces}; }
+ProbeSettings effort(Technique way, int bounces) {
+    return {.samples = 2, .bounces = way == Technique::pointwise ? std::min(bounces, 12) : bounces};
+}
 
 // A diffuse floor lit by a lamp that it sees in a mirror only, as if the lamp were behind it: K^2 Le = ρ_floor ρ F, F the form
 // factor of the mirrored lamp, here of a disc at height h seen from a point below its centre, r²/(r² + h²), less
@@ -30,7 +32,7 @@ TEST(Mirrors, ALampSeenInAMirrorLightsTheFloor) {
     maker.add(Disk{{0, 0, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}}, lamp(1.0));
     const Scene scene = maker.make();
     const double F = 4.0 / (4.0 + 9.0) - 0.02 * 0.02 / (pi * 4.0);
-    for (const Way way : {Way::mis, Way::bsdf, Way::light}) {
+    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
         SCOPED_TRACE(name(way));
         expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 3}),
                        std::vector{0.0, 0.0, 0.5 * rho * F, 0.0}, 0, 0.005);
@@ -45,7 +47,7 @@ TEST(Mirrors, TheBackIsBlackUnlessTwoSided) {
         maker.add(patch({0, 0, 0}, {0, 0, 1}, 1.0), surface);
         maker.add(patch({0, 0, -2}, {0, 0, 1}, 1.0), lamp(1.0));
         const Scene scene = maker.make();
-        for (const Way way : ways) {
+        for (const Technique way : ways) {
             const Estimates found = probe(scene, seen(scene, {0.1, 0.2, -1}, {0, 0, 1}), way, effort(way, 2));
             expect_exact(found, [=](int i) { return grey(two_sided && i == 1 ? rho : 0.0); });
         }
@@ -57,7 +59,7 @@ TEST(Mirrors, ReflectionOverSurfacesRefusesThem) {
     maker.add(patch({0, 0, 0}, {0, 0, 1}, 1.0), made_of(mirror(), grey(1.0)));
     const Scene scene = maker.make();
     try {
-        probe(scene, at(scene, {0.1, 0.2, 0}, {0, 0, 1}), Way::surfaces, {.samples = 1, .bounces = 1});
+        probe(scene, at(scene, {0.1, 0.2, 0}, {0, 0, 1}), Technique::surfaces, {.samples = 1, .bounces = 1});
         FAIL();
     } catch (const InputError& e) {
         EXPECT_STREQ(e.what(), "reflection over surfaces is not possible with mirrors, expected diffuse or rough materials");

@@ -10,7 +10,7 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Way walks[] = {Way::mis, Way::bsdf, Way::light};
+constexpr Technique walks[] = {Technique::mis, Technique::bsdf, Technique::light};
 
 Surface sky(const AreaLight& radiance) { return {std::nullopt, radiance}; }
 
@@ -78,11 +78,11 @@ TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
             maker.add(Sphere{to, 10.0 * scale, true}, sky(grey(1.0)));
             const Scene scene = maker.make();
             const Estimates found =
-                probe(scene, anywhere_on(scene, shape), Way::bsdf, {.samples = 1024, .bounces = 3, .rest_probability = 1.0});
+                probe(scene, anywhere_on(scene, shape), Technique::bsdf, {.samples = 1024, .bounces = 3, .rest_probability = 1.0});
             expect_exact(found, [&](int i) { return grey(i == 1 ? rho : 0.0); });
             EXPECT_EQ(found.rays[2] + found.rays[3] + found.rays[4], 0.0);
             const Estimates lit =
-                probe(scene, anywhere_on(scene, shape), Way::mis, {.samples = 1024, .bounces = 3, .rest_probability = 1.0});
+                probe(scene, anywhere_on(scene, shape), Technique::mis, {.samples = 1024, .bounces = 3, .rest_probability = 1.0});
             for (std::size_t i = 2; i <= 3; ++i) expect_matches(lit.terms[i], 0.0, "K^" + std::to_string(i) + " Le");
             EXPECT_EQ(lit.rays[2] + lit.rays[3] + lit.rays[4], 0.0);
         }
@@ -101,7 +101,7 @@ TEST(OpenScene, ASkyThatVariesLightsByItsMoments) {
     const std::uint32_t cube = maker.add(make_cube(Mat4(1.0)), matte(rho));
     maker.add(Sphere{{0, 0, 0}, 4.0, true}, sky(radiance));
     const Scene scene = maker.make();
-    for (const Way way : walks) {
+    for (const Technique way : walks) {
         SCOPED_TRACE(name(way));
         for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
             const double exact =

@@ -141,7 +141,7 @@ TEST(RoughDielectric, LosesOnlyWhatFacetsHide) {
 // A lamp beyond a rough boundary, a disc that fills the cone around −z with cosine above 0.8: K^1 Le = ∫ fs |cosθ| dω over it, by
 // quadrature. And one on the same side, over the cone around +z. 2 glasses × 2 × 4 ways: 16 comparisons.
 TEST(RoughDielectric, LampsAreFoundThroughIt) {
-    constexpr Way ways[] = {Way::mis, Way::bsdf, Way::light, Way::pointwise};
+    constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
     const double mu = 0.9, edge = 0.8;
     for (const double eta : {1.5, 1.0 / 1.5})
         for (const double side : {1.0, -1.0}) {
@@ -160,7 +160,7 @@ TEST(RoughDielectric, LampsAreFoundThroughIt) {
             const Scene scene = maker.make();
             const SurfacePoint p = surface_point(scene, {0, 0, 0}, {0, 0, 1});
             const StartPicker start = [p, mu](Random&) { return Start{p, at_cosine(mu)}; };
-            for (const Way way : ways) {
+            for (const Technique way : ways) {
                 SCOPED_TRACE(name(way) + ", eta " + std::to_string(eta) + (side > 0.0 ? ", above" : ", below"));
                 const double terms[] = {exact};
                 expect_matches(probe(scene, start, way, {.samples = 8192, .bounces = 1}), terms, 1, 0.01);

@@ -27,7 +27,7 @@ TEST(RoughFurnaceSlow, AllWaysFindTheSameTerms) {
     const Scene scene = sphere(RoughConductor(Ggx(0.5), {}, Rgb(1.0), Masking::height_correlated));
     for (const auto& [cosine, exact] : {std::pair{1.0, std::vector{0.6878485151102349, 0.47979225079547394, 0.33659055345950384}},
                                         {0.2, std::vector{0.7899291865647029, 0.5594693134406654, 0.3932619909578068}}})
-        for (const Way way : {Way::mis, Way::light, Way::pointwise, Way::surfaces}) {
+        for (const Technique way : {Technique::mis, Technique::light, Technique::pointwise, Technique::surfaces}) {
             SCOPED_TRACE(name(way) + ", cosine " + std::to_string(cosine));
             expect_matches(probe(scene, under(scene, cosine), way, {.samples = 4096, .bounces = 3}), exact, 1, 0.015);
         }

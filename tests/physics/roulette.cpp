@@ -16,7 +16,7 @@ Scene furnace(double rho) {
 }
 Estimates ended(const Scene& scene, const Roulette& roulette, std::uint32_t samples) {
     return probe(
-        scene, at(scene, {0, 0, 1}, {0, 0, -1}), Way::bsdf,
+        scene, at(scene, {0, 0, 1}, {0, 0, -1}), Technique::bsdf,
         {.samples = samples, .bounces = 8, .rest_probability = 1.0, .sampler = SamplerKind::independent, .roulette = roulette});
 }
 // Of the sum over all k ≥ 0: Σ_j Σ_k w^(j+k) q^max(j,k) − 1/(1 − ρ)², w = ρ/q.

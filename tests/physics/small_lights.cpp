@@ -28,7 +28,7 @@ void expect_reflected(const std::vector<DeltaLight>& lights, const Vec3& p, doub
     maker.add(parallelogram({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), matte(rho));
     maker.parts.lights.delta = lights;
     const Scene scene = maker.make();
-    for (const Way way : {Way::mis, Way::light}) {
+    for (const Technique way : {Technique::mis, Technique::light}) {
         SCOPED_TRACE(what + ", " + name(way));
         expect_matches(probe(scene, at(scene, p, {0, 0, 1}), way, {.samples = 1024, .bounces = 2}), std::vector{0.0, exact, 0.0});
     }
@@ -144,7 +144,7 @@ TEST(SmallLightsSlow, ShareTheSamplesOfAllLights) {
     maker.parts.lights.delta = {PointLight({2, 0, 1}, grey(4.0)), DirectionalLight(glm::normalize(Vec3(3, 0, -4)), grey(5.0))};
     const Scene scene = maker.make();
     const double exact = rho * (3.0 * 0.2 + 2.0 * 0.8 + 4.0 / std::sqrt(5.0) / (pi * 5.0) + 5.0 * 0.8 / pi);
-    for (const Way way : {Way::mis, Way::light}) {
+    for (const Technique way : {Technique::mis, Technique::light}) {
         SCOPED_TRACE(name(way));
         expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 2}),
                        std::vector{0.0, exact, 0.0});

@@ -21,7 +21,7 @@ TEST(SplittingSlow, VariancesAreDivided) {
     for (const Split& split : splits) {
         SCOPED_TRACE(describe(split));
         const auto variance = [&](DirectLight direct) {
-            return probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Way::mis,
+            return probe(scene, at(scene, {0.5, 0.5, 0}, {0, 0, 1}), Technique::mis,
                          {.samples = 1 << 11,
                           .bounces = 1,
                           .sampler = SamplerKind::independent,
@@ -42,13 +42,13 @@ TEST(Splitting, RaysAreCounted) {
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
     const Scene scene = maker.make();
     for (const Split& split : splits)
-        for (const Way way : {Way::bsdf, Way::light}) {
+        for (const Technique way : {Technique::bsdf, Technique::light}) {
             SCOPED_TRACE(describe(split) + ", " + name(way));
             const Estimates found =
                 probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), way, {.samples = 64, .bounces = 3, .split = split});
             for (int i = 0; i <= 3; ++i)
                 EXPECT_NEAR(found.terms[static_cast<std::size_t>(i)].mean.r, std::pow(rho, i), 1e-12) << "bounce " << i;
-            const double asked = way == Way::light ? 1.0 : 0.0;
+            const double asked = way == Technique::light ? 1.0 : 0.0;
             EXPECT_EQ(found.rays[0], 1.0);
             EXPECT_EQ(found.rays[1], split.walks + asked * split.lights);
             EXPECT_EQ(found.rays[2], split.walks * (1.0 + asked));
@@ -65,14 +65,14 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
     const Scene scene = maker.make();
     const StartPicker start = anywhere_on(scene, static_cast<std::uint32_t>(floor));
     const Estimates plain =
-        probe(scene, start, Way::mis, {.samples = 8192, .bounces = 3, .rest_probability = 1.0, .seed = fixed_seed + 1});
+        probe(scene, start, Technique::mis, {.samples = 8192, .bounces = 3, .rest_probability = 1.0, .seed = fixed_seed + 1});
     for (const DirectLightSettings& direct :
          {DirectLightSettings{}, DirectLightSettings{.heuristic = Heuristic::balance},
           DirectLightSettings{.lights = LightChoice::all}, DirectLightSettings{.direct = DirectLight::cosine}})
         for (const Split& split : splits) {
             SCOPED_TRACE(describe(split) +
                          fmt::format(", direct {}, lights {}", static_cast<int>(direct.direct), static_cast<int>(direct.lights)));
-            const Estimates found = probe(scene, start, Way::mis,
+            const Estimates found = probe(scene, start, Technique::mis,
                                           {.samples = direct.direct == DirectLight::cosine ? 4096u : 256u,
                                            .bounces = 3,
                                            .rest_probability = 1.0,

@@ -35,7 +35,7 @@ TEST(TexturedScenes, RectangleUnderAWhiteSky) {
         maker.add(Sphere{{0, 0, 0}, 5.0, true}, lamp(1.0));
         const Scene scene = maker.make();
         EXPECT_DOUBLE_EQ(scene.materials.largest_albedo().r, 0.9f);
-        const Estimates found = probe(scene, anywhere_on(scene, floor), Way::bsdf, {.samples = 1024, .bounces = 1});
+        const Estimates found = probe(scene, anywhere_on(scene, floor), Technique::bsdf, {.samples = 1024, .bounces = 1});
         expect_matches(found.terms[1], mean, "the mean of the texels");
     }
 }
@@ -61,7 +61,7 @@ TEST(TexturedScenes, LampWithATexture) {
         };
         const double exact =
             integrate(-1.0, -0.5, 1e-9, strip) + integrate(-0.5, 0.5, 1e-9, strip) + integrate(0.5, 1.0, 1e-9, strip);
-        const Estimates found = probe(scene, at(scene, {x, 0, 0}, {0, 0, 1}), Way::mis, {.samples = 1024, .bounces = 1});
+        const Estimates found = probe(scene, at(scene, {x, 0, 0}, {0, 0, 1}), Technique::mis, {.samples = 1024, .bounces = 1});
         expect_matches(found.terms[1], exact, "light at x = " + std::to_string(x));
     }
 }
@@ -76,7 +76,7 @@ TEST(TexturedScenes, TiltedNormalsUnderAWhiteSky) {
     maker.add(Sphere{{0, 0, 0}, 5.0, true}, lamp(1.0));
     const Scene scene = maker.make();
     EXPECT_TRUE(has_shading_normals(scene));
-    for (const Way way : {Way::bsdf, Way::mis}) {
+    for (const Technique way : {Technique::bsdf, Technique::mis}) {
         const Estimates found = probe(scene, at(scene, {0.1, 0.2, 0}, {0, 0, 1}), way, {.samples = 256, .bounces = 1});
         expect_matches(found.terms[1], rho * 0.5 * (1.0 + std::cos(tilt)), name(way));
     }

@@ -48,7 +48,7 @@ void groove(Figures& figures, std::uint64_t seed, double half_length, double p, 
     std::vector<double> exact;
     for (int i = 1; i <= 3; ++i) exact.push_back(std::pow(rho, i) * s * std::pow(1.0 - s, i - 1));
     const StartPicker start = on_shape(scene, floor, moved(to_world, {p, 0.3, 0}), turned(to_world, {0, 0, 1}));
-    for (const Way way : {Way::mis, Way::bsdf})
+    for (const Technique way : {Technique::mis, Technique::bsdf})
         figures.terms(sharp_probe(scene, start, way, {.samples = 1024, .bounces = 3, .seed = seed}), exact, 1, 4.0 * 0.5684 * p);
 }
 
@@ -72,7 +72,7 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
     const Scene scene = maker.make();
     const auto measure = [&](const char* where, double x, double F) {
         const StartPicker start = on_shape(scene, ground, moved(to_world, {x, 0, 0}), turned(to_world, {0, 0, 1}));
-        for (const Way way : {Way::mis, Way::bsdf})
+        for (const Technique way : {Technique::mis, Technique::bsdf})
             figures.sampled(fmt::format("K Le {}, {}", where, short_name(way)),
                             sharp_probe(scene, start, way, {.samples = 1024, .bounces = 1, .seed = seed}).terms[1],
                             rho * (1.0 - F));
@@ -89,7 +89,7 @@ void bodies_in_furnace(Figures& figures, std::uint64_t seed, const std::vector<S
     for (const TriangleMesh& face : room({-1, -1, 0}, {1, 1, 2})) maker.add(transformed(face, to_world), glowing(0.8, 1.0));
     for (const Shape& body : bodies) maker.add(transformed(body, to_world).value(), glowing(0.8, 1.0));
     const Scene scene = maker.make();
-    const Estimates found = probe(scene, at(scene, moved(to_world, {0.1, -0.7, 0}), turned(to_world, {0, 0, 1})), Way::bsdf,
+    const Estimates found = probe(scene, at(scene, moved(to_world, {0.1, -0.7, 0}), turned(to_world, {0, 0, 1})), Technique::bsdf,
                                   {.samples = 2048, .bounces = 8, .seed = seed});
     figures.near("K^8 Le", found.terms[8].mean.r, std::pow(0.8, 8), 64 * eps);
     figures.near("standard error", found.terms[8].standard_error.r, 0.0, 0.0);

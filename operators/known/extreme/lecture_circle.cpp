@@ -50,7 +50,8 @@ void lecture_circle(Figures& figures, std::uint64_t seed) {
             if (cosine < 1e-3) continue;
             const Start start{hit, hit.normal};
             const Statistic lit =
-                probe(scene, [start](Random&) { return start; }, Way::mis, {.samples = 1, .bounces = 1, .seed = seed}).terms[1];
+                probe(scene, [start](Random&) { return start; }, Technique::mis, {.samples = 1, .bounces = 1, .seed = seed})
+                    .terms[1];
             hidden += lit.mean.r == 0.0;
             worst_light = std::max(worst_light, std::abs(lit.mean.r * pi * d * d / (0.5 * cosine) - 1.0));
         }

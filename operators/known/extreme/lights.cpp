@@ -27,7 +27,7 @@ Cases extreme_light_cases() {
                                  const Scene scene = maker.make();
                                  // A sphere of diameter s looks the same from everywhere: π s²/4 across.
                                  const double exact = rho * cosine * (round ? 0.25 * pi : cosine) / (pi * r2);
-                                 for (const Way way : {Way::mis, Way::light})
+                                 for (const Technique way : {Technique::mis, Technique::light})
                                      figures.sampled(fmt::format("K Le, {}", short_name(way)),
                                                      sharp_probe(scene, at(scene, p, {0, 0, 1}), way,
                                                                  {.samples = 1024, .bounces = 1, .seed = seed})
@@ -35,7 +35,7 @@ Cases extreme_light_cases() {
                                                      exact, exact * (s * s / r2 + 1e-12));
                              }});
     // A ceiling 1 above, of side 1e4.
-    for (const Way way : {Way::mis, Way::light, Way::bsdf})
+    for (const Technique way : {Technique::mis, Technique::light, Technique::bsdf})
         cases.push_back(
             {"extreme/light-size-1e4/" + short_name(way), "Lambert's formula: exact", [way](Figures& figures, std::uint64_t seed) {
                  SceneMaker maker;
@@ -43,8 +43,8 @@ Cases extreme_light_cases() {
                  maker.add(patch({0, 0, 1}, {0, 0, -1}, 5e3), lamp(3.0));
                  const Scene scene = maker.make();
                  const double exact = 0.7 * 3.0 * rectangle_overhead(1e4, 1e4, 1.0);
-                 Effort effort{.samples = 1024, .bounces = 1, .seed = seed};
-                 if (way == Way::light) {
+                 ProbeSettings effort{.samples = 1024, .bounces = 1, .seed = seed};
+                 if (way == Technique::light) {
                      // By area the light above, of all of it that is far away, is found once in 1e8 times: by solid angle.
                      effort.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  }
@@ -61,7 +61,7 @@ Cases extreme_light_cases() {
                  maker.parts.lights.delta = {DirectionalLight(Vec3(std::sqrt(1.0 - cosine * cosine), 0, -cosine), grey(4.0))};
                  const Scene scene = maker.make();
                  const Statistic found =
-                     probe(scene, at(scene, {0.1, 0.2, 0}, {0, 0, 1}), Way::mis, {.samples = 16, .bounces = 1, .seed = seed})
+                     probe(scene, at(scene, {0.1, 0.2, 0}, {0, 0, 1}), Technique::mis, {.samples = 16, .bounces = 1, .seed = seed})
                          .terms[1];
                  figures.near(fmt::format("K Le, cosine {:g}", cosine), found.mean.r, 2.0 * cosine / pi, 1e-10 * cosine);
              }
@@ -74,12 +74,12 @@ Cases extreme_light_cases() {
                  maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(0.5));
                  maker.add(parallelogram({1, -50, 0}, {0, 0, h}, {0, 100, 0}), lamp(2.0));
                  const Scene scene = maker.make();
-                 Effort effort{.samples = 1024, .bounces = 1, .seed = seed};
+                 ProbeSettings effort{.samples = 1024, .bounces = 1, .seed = seed};
                  effort.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  const double exact = 0.5 * (1.0 - 1.0 / std::sqrt(1.0 + h * h));
                  // A strip as wide as w on either side lacks O(1/w³) of it.
                  figures.sampled(fmt::format("K Le, height {:g}", h),
-                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Way::light, effort).terms[1], exact,
+                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Technique::light, effort).terms[1], exact,
                                  1e-5 * exact);
              }
          }});

@@ -27,8 +27,8 @@ Cases extreme_material_cases() {
                  SceneMaker maker;
                  maker.add(Sphere{{0, 0, 0}, 1.0, true}, made_of(bsdf, AreaLight(grey(1.0))));
                  const Scene scene = maker.make();
-                 const Estimates found =
-                     probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), Way::bsdf, {.samples = 16384, .bounces = 1, .seed = seed});
+                 const Estimates found = probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), Technique::bsdf,
+                                               {.samples = 16384, .bounces = 1, .seed = seed});
                  const double known = alpha == 0.05 ? 0.9972958684886749 : alpha == 1.0 ? 0.30685281944005405 : 1.0 - alpha * alpha;
                  figures.sampled("K Le, cosine 1", found.terms[1], known, alpha < 0.05 ? alpha * alpha : 0.0);
                  // At each sampled direction: weight = fs cosθ/pdf.
@@ -72,7 +72,7 @@ Cases extreme_material_cases() {
                              const Scene scene = maker.make();
                              const double R = std::pow((index - 1.0) / (index + 1.0), 2);
                              const Estimates found =
-                                 probe(scene, seen(scene, {0.01, 0.02, 3}, {0, 0, -1}), Way::mis,
+                                 probe(scene, seen(scene, {0.01, 0.02, 3}, {0, 0, -1}), Technique::mis,
                                        {.samples = 65536, .bounces = 4, .sampler = SamplerKind::independent, .seed = seed});
                              if (index > 2.0) {
                                  const double through = (1.0 - R) * (1.0 - R);
@@ -88,12 +88,12 @@ Cases extreme_material_cases() {
                              SceneMaker maker;
                              maker.add(make_cube(Mat4(1.0), true), glowing(rho, 1.0));
                              const Scene scene = maker.make();
-                             for (const Way way : {Way::bsdf, Way::mis, Way::light, Way::pointwise}) {
-                                 if (rho == 1.0 && way != Way::bsdf && way != Way::pointwise) continue;
+                             for (const Technique way : {Technique::bsdf, Technique::mis, Technique::light, Technique::pointwise}) {
+                                 if (rho == 1.0 && way != Technique::bsdf && way != Technique::pointwise) continue;
                                  const Estimates found = probe(scene, anywhere(scene), way,
                                                                {.samples = 16,
-                                                                .bounces = way == Way::pointwise ? 5 : 8,
-                                                                .rest_probability = way == Way::pointwise ? 0.0 : 1.0,
+                                                                .bounces = way == Technique::pointwise ? 5 : 8,
+                                                                .rest_probability = way == Technique::pointwise ? 0.0 : 1.0,
                                                                 .give_up = 100,
                                                                 .seed = seed});
                                  double largest = 0.0, smallest = infinity;
@@ -103,7 +103,7 @@ Cases extreme_material_cases() {
                                  }
                                  figures.near(fmt::format("largest K^i Le, i > 0, {}", short_name(way)), largest, rho, 0.0);
                                  figures.near(fmt::format("smallest K^i Le, i > 0, {}", short_name(way)), smallest, rho, 0.0);
-                                 if (way != Way::pointwise)
+                                 if (way != Technique::pointwise)
                                      figures.near(fmt::format("walks given up, of all, {}", short_name(way)),
                                                   static_cast<double>(found.given_up) / static_cast<double>(found.samples), rho,
                                                   0.0);

@@ -35,7 +35,7 @@ Cases extreme_place_cases() {
                                  maker.add(transformed(face, to_world), glowing(0.8, 1.0));
                              const Scene scene = maker.make();
                              const Estimates found =
-                                 probe(scene, anywhere(scene), Way::bsdf, {.samples = 1024, .bounces = 8, .seed = seed});
+                                 probe(scene, anywhere(scene), Technique::bsdf, {.samples = 1024, .bounces = 8, .seed = seed});
                              figures.near("K^8 Le", found.terms[8].mean.r, std::pow(0.8, 8), 64 * eps);
                              figures.near("standard error", found.terms[8].standard_error.r, 0.0, 0.0);
                          }});

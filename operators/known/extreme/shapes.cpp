@@ -23,7 +23,7 @@ Cases extreme_shape_cases() {
                              const Vec3 across(0, 0.01, 0), along(20, 0, 0);
                              maker.add(strips(Vec3(0, 0, 1) - 0.5 * (across + along), across, along, pieces), lamp(2.0));
                              const Scene scene = maker.make();
-                             for (const Way way : {Way::mis, Way::light})
+                             for (const Technique way : {Technique::mis, Technique::light})
                                  figures.sampled(fmt::format("K Le, {}", short_name(way)),
                                                  sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way,
                                                              {.samples = 1024, .bounces = 1, .seed = seed})
@@ -35,27 +35,28 @@ Cases extreme_shape_cases() {
             {fmt::format("extreme/needles/floor-of-{}", pieces), "rho^i g_i: 2.4e-8", [=](Figures& figures, std::uint64_t seed) {
                  sample_cube(figures, seed, lit_cube(0.8, 1.0, Mat4(1.0), pieces).make());
              }});
-    cases.push_back(
-        {"extreme/coincident/alike", "as once, but for rounding", [](Figures& figures, std::uint64_t seed) {
-             const auto lit = [&](int copies) {
-                 SceneMaker maker;
-                 const auto faces = room({0, 0, 0}, {1, 1, 1});
-                 for (std::size_t i = 0; i < 6; ++i)
-                     for (int k = 0; k < (i == floor ? copies : 1); ++k)
-                         maker.add(faces[i], i == ceiling ? glowing(0.8, 1.0) : matte(0.8));
-                 const Scene scene = maker.make();
-                 return probe(scene, at(scene, {0.2, 0.3, 0}, {0, 0, 1}), Way::mis, {.samples = 256, .bounces = 6, .seed = seed});
-             };
-             const Estimates once = lit(1);
-             for (const int copies : {2, 5}) {
-                 const Estimates found = lit(copies);
-                 // A ray to the diagonal of a wall may end on either of its triangles, whose points are rounded differently.
-                 double largest = 0.0;
-                 for (std::size_t i = 1; i < once.terms.size(); ++i)
-                     largest = std::max(largest, std::abs(found.terms[i].mean.r / once.terms[i].mean.r - 1.0));
-                 figures.at_most(fmt::format("relative difference of terms, {} floors", copies), largest, 8 * eps);
-             }
-         }});
+    cases.push_back({"extreme/coincident/alike", "as once, but for rounding", [](Figures& figures, std::uint64_t seed) {
+                         const auto lit = [&](int copies) {
+                             SceneMaker maker;
+                             const auto faces = room({0, 0, 0}, {1, 1, 1});
+                             for (std::size_t i = 0; i < 6; ++i)
+                                 for (int k = 0; k < (i == floor ? copies : 1); ++k)
+                                     maker.add(faces[i], i == ceiling ? glowing(0.8, 1.0) : matte(0.8));
+                             const Scene scene = maker.make();
+                             return probe(scene, at(scene, {0.2, 0.3, 0}, {0, 0, 1}), Technique::mis,
+                                          {.samples = 256, .bounces = 6, .seed = seed});
+                         };
+                         const Estimates once = lit(1);
+                         for (const int copies : {2, 5}) {
+                             const Estimates found = lit(copies);
+                             // A ray to the diagonal of a wall may end on either of its triangles, whose points are rounded
+                             // differently.
+                             double largest = 0.0;
+                             for (std::size_t i = 1; i < once.terms.size(); ++i)
+                                 largest = std::max(largest, std::abs(found.terms[i].mean.r / once.terms[i].mean.r - 1.0));
+                             figures.at_most(fmt::format("relative difference of terms, {} floors", copies), largest, 8 * eps);
+                         }
+                     }});
     // Which of two unlike surfaces in the same place is seen is chance: where one of them is a light, that is warned of.
     cases.push_back(
         {"extreme/coincident/unlike", "warned of; nothing is missed", [](Figures& figures, std::uint64_t seed) {
@@ -100,37 +101,40 @@ Cases extreme_shape_cases() {
                          maker.add(box({-0.1, -0.1, -0.1}, {0.6, 0.6, 0.6}), glowing(0.8, 1.0));
                          maker.add(Sphere{{0.2, 0.2, 0.2}, 0.3, false}, glowing(0.8, 1.0));
                          const Scene scene = maker.make();
-                         const Estimates found = probe(scene, at(scene, {0.3, -0.4, -1}, {0, 0, 1}), Way::bsdf,
+                         const Estimates found = probe(scene, at(scene, {0.3, -0.4, -1}, {0, 0, 1}), Technique::bsdf,
                                                        {.samples = 4096, .bounces = 8, .seed = seed});
                          figures.near("K^8 Le", found.terms[8].mean.r, std::pow(0.8, 8), 64 * eps);
                          figures.near("standard error", found.terms[8].standard_error.r, 0.0, 0.0);
                      }});
-    cases.push_back(
-        {"extreme/no-area", "left out, counted, no bit changes", [](Figures& figures, std::uint64_t seed) {
-             const auto found = [&](bool rubbish) {
-                 SceneMaker maker;
-                 auto faces = room({0, 0, 0}, {1, 1, 1});
-                 if (rubbish) faces[floor].triangles.insert(faces[floor].triangles.end(), {{0, 0, 1}, {1, 1, 1}, {0, 3, 3}});
-                 for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == ceiling ? glowing(0.8, 1.0) : matte(0.8));
-                 if (rubbish) {
-                     maker.add(triangle({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}), lamp(1e6));
-                     maker.add(Sphere{{0.5, 0.5, 0.5}, 0.0, false}, lamp(1e6));
-                 }
-                 const Scene scene = maker.make();
-                 if (rubbish) {
-                     const auto& counts = scene.warnings.counts();
-                     figures.near("warned of: left out",
-                                  static_cast<double>(counts.at("degenerate triangle or shape without extent left out")), 5, 0);
-                     figures.near("warned of: lights without area",
-                                  static_cast<double>(counts.at("light without area gives off nothing")), 2, 0);
-                 }
-                 return probe(scene, at(scene, {0.3, 0.4, 0}, {0, 0, 1}), Way::mis, {.samples = 64, .bounces = 6, .seed = seed});
-             };
-             const Estimates clean = found(false), littered = found(true);
-             int different = 0;
-             for (std::size_t i = 0; i < clean.terms.size(); ++i) different += clean.terms[i].mean != littered.terms[i].mean;
-             figures.near("terms with other bits", different, 0, 0);
-         }});
+    cases.push_back({"extreme/no-area", "left out, counted, no bit changes", [](Figures& figures, std::uint64_t seed) {
+                         const auto found = [&](bool rubbish) {
+                             SceneMaker maker;
+                             auto faces = room({0, 0, 0}, {1, 1, 1});
+                             if (rubbish)
+                                 faces[floor].triangles.insert(faces[floor].triangles.end(), {{0, 0, 1}, {1, 1, 1}, {0, 3, 3}});
+                             for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], i == ceiling ? glowing(0.8, 1.0) : matte(0.8));
+                             if (rubbish) {
+                                 maker.add(triangle({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}), lamp(1e6));
+                                 maker.add(Sphere{{0.5, 0.5, 0.5}, 0.0, false}, lamp(1e6));
+                             }
+                             const Scene scene = maker.make();
+                             if (rubbish) {
+                                 const auto& counts = scene.warnings.counts();
+                                 figures.near(
+                                     "warned of: left out",
+                                     static_cast<double>(counts.at("degenerate triangle or shape without extent left out")), 5, 0);
+                                 figures.near("warned of: lights without area",
+                                              static_cast<double>(counts.at("light without area gives off nothing")), 2, 0);
+                             }
+                             return probe(scene, at(scene, {0.3, 0.4, 0}, {0, 0, 1}), Technique::mis,
+                                          {.samples = 64, .bounces = 6, .seed = seed});
+                         };
+                         const Estimates clean = found(false), littered = found(true);
+                         int different = 0;
+                         for (std::size_t i = 0; i < clean.terms.size(); ++i)
+                             different += clean.terms[i].mean != littered.terms[i].mean;
+                         figures.near("terms with other bits", different, 0, 0);
+                     }});
     return cases;
 }
 

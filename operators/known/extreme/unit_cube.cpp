@@ -25,7 +25,7 @@ SceneMaker lit_cube(double rho, double radiance, const Mat4& to_world, int floor
 void sample_cube(Figures& figures, std::uint64_t seed, const Scene& scene, const Mat4& to_world, double radiance) {
     const double size = glm::length(Vec3(to_world[0]));
     const Vec3 p(to_world * glm::dvec4(0.5, 0.5, 0, 1)), n = glm::normalize(Vec3(to_world * glm::dvec4(0, 0, 1, 0)));
-    figures.terms(sharp_probe(scene, at(scene, p, n, 1e-3 * size), Way::mis, {.samples = 1024, .bounces = 3, .seed = seed}),
+    figures.terms(sharp_probe(scene, at(scene, p, n, 1e-3 * size), Technique::mis, {.samples = 1024, .bounces = 3, .seed = seed}),
                   cube_terms(0.8, radiance), 1, 2.4e-8 * radiance);
 }
 
