@@ -1,6 +1,7 @@
 #include "apps/rendering/light_options.h"
 
 #include "core/base/error.h"
+#include "operators/walk/direct_light.h"
 
 #include <fmt/format.h>
 

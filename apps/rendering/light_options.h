@@ -1,7 +1,7 @@
 // --direct, --lights, --roulette and --split: how walks find light, how they end, and where they branch.
 #pragma once
 
-#include "operators/walk/walk.h"
+#include "operators/walk/walk_settings.h"
 
 #include <nlohmann/json.hpp>
 
