@@ -3,6 +3,7 @@
 #pragma once
 
 #include "operators/bidirectional/light_walk.h"
+#include "operators/walk/ask_light.h"
 
 namespace neumann {
 
@@ -14,14 +15,10 @@ struct Found {
 };
 
 // A path from the camera on its way.
-struct CameraWalker {
-    SurfacePoint x;
-    Vec3 wo;
-    Rgb beta{1.0};
+struct CameraWalker : PathEnd {
+    Vec3 wo;    // towards the vertex before
+    Vec3 from;  // that vertex
     PathWeights weights;
-    double kept_weight = 0.0;
-    Vec3 from, wi;  // the edge before, and the one that goes on
-    double pdf = 0.0;
 };
 
 struct JoiningEdge {
@@ -35,14 +32,14 @@ inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emis
     const LightSample light = lights.sample(z.x.position, u);
     if (!(light.pdf > 0.0) || is_black(light.weight)) return {};
     const Vec3 wo = side.p.frame.to_local(z.wo), wi = side.p.frame.to_local(light.w);
-    const Rgb value = z.beta * eval(*side.bsdf, side.p, wo, wi) * light.weight * std::abs(wi.z);
+    const Rgb value = reflected_light(z.beta, side, wo, wi, light.weight) * std::abs(wi.z);
     if (is_black(value)) return {};
     const bool delta = light.pdf == delta_pdf;
     const double asked = delta ? light.probability : light.pdf;
     double others = delta ? 0.0 : counted(h, pdf(*side.bsdf, side.p, wo, wi) / asked);
     if (!rest) {
-        const double density = delta ? emission.density_of_delta(light.distant, z.x.position, light.w)
-                                     : emission.density(light.point, light.w);
+        const double density =
+            delta ? emission.density_of_delta(light.distant, z.x.position, light.w) : emission.density(light.point, light.w);
         others += z.weights.sum(h, density * std::abs(glm::dot(z.x.normal, light.w)) / asked,
                                 light_pdf(scene.materials, z.x, light.w, z.wo));
     }

@@ -2,6 +2,7 @@
 // what the camera sees by way of a mirror or through glass, and what surrounds the scene.
 #pragma once
 
+#include "core/base/hot.h"
 #include "operators/bidirectional/film_splats.h"
 
 #include <algorithm>
@@ -17,21 +18,23 @@ struct LightTracingWork {
 // 0 … N and the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
 template <class Transport, class Sampler, class OnSplat>
 NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
-                                      const LightSampler& lights, const LightWalkSettings& settings, std::span<Sampler> samplers,
+                                      const LightSampler& lights, const Ending& ending, std::span<Sampler> samplers,
                                       LightTracingWork& work, const OnSplat& splatted, std::span<std::uint64_t> rays) {
-    const auto quantity = [&](int bounce) { return static_cast<std::size_t>(std::min(bounce, settings.vertices + 1)); };
+    const auto quantity = [&](int bounce) { return static_cast<std::size_t>(std::min(bounce, ending.bounces + 1)); };
     return walk_from_lights(
-        scene, T, emission, lights, settings, samplers, work.walkers,
-        [&](int j, const LightWalkers& walkers) {
+        scene, T, emission, lights, ending, std::nullopt, samplers, work.walkers,
+        [&](int j) {
             work.edges.clear();
-            for (const std::uint32_t i : walkers.alive) {
-                const CameraEdge edge = j == 0 ? emission_edge(scene, i, walkers.walker[i].emission, samplers[i])
-                                               : camera_edge(scene, i, walkers.walker[i].vertex, samplers[i]);
+            for (const std::uint32_t i : work.walkers.alive) {
+                const LightWalker& w = work.walkers.walker[i];
+                const CameraEdge edge =
+                    j == 0 ? emission_edge(scene, i, w.emission, samplers[i]) : camera_edge(scene, i, w, samplers[i]);
                 if (!is_black(edge.value)) work.edges.push_back(edge);
             }
             rays[quantity(j)] += work.edges.size();
-            splat_what_is_seen(T, walkers, work.edges, [&](std::size_t k, const Vec2& position, const Rgb& value) {
-                splatted(work.edges[k].walker, position, quantity(j), value);
+            splat_what_is_seen(T, work.walkers, work.edges, [&](std::size_t k) {
+                const CameraEdge& edge = work.edges[k];
+                splatted(edge.walker, edge.position, quantity(j), edge.value);
             });
         },
         [&](int j, std::size_t n) { rays[quantity(j)] += n; });

@@ -4,18 +4,18 @@
 //     ⟨We, K^j Le⟩ = ⟨K*^j We, Le⟩ = E[ β_j fs(ω_j → camera) We ],   β_j = Le cosθ / pdf Π fs cosθ / pdf
 #pragma once
 
-#include "core/base/hot.h"
 #include "core/emitter/emission_sampler.h"
 #include "core/emitter/light_sampler.h"
 #include "core/scene/scene.h"
 #include "operators/bidirectional/adjoint_reflection.h"
 #include "operators/bidirectional/path_weights.h"
-#include "operators/walk/roulette.h"
+#include "operators/walk/ending.h"
+#include "operators/walk/path_end.h"
 #include "operators/walk/together.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <vector>
 
 namespace neumann {
 
@@ -28,131 +28,87 @@ struct LightVertex {
 };
 
 // A path on its way.
-struct LightWalker {
-    LightVertex vertex;
-    SurfacePoint from;  // where the edge began
-    Vec3 w;
-    double first_weight = 0.0, kept_weight = 0.0;  // largest channel of β, at the light and when roulette last let it live
+struct LightWalker : PathEnd {
+    Vec3 wi;  // to where the light came from
+    PathWeights weights;
+    SurfacePoint from;          // where the edge began
+    double first_weight = 0.0;  // largest channel of β at the light
     Emission emission;
-};
-struct LightWalkers {
-    std::vector<LightWalker> walker;
-    std::vector<std::uint32_t> alive;
-};
 
-// How far the paths go.
-struct LightWalkSettings {
-    int vertices = 8;  // with pictures of their own
-    // Beyond them, by roulette: with this probability at all, and for so many bounces more.
-    double rest_probability = 0.0;
-    int give_up = 1'000'000;
-    Roulette roulette = {};  // β counts as a part of what set out
-    Heuristic heuristic = Heuristic::power;
-    bool weighted = false;  // LightVertex::weights are wanted
+    LightVertex vertex() const { return {x, wi, beta, weights}; }
 };
+using LightWalkers = Together<LightWalker>;
 
-// Traces a path for each sampler; they advance together. `visit(j, walkers)` is told when all that are alive are at vertex j, of
-// which vertex 0 is on the light. Returns those that were given up. `rays(j, n)` counts.
+// The weights at the first vertex that the light meets, which may have been asked for from there.
+inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, const LightWalker& w, double distance2,
+                                    double cosine) {
+    const Emission& e = w.emission;
+    const double density = (e.is_point ? e.density / distance2 : e.density) * cosine;
+    const double asked =
+        e.is_delta ? lights.probability_of_distant(e.distant, w.x.position) : lights.pdf(w.x.position, w.wi, w.from);
+    return {.last = counted(h, asked / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
+}
+
+// Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, where they are wanted.
+// `visit(j)` is told when all that are alive are at vertex j, of which vertex 0 is on the light. Returns those that were given up.
+// `rays(j, n)` counts.
 template <class Transport, class Sampler, class Visit, class CountRays>
 std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
-                               const LightWalkSettings& settings, std::span<Sampler> samplers, LightWalkers& walkers,
-                               const Visit& visit, const CountRays& rays) {
-    auto& [walker, alive] = walkers;
-    begin_together(walker, alive, emission.empty() ? 0 : samplers.size());
-    const auto filter = [&](const auto& f) {
-        neumann::filter(walker, alive, [&](LightWalker& w, std::uint32_t i) { return f(w, samplers[i]); });
-    };
-    filter([&](LightWalker& w, Sampler& sampler) {
-        const Vec2 place = sampler.next2();
-        w.emission = emission.sample(place, sampler.next2());
-        w.from = w.emission.from;
+                               const Ending& ending, std::optional<Heuristic> weights, std::span<Sampler> samplers,
+                               LightWalkers& walkers, const Visit& visit, const CountRays& rays) {
+    std::uint64_t given_up = 0;
+    walkers.begin(emission.empty() ? 0 : samplers.size());
+    walkers.keep_if([&](LightWalker& w, std::uint32_t i) {
+        const Vec2 place = samplers[i].next2();
+        w.emission = emission.sample(place, samplers[i].next2());
+        w.x = w.from = w.emission.from;
         w.w = w.emission.w;
-        w.vertex.x = w.emission.from;
-        w.vertex.beta = w.emission.weight;
-        w.first_weight = w.kept_weight = max_component(w.vertex.beta);
+        w.beta = w.emission.weight;
+        w.first_weight = w.kept_weight = max_component(w.beta);
         return true;
     });
-    visit(0, walkers);
-    filter([&](const LightWalker& w, const Sampler&) { return !is_black(w.vertex.beta); });
-    if (settings.vertices == 0 && settings.rest_probability == 0.0) return 0;
+    visit(0);
+    walkers.keep_if([&](const LightWalker& w, std::uint32_t) { return !is_black(w.beta); });
 
-    const Heuristic h = settings.heuristic;
-    for (int j = 1; !alive.empty(); ++j) {
-        const bool rest = j > settings.vertices;
-        if (rest) {
-            if (settings.rest_probability == 0.0) return 0;
-            if (j - settings.vertices > settings.give_up) return alive.size();
-            if (j == settings.vertices + 1)
-                filter([&](LightWalker& w, Sampler& sampler) {
-                    if (settings.rest_probability < 1.0 && sampler.next() >= settings.rest_probability) return false;
-                    w.vertex.beta /= settings.rest_probability;
-                    w.kept_weight = max_component(w.vertex.beta);
-                    return true;
-                });
-        }
+    for (int j = 1; ending.reach(j, walkers, samplers, given_up); ++j) {
         // T*: where the power arrives.
-        rays(j, alive.size());
-        const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
-            return T.first_hits(
-                n,
-                [&](std::size_t i) {
-                    const LightWalker& w = walker[alive[k + i]];
-                    return std::pair<const SurfacePoint&, const Vec3&>(w.from, w.w);
-                },
-                hit);
-        };
-        advance(
-            walker, alive, [](LightWalker& w) -> SurfacePoint& { return w.vertex.x; }, next_points,
-            [&](LightWalker& w, std::uint32_t, bool found) {
-                if (!found) return false;
-                LightVertex& v = w.vertex;
-                v.wi = -w.w;
-                const Vec3 d = v.x.position - w.from.position;
-                const double cosine = std::abs(glm::dot(v.x.normal, v.wi)), distance2 = glm::dot(d, d);
-                if (!(cosine > 0.0)) return false;
-                if (!settings.weighted) {
-                } else if (j == 1) {
-                    const Emission& e = w.emission;
-                    const double density = (e.is_point ? e.density / distance2 : e.density) * cosine;
-                    const double asked = e.is_delta ? lights.probability_of_distant(e.distant, v.x.position)
-                                                    : lights.pdf(v.x.position, v.wi, w.from);
-                    v.weights.last = counted(h, asked / density);
-                    v.weights.before = e.is_delta ? 0.0 : counted(h, 1.0 / density);
-                } else
-                    v.weights.arrive(h, distance2, cosine);
-                return true;
-            });
-        visit(j, walkers);
-        if (j == settings.vertices && settings.rest_probability == 0.0) return 0;
+        rays(j, walkers.alive.size());
+        walkers.advance([&](std::size_t k, std::size_t n, const auto& hit) { return walkers.first_hits(T, k, n, hit); },
+                        [&](LightWalker& w, std::uint32_t) {
+                            if (w.x.is_infinite()) return false;
+                            w.wi = -w.w;
+                            const Vec3 d = w.x.position - w.from.position;
+                            const double cosine = std::abs(glm::dot(w.x.normal, w.wi)), distance2 = glm::dot(d, d);
+                            if (!(cosine > 0.0)) return false;
+                            if (weights && j == 1)
+                                w.weights = weights_at_first(*weights, lights, w, distance2, cosine);
+                            else if (weights)
+                                w.weights.arrive(*weights, distance2, cosine);
+                            return true;
+                        });
+        visit(j);
+        if (ending.is_last(j)) break;
 
         // R*: where it goes on.
-        filter([&](LightWalker& w, Sampler& sampler) {
-            LightVertex& v = w.vertex;
-            const SurfaceSide side = scene.materials.side(v.x, v.wi);
-            const Vec2 u = sampler.next2();
+        walkers.keep_if([&](LightWalker& w, std::uint32_t i) {
+            const SurfaceSide side = scene.materials.side(w.x, w.wi);
+            const Vec2 u = samplers[i].next2();
             if (!side.bsdf) return false;
-            const AdjointReflection::Sample s = AdjointReflection::sample(scene.materials, side, v.wi, u);
-            v.beta *= s.weight;
-            if (s.pdf == 0.0 || is_black(v.beta)) return false;
-            if (rest || settings.roulette.kind != Roulette::Kind::none) {
-                const double survival = settings.roulette.probability(
-                    rest, max_component(s.weight), max_component(v.beta) / w.first_weight, w.kept_weight / w.first_weight);
-                if (survival < 1.0 && sampler.next() >= survival) return false;
-                v.beta /= survival;
-                w.kept_weight = max_component(v.beta);
-            }
-            const double cosine = std::abs(glm::dot(v.x.normal, s.wo));
-            if (!settings.weighted) {
-            } else if (s.pdf == delta_pdf)
-                v.weights.leave_by_the_only_direction(h, cosine);
-            else
-                v.weights.leave(h, cosine, s.pdf, camera_pdf(scene.materials, v.x, s.wo, v.wi));
-            w.from = v.x;
+            const AdjointReflection::Sample s = AdjointReflection::sample(scene.materials, side, w.wi, u);
+            w.beta *= s.weight;
+            if (s.pdf == 0.0 || is_black(w.beta)) return false;
+            if (!ending.live(j, w, max_component(s.weight), samplers[i], w.first_weight)) return false;
+            const double cosine = std::abs(glm::dot(w.x.normal, s.wo));
+            if (weights && s.pdf == delta_pdf)
+                w.weights.leave_by_the_only_direction(*weights, cosine);
+            else if (weights)
+                w.weights.leave(*weights, cosine, s.pdf, camera_pdf(scene.materials, w.x, s.wo, w.wi));
+            w.from = w.x;
             w.w = s.wo;
             return true;
         });
     }
-    return 0;
+    return given_up;
 }
 
 }  // namespace neumann

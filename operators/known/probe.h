@@ -4,7 +4,7 @@
 #include "core/scene/scene.h"
 #include "operators/pointwise/field.h"
 #include "operators/statistics/tail_index.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walk_settings.h"
 
 #include <cmath>
 #include <functional>

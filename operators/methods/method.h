@@ -2,9 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "operators/walk/direct_light.h"
-#include "operators/walk/roulette.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walk_settings.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "operators/guide/direction_tables.h"
 #include "operators/methods/method_options.h"
+#include "operators/walk/direct_light.h"
 
 #include <fmt/format.h>
 

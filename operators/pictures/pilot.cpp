@@ -2,6 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "core/sampling/independent_sampler.h"
+#include "operators/walk/walk.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "core/scene/scene.h"
 #include "operators/statistics/picture_statistics.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walk_settings.h"
 
 #include <vector>
 

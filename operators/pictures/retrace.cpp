@@ -50,7 +50,7 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     const bool light = settings_.method == PathMethod::light;
     PathGroup& group = work.group;
     group.rays.resize(samples);  // where trace_group() puts them, so that T can point there
-    const WatchedHalves T(scene_->geometry, light ? work.light.walkers : work.bidirectional.light, work.bidirectional.walker,
+    const WatchedHalves T(scene_->geometry, light ? work.light.walkers : work.bidirectional.light, work.bidirectional.camera.walker,
                           group.rays, settings_.walk.split.walks > 1, observer);
     trace_group<AnySampler>(
         replicate, first, samples, T,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walk_settings.h"
 
 #include <cstdint>
 #include <functional>

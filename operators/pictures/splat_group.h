@@ -40,13 +40,8 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
     if (settings_.method == PathMethod::light) {
-        LightWalkSettings walk;
-        walk.vertices = settings_.walk.bounces;
-        walk.rest_probability = settings_.walk.rest_probability;
-        walk.roulette = settings_.walk.roulette;
-        walk.give_up = settings_.walk.give_up;
-        work.tally.given_up +=
-            trace_light(*scene_, T, emission_, lights_, walk, std::span(light), work.light, splatted, work.tally.rays);
+        work.tally.given_up += trace_light(*scene_, T, emission_, lights_, settings_.walk.ending(), std::span(light), work.light,
+                                           splatted, work.tally.rays);
         return;
     }
 

@@ -17,19 +17,6 @@ namespace {
 
 // That are one piece of work.
 constexpr std::uint32_t groups_at_once = 8;
-BidirectionalSettings bidirectional_settings(const Scene& scene, const SamplingSettings& settings) {
-    BidirectionalSettings result;
-    result.bounces = settings.walk.bounces;
-    result.lights = settings.walk.direct.lights;
-    result.place = settings.walk.direct.place;
-    result.heuristic = settings.walk.direct.heuristic;
-    result.roulette = settings.walk.roulette;
-    result.split = settings.walk.split;
-    result.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
-    result.rest_probability = settings.walk.rest_probability;
-    result.give_up = settings.walk.give_up;
-    return result;
-}
 
 }  // namespace
 
@@ -49,7 +36,7 @@ SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
       pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
       emission_(scene.geometry, scene.emitters),
       lights_(scene.geometry, scene.emitters),
-      bidirectional_(scene, bidirectional_settings(scene, settings)),
+      bidirectional_(scene, settings.walk, pixels_),
       camera_points_(settings.replicate_size),
       light_points_(light_net),
       filter_radius_(radius(scene.film.filter)) {}

@@ -42,13 +42,13 @@ public:
             if (const auto i = light_path_at(to)) {
                 const LightWalker& w = light_->walker[*i];
                 const int bounce = light_half_[*i].bounce++;
-                tell(*i, {bounce == 0 ? PathStep::Kind::first : PathStep::Kind::goes_on, true, bounce, start[j], w.w, 0.0,
-                          w.vertex.beta, seen, to});
+                tell(*i, {bounce == 0 ? PathStep::Kind::first : PathStep::Kind::goes_on, true, bounce, start[j], w.w, 0.0, w.beta,
+                          seen, to});
             } else {
                 const std::uint32_t k = *camera_path_at(to);
                 const CameraWalker& z = (*camera_)[k];
                 begin_again_at_first_point(k, start[j]);
-                tell(k, {PathStep::Kind::goes_on, false, ++camera_half_[k].bounce, start[j], z.wi, z.pdf, z.beta, seen, to});
+                tell(k, {PathStep::Kind::goes_on, false, ++camera_half_[k].bounce, start[j], z.w, z.pdf, z.beta, seen, to});
             }
         }
         return found;
@@ -82,7 +82,7 @@ private:
         return std::nullopt;
     }
     std::optional<std::uint32_t> light_path_at(const SurfacePoint& x) const {
-        return path_at(x, light_->walker, [](const LightWalker& w) -> const SurfacePoint& { return w.vertex.x; });
+        return path_at(x, light_->walker, [](const LightWalker& w) -> const SurfacePoint& { return w.x; });
     }
     std::optional<std::uint32_t> camera_path_at(const SurfacePoint& x) const {
         return path_at(x, *camera_, [](const CameraWalker& z) -> const SurfacePoint& { return z.x; });

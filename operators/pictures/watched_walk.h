@@ -48,7 +48,7 @@ public:
             const SurfacePoint& x = from(j).first;
             const Vec3& w = from(j).second;
             departures[j] = {walk_at(x), x, w, false};
-            if (departures[j].walk) departures[j].asks = &w == &walkers_->walker[*departures[j].walk].asked;
+            if (departures[j].walk) departures[j].asks = &w == &walkers_->walker[*departures[j].walk].asked.w;
         }
         const std::uint32_t found = T_->first_hits(n, from, hit);
         for (std::size_t j = 0; j < n; ++j) {
@@ -70,7 +70,7 @@ public:
         for (std::size_t j = 0; j < n; ++j) {
             const SurfacePoint &x = pair(j).first, &y = pair(j).second;
             const std::uint32_t i = *walk_at(x);
-            if (&y == &walkers_->walker[i].light)
+            if (&y == &walkers_->walker[i].asked.y)
                 asks(i, x, glm::normalize(y.position - x.position), seen >> j & 1u, y);
             else
                 goes_on(i, x, seen >> j & 1u, y);
@@ -100,7 +100,7 @@ private:
     void goes_on(std::uint32_t i, const SurfacePoint& x, bool found, const SurfacePoint& to) const {
         begin_again_at_first_point(i, x);
         const Walker& w = walkers_->walker[i];
-        tell(i, {PathStep::Kind::goes_on, false, ++paths_[i].bounce, x, w.wi, w.pdf, w.beta, found, to});
+        tell(i, {PathStep::Kind::goes_on, false, ++paths_[i].bounce, x, w.w, w.pdf, w.beta, found, to});
     }
     // Several walks go on from there.
     void begin_again_at_first_point(std::uint32_t i, const SurfacePoint& x) const {

@@ -14,11 +14,39 @@
 
 #include "core/geometry/area_sampler.h"
 #include "core/material/materials.h"
+#include "operators/walk/walker.h"
+
+#include <type_traits>
+#include <vector>
 
 namespace neumann {
 
 // Of continuations that are the same everywhere.
 struct Nowhere {};
+
+// What a continuation has found out about the vertices of some walks.
+template <class Continuation>
+class Places {
+public:
+    using Place = typename Continuation::Place;
+
+    explicit Places(std::size_t walks) : place_(any ? walks : 0) {}
+
+    void find(const Continuation& continuation, const Together<Walker>& walks, int wanted) {
+        if constexpr (any)
+            for (const std::uint32_t i : walks.alive) place_[i] = continuation.place(walks.walker[i].x, walks.walker[i].wo, wanted);
+    }
+    Place operator[](std::size_t walk) const {
+        if constexpr (any)
+            return place_[walk];
+        else
+            return {};
+    }
+
+private:
+    static constexpr bool any = !std::is_empty_v<Place>;
+    std::vector<Place> place_;
+};
 
 // By the material.
 struct MaterialContinuation {

@@ -1,36 +1,17 @@
 // The ways to find the light of the last reflection: ∫ fs Le |cosθ| dω, by directions or by points.
 #pragma once
 
-#include "core/emitter/light_sampler.h"
 #include "core/geometry/area_sampler.h"
 #include "core/material/materials.h"
-#include "core/sampling/heuristic.h"
 #include "core/scene/scene.h"
+#include "operators/walk/walk_settings.h"
 
 #include <optional>
 
 namespace neumann {
 
-enum class DirectLight {
-    hemisphere,  // directions, uniform
-    cosine,      // directions by their cosine
-    bsdf,        // directions of the material, which are those in which the walk goes on
-    surfaces,    // points on all surfaces, uniform by area
-    light,       // points on lights
-    mis          // light and bsdf, weighted by a heuristic (Veach 1997, 9.2)
-};
-
 // Whether some light is out of reach: no ray meets a light without extent, and no surface is at infinity.
 bool misses_light(DirectLight direct, const Emitters& emitters);
-
-struct DirectLightSettings {
-    DirectLight direct = DirectLight::mis;
-    LightChoice lights = LightChoice::mixed;
-    LightPlace place = LightPlace::area;
-    Heuristic heuristic = Heuristic::power;
-
-    bool operator==(const DirectLightSettings&) const = default;
-};
 
 // A question for the light at a point: is that point seen, or what is seen in that direction?
 struct LightQuestion {

@@ -24,4 +24,9 @@ inline bool see_through_room(const SurfacePoint& x, const SurfacePoint& y) {
     return std::abs(glm::dot(x.normal, d)) > rounding && std::abs(glm::dot(y.normal, d)) > rounding;
 }
 
+// V(x, y) = 1 is known without a ray.
+inline bool is_in_sight(const LeftOut& left_out, const SurfacePoint& x, const SurfacePoint& y) {
+    return (left_out.rays_from_surfaces && y.is_infinite()) || (left_out.shadow_rays_in_room && see_through_room(x, y));
+}
+
 }  // namespace neumann

@@ -1,47 +1,91 @@
-// Walks that advance together, one reflection at a time: R for all, then T for all, so that the processor always has several
+// Paths that advance together, one reflection at a time: R for all, then T for all, so that the processor always has several
 // independent chains of arithmetic to work on.
 #pragma once
 
 #include "core/geometry/geometry.h"
+#include "core/sensor/sensor_options.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace neumann {
 
+// `Walker` is a PathEnd and what its kind of path needs beside it.
 template <class Walker>
-void begin_together(std::vector<Walker>& walker, std::vector<std::uint32_t>& alive, std::size_t count) {
-    walker.resize(count);
-    alive.resize(count);
-    std::iota(alive.begin(), alive.end(), 0u);
-}
+struct Together {
+    std::vector<Walker> walker;        // one for each path; what they hold of others before is left as it is
+    std::vector<std::uint32_t> alive;  // those that go on, in order
 
-// Goes on with those of which f(walker, number) is true.
-template <class Walker, class Keep>
-void filter(std::vector<Walker>& walker, std::vector<std::uint32_t>& alive, const Keep& f) {
-    std::size_t kept = 0;
-    for (const std::uint32_t i : alive)
-        if (f(walker[i], i)) alive[kept++] = i;
-    alive.resize(kept);
-}
-
-// The same after asking T for the next points of as many walks at once as make a packet: ask(k, n, point) is that of
-// alive[k … k + n), writes into point(j), and answers a bit for each. f(walker, number, found).
-template <class Walker, class Point, class Ask, class Keep>
-void advance(std::vector<Walker>& walker, std::vector<std::uint32_t>& alive, const Point& point_of, const Ask& ask, const Keep& f) {
-    constexpr std::size_t packet = RayCaster::packet_size;
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < alive.size(); k += packet) {
-        const std::size_t n = std::min(packet, alive.size() - k);
-        const std::uint32_t found = ask(k, n, [&](std::size_t j) -> SurfacePoint& { return point_of(walker[alive[k + j]]); });
-        for (std::size_t j = 0; j < n; ++j) {
-            const std::uint32_t i = alive[k + j];
-            if (f(walker[i], i, (found >> j & 1u) != 0)) alive[kept++] = i;
+    void begin(std::size_t count) {
+        walker.resize(count);
+        alive.resize(count);
+        std::iota(alive.begin(), alive.end(), 0u);
+    }
+    // On the camera.
+    void begin(std::span<const CameraRay> rays) {
+        begin(rays.size());
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            walker[i].x.position = rays[i].origin;
+            walker[i].w = rays[i].direction;
+            walker[i].pdf = 0.0;
+            walker[i].beta = Rgb(1.0);
         }
     }
-    alive.resize(kept);
-}
+
+    // Goes on with those of which f(walker, number) is true.
+    template <class Keep>
+    void keep_if(const Keep& f) {
+        std::size_t kept = 0;
+        for (const std::uint32_t i : alive)
+            if (f(walker[i], i)) alive[kept++] = i;
+        alive.resize(kept);
+    }
+
+    // The same after asking T for the next points of as many paths at once as make a packet: ask(k, n, point) is that of
+    // alive[k … k + n), writes into point(j), and answers a bit for each; the others end infinitely far away.
+    template <class Ask, class Keep>
+    void advance(const Ask& ask, const Keep& f) {
+        constexpr std::size_t packet = RayCaster::packet_size;
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < alive.size(); k += packet) {
+            const std::size_t n = std::min(packet, alive.size() - k);
+            const std::uint32_t found = ask(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
+            for (std::size_t j = 0; j < n; ++j) {
+                const std::uint32_t i = alive[k + j];
+                if (!(found >> j & 1u)) walker[i].x.shape = SurfacePoint::infinity;
+                if (f(walker[i], i)) alive[kept++] = i;
+            }
+        }
+        alive.resize(kept);
+    }
+    // For advance(): T, what is seen from x along w.
+    template <class Transport, class HitAt>
+    std::uint32_t first_hits(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
+        return T.first_hits(
+            n,
+            [&](std::size_t j) {
+                const Walker& w = walker[alive[k + j]];
+                return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.w);
+            },
+            hit);
+    }
+
+    // Several walks that go on from the first vertex: all is as it was there.
+    void remember_first() {
+        first_ = walker;
+        first_alive_ = alive;
+    }
+    void return_to_first() {
+        walker = first_;
+        alive = first_alive_;
+    }
+
+private:
+    std::vector<Walker> first_;
+    std::vector<std::uint32_t> first_alive_;
+};
 
 }  // namespace neumann

@@ -1,0 +1,72 @@
+// How a path asks for light at a vertex x that it has reached with throughput β: its last reflection R chooses a question, and T
+// answers it.
+//
+//     K Le:   β fs(ω → ωo) |cosθ| Le(y, −ω) V(x, y) / pdf(ω)
+#pragma once
+
+#include "operators/walk/direct_light.h"
+#include "operators/walk/visibility.h"
+#include "operators/walk/walker.h"
+
+namespace neumann {
+
+// That without V and |cosθ|; `light`: Le / pdf.
+inline Rgb reflected_light(const Rgb& beta, const SurfaceSide& side, const Vec3& wo, const Vec3& wi, const Rgb& light) {
+    return beta * eval(*side.bsdf, side.p, wo, wi) * light;
+}
+
+// R: the walk's question, of those that DirectLightSampler has. Its answer is weighed against what `way` (continuation.h) would
+// find by itself, with `directions` drawn for each question.
+template <class Way, class Sampler>
+void choose_question(const DirectLightSampler& direct, std::size_t question, const Way& way, double directions,
+                     const SurfaceSide& side, const Vec3& wo, Sampler& sampler, Walker& w) {
+    w.asked.value = Rgb(0.0);
+    const LightQuestion q = direct.ask(side, sampler, question);
+    if (!(q.pdf > 0.0)) return;
+    const Vec3 wi = side.p.frame.to_local(q.w);
+    const double pdf_of_way = direct.is_weighted() ? way.pdf(side, wo, wi, q.point) * directions : 0.0;
+    w.asked.value = reflected_light(w.beta, side, wo, wi, q.weight) *
+                    (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_of_way) * directions);
+    w.asked.y = q.point;
+    w.asked.w = q.w;
+}
+
+// T: the answers, told as found(walk, value). The first vertices of a pixel's walks are close together. Returns the rays cast.
+template <class Transport, class Found>
+std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out,
+                   bool first_vertex, Walkers& walkers, const Found& found) {
+    auto& asking = walkers.asking;
+    asking.clear();
+    for (const std::uint32_t i : walkers.alive) {
+        const Walker& w = walkers.walker[i];
+        if (is_black(w.asked.value)) continue;
+        if (!direct.asks_directions() && is_in_sight(left_out, w.x, w.asked.y))
+            found(i, w.asked.value);
+        else
+            asking.push_back(i);
+    }
+    const auto at = [&](std::size_t k) -> Walker& { return walkers.walker[asking[k]]; };
+    if (direct.asks_directions()) {
+        for (std::size_t k = 0; k < asking.size(); k += RayCaster::packet_size) {
+            const std::size_t n = std::min(RayCaster::packet_size, asking.size() - k);
+            const std::uint32_t hit = T.first_hits(
+                n, [&](std::size_t j) { return std::pair<const SurfacePoint&, const Vec3&>(at(k + j).x, at(k + j).asked.w); },
+                [&](std::size_t j) -> SurfacePoint& { return at(k + j).asked.y; });
+            for (std::size_t j = 0; j < n; ++j) {
+                AskedLight& asked = at(k + j).asked;
+                if (!(hit >> j & 1u)) asked.y.shape = SurfacePoint::infinity;
+                found(asking[k + j], asked.value * scene.emitters.emitted(asked.y, -asked.w));
+            }
+        }
+    } else {
+        ask_visibility(
+            T, asking.size(), first_vertex ? RayCaster::Rays::alike : RayCaster::Rays::any,
+            [&](std::size_t k) { return std::pair<const SurfacePoint&, const SurfacePoint&>(at(k).x, at(k).asked.y); },
+            [&](std::size_t k, bool seen) {
+                if (seen) found(asking[k], at(k).asked.value);
+            });
+    }
+    return asking.size();
+}
+
+}  // namespace neumann

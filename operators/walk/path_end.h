@@ -1,0 +1,16 @@
+// The end of a path on its way, from the camera or from a light.
+#pragma once
+
+#include "core/geometry/surface_point.h"
+
+namespace neumann {
+
+struct PathEnd {
+    SurfacePoint x;            // where it is
+    Vec3 w{0.0};               // where to it leaves x
+    double pdf = 0.0;          // of w, per solid angle, or delta_pdf; kept by paths from the camera
+    Rgb beta{1.0};             // throughput, or the power that a path from a light carries
+    double kept_weight = 0.0;  // largest channel of β when roulette last let it live
+};
+
+}  // namespace neumann
