@@ -5,7 +5,7 @@
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
-#include "operators/series/term_series.h"
+#include "operators/solvers/term_series.h"
 
 #include <fmt/format.h>
 #include <algorithm>

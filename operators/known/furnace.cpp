@@ -5,7 +5,7 @@
 #include "operators/known/enclosures.h"
 #include "operators/known/groups.h"
 #include "operators/known/small_problems.h"
-#include "operators/series/term_series.h"
+#include "operators/solvers/term_series.h"
 #include "operators/spectrum/closure.h"
 
 #include <fmt/format.h>

@@ -25,11 +25,11 @@ struct Sums {
 // ρ^0 … ρ^terms.
 template <class Real>
 Sums add_up(double albedo, int terms) {
-    using Values = typename CompensatedSum<Real>::Values;
+    using Values = Eigen::Matrix<Real, 1, 1>;
     const Real rho = static_cast<Real>(albedo);
     const double exact = -std::expm1((terms + 1) * std::log(static_cast<double>(rho))) / (1.0 - static_cast<double>(rho));
-    CompensatedSum<Real> compensated(1);
-    Values t = Values::Ones(1);
+    CompensatedSum<Values> compensated(Values::Zero());
+    Values t = Values::Ones();
     Real naive = 0;
     Sums sums;
     for (int k = 0; k <= terms; ++k, t[0] *= rho) {

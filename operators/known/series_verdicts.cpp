@@ -3,9 +3,9 @@
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/small_problems.h"
-#include "operators/series/series_run.h"
 #include "operators/series/tail_bound.h"
 #include "operators/solvers/lu.h"
+#include "operators/solvers/series_run.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"
 

@@ -2,7 +2,7 @@
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/small_problems.h"
-#include "operators/series/term_series.h"
+#include "operators/solvers/term_series.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/spectrum.h"
 

@@ -13,8 +13,8 @@
 #include "operators/pictures/field_pictures.h"
 #include "operators/pictures/missing_paths.h"
 #include "operators/pictures/pilot.h"
-#include "operators/series/series_run.h"
 #include "operators/solvers/lu.h"
+#include "operators/solvers/series_run.h"
 #include "operators/solvers/solvers.h"
 
 #include <fmt/format.h>

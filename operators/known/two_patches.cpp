@@ -6,7 +6,7 @@
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
 #include "operators/known/small_problems.h"
-#include "operators/series/term_series.h"
+#include "operators/solvers/term_series.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>

@@ -57,12 +57,13 @@ void look_through(const Scene& scene, const PatchSpace& space, std::uint32_t sam
 
 template <int C>
 ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed) {
-    ExitantVector<C> We = ExitantVector<C>::Zero(C, space.size() + 1);
+    ExitantVector<C> We = ExitantVector<C>::zero(space.size());
     look_through(scene, space, samples, seed,
                  [&](std::uint32_t, std::uint32_t unknown, double weight) { We.col(unknown) += to_channels<C>(Rgb(weight)); });
     We.col(space.nothing()).setZero();
     const double all = static_cast<double>(scene.film.crop_width) * scene.film.crop_height * samples;
-    for (const Facet& facet : space.facets()) We.middleCols(facet.first, facet.cells.size()) /= all * space.measure(facet);
+    for (const Facet& facet : space.facets())
+        for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) We.col(u) /= all * space.measure(facet);
     return We;
 }
 

@@ -1,12 +1,13 @@
-// ⟨f, g⟩ = ∫∫ f g n² |cos θ| dω dA, in which T and R have their adjoints: over unknowns, and over the rays of a table.
+// ⟨f, g⟩ = ∫∫ f g n² |cos θ| dω dA, in which T and R have their adjoints: of two exitant fields, or of two incident ones.
 #pragma once
 
-#include "operators/matrix/transport_matrix.h"
+#include "operators/matrix/patch_field.h"
+#include "operators/patches/patch_space.h"
 
 namespace neumann {
 
-template <int C>
-Channels<C> inner_product(const PatchSpace& space, const ExitantVector<C>& f, const ExitantVector<C>& g) {
+template <class Side, int C>
+Channels<C> inner_product(const PatchSpace& space, const PatchField<Side, C>& f, const PatchField<Side, C>& g) {
     Channels<C> sum = Channels<C>::Zero(C);
     for (const Facet& facet : space.facets())
         for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u)
@@ -14,14 +15,11 @@ Channels<C> inner_product(const PatchSpace& space, const ExitantVector<C>& f, co
     return sum;
 }
 
-// `a` and `b` answer [ray] with what arrives along it.
-template <int C, class A, class B>
-Channels<C> inner_product(const RayTable& table, const A& a, const B& b) {
-    Channels<C> sum = Channels<C>::Zero(C);
-    for (std::uint32_t f = 0; f < table.space().facets().size(); ++f)
-        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray)
-            sum += Channels<C>(a[ray]) * Channels<C>(b[ray]) * table.measure(f);
-    return sum;
+// The étendue of each unknown, with which these sums are ⟨f, g⟩ = Σ m_u f_u g_u.
+inline Vector measure(const PatchSpace& space) {
+    Vector m(space.size());
+    for (const Facet& facet : space.facets()) m.segment(facet.first, facet.cells.size()).setConstant(space.measure(facet));
+    return m;
 }
 
 }  // namespace neumann

@@ -29,7 +29,7 @@ struct Segment {
 // Adds to the cells of a facet what the lights bring on average.
 template <int C>
 NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
-                             std::uint32_t number, ExitantVector<C>& means) {
+                             std::uint32_t number, IncidentVector<C>& means) {
     const Facet& facet = space.facets()[number];
     SobolSampler sampler(points, seed ^ direct_stream, number);
     constexpr std::uint32_t packet = RayCaster::packet_size;
@@ -66,7 +66,7 @@ NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space
 
 template <int C>
 ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
-    ExitantVector<C> Le = ExitantVector<C>::Zero(C, space.size() + 1);
+    ExitantVector<C> Le = ExitantVector<C>::zero(space.size());
     const SobolPoints points(16);
     for_facets(space, [&](std::uint32_t f) {
         const Facet& facet = space.facets()[f];
@@ -90,14 +90,14 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
 template <int C>
 ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed) {
     const PatchSpace& space = R.space();
-    ExitantVector<C> means = ExitantVector<C>::Zero(C, space.size() + 1);
-    if (scene.emitters.empty()) return means;
+    IncidentVector<C> means = IncidentVector<C>::zero(space.size());
+    if (scene.emitters.empty()) return R(std::move(means));
     const SobolPoints points(samples);
     const LightSampler lights(scene.geometry, scene.emitters);
     for_facets(space, [&](std::uint32_t f) {
         if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(lights, space, points, seed, f, means);
     });
-    return R.of_means(std::move(means));
+    return R(std::move(means));
 }
 
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {

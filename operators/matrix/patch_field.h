@@ -1,12 +1,13 @@
-// Fields on a patch space: exitant radiance as a vector over the unknowns, incident radiance as what each ray of T brings. All
-// colour channels side by side; C is 1 where a scene is grey, else 4, of which the last is zero: so many doubles the processor
-// loads at once.
+// Fields on a patch space: exitant radiance, and incident radiance as what arrives in the cells of directions, one value an unknown
+// each. They are different types, as they are of functions (operators/pointwise/field.h): T turns one into the other and R turns it
+// back. All colour channels side by side; C is 1 where a scene is grey, else 4, of which the last is zero: so many doubles the
+// processor loads at once.
 #pragma once
 
 #include "core/base/vec.h"
+#include "operators/series/vector.h"
 
-#include <Eigen/Core>
-
+#include <concepts>
 #include <cstdint>
 
 namespace neumann {
@@ -29,8 +30,59 @@ Rgb to_rgb(const Channels<C>& c) {
         return Rgb(c[0], c[1], c[2]);
 }
 
-// One column an unknown, and a last one for PatchSpace::nothing(), which stays zero.
+// One column an unknown, and a last one for PatchSpace::nothing(), which stays zero. W·m⁻²·sr⁻¹, basic radiance. Values change
+// their side in one way only, by name: ExitantVector<C>(std::move(f).values()).
+template <class Side, int C>
+class PatchField {
+public:
+    using Values = Eigen::Array<double, C, Eigen::Dynamic>;
+
+    static PatchField zero(std::uint32_t unknowns) { return PatchField(Values(Values::Zero(C, Eigen::Index{unknowns} + 1))); }
+    explicit PatchField(Values values) : values_(std::move(values)) {}
+    // Of one channel: from and to a value for each unknown.
+    template <std::same_as<Vector> V>
+    explicit PatchField(const V& x) requires(C == 1) : values_(1, x.size() + 1) {
+        values_ << x.transpose().array(), 0.0;
+    }
+    friend Vector to_vector(const PatchField& f) requires(C == 1) { return f.values_.leftCols(f.unknowns()).transpose(); }
+
+    const Values& values() const& { return values_; }
+    Values&& values() && { return std::move(values_); }
+    Eigen::Index unknowns() const { return values_.cols() - 1; }
+    auto col(Eigen::Index u) { return values_.col(u); }
+    auto col(Eigen::Index u) const { return values_.col(u); }
+    auto row(Eigen::Index channel) const { return values_.row(channel); }
+    double& operator()(Eigen::Index channel, Eigen::Index u) { return values_(channel, u); }
+    double operator()(Eigen::Index channel, Eigen::Index u) const { return values_(channel, u); }
+    double* data() { return values_.data(); }
+    const double* data() const { return values_.data(); }
+    Eigen::Index size() const { return values_.size(); }
+
+    friend PatchField operator+(PatchField f, const PatchField& g) {
+        f.values_ += g.values_;
+        return f;
+    }
+    friend PatchField operator-(PatchField f, const PatchField& g) {
+        f.values_ -= g.values_;
+        return f;
+    }
+    friend PatchField operator*(double a, PatchField f) {
+        f.values_ *= a;
+        return f;
+    }
+    // A factor for each channel.
+    friend PatchField operator*(const Channels<C>& a, PatchField f) {
+        f.values_.colwise() *= a;
+        return f;
+    }
+
+private:
+    Values values_;
+};
+
 template <int C>
-using ExitantVector = Eigen::Array<double, C, Eigen::Dynamic>;
+using ExitantVector = PatchField<struct Exitant, C>;
+template <int C>
+using IncidentVector = PatchField<struct Incident, C>;
 
 }  // namespace neumann

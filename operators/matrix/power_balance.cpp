@@ -9,8 +9,8 @@ template <int C>
 PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& R) {
     const PatchSpace& space = table.space();
     const auto size = static_cast<Eigen::Index>(space.size()) + 1;
-    emitted_ = left_ = caught_ = ExitantVector<1>::Zero(1, size);
-    absorbed_ = ExitantVector<C>::Zero(C, size);
+    emitted_ = left_ = caught_ = ExitantVector<1>::Values::Zero(1, size);
+    absorbed_ = ExitantVector<C>::Values::Zero(C, size);
     // Row sums of a block: directional albedos for ρ = 1.
     std::map<const ReflectionBlock::Matrix*, Eigen::VectorXd> sums;
     const auto row_sums = [&](const ReflectionBlock::Matrix* block) -> const Eigen::VectorXd& {
@@ -20,7 +20,7 @@ PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& 
     };
     for (std::uint32_t f = 0; f < space.facets().size(); ++f) {
         const Facet& facet = space.facets()[f];
-        ExitantVector<C> albedo(C, facet.cells.size());
+        typename ExitantVector<C>::Values albedo(C, facet.cells.size());
         albedo.colwise() = R.reflectance().col(f);
         for (int c = 0; c < std::min(C, 3); ++c)
             if (const auto* block = R.block(f, c))

@@ -3,6 +3,7 @@
 // rounding; T does on average, for what the rays of all facets see of one and what its own rays see are two estimates.
 #pragma once
 
+#include "operators/matrix/ray_table.h"
 #include "operators/matrix/reflection_matrix.h"
 
 namespace neumann {
@@ -23,8 +24,8 @@ public:
 
 private:
     // What one unit of radiance of each unknown adds.
-    ExitantVector<1> emitted_, left_, caught_;
-    ExitantVector<C> absorbed_;
+    typename ExitantVector<1>::Values emitted_, left_, caught_;
+    typename ExitantVector<C>::Values absorbed_;
 };
 
 extern template class PowerBalance<1>;

@@ -28,6 +28,13 @@ public:
         return {seen_.data() + first_[facet], seen_.data() + first_[facet + 1]};
     }
     std::span<const std::uint32_t> seen() const { return seen_; }
+    // Of the rays that arrive in the cell of directions of an unknown.
+    std::span<const std::uint32_t> row_of_cell(std::uint32_t unknown) const {
+        const std::uint32_t f = space_->facet_of(unknown);
+        const Facet& of = space_->facets()[f];
+        const std::size_t each = row(f).size() / of.cells.size();
+        return row(f).subspan((unknown - of.first) * each, each);
+    }
     // Of its rays among seen(); for the number of facets, the end.
     std::size_t first_ray(std::uint32_t facet) const { return first_[facet]; }
     // The unknown in whose cell of directions the ray of a facet arrives.

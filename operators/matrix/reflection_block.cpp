@@ -17,8 +17,8 @@ using Index = Eigen::Index;
 
 }  // namespace
 
-// The sums are the gradient of ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d: by a few sweeps and then by Newton's method, for
-// where the sweeps are slow, as with glass.
+// The sums are the gradient of ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d: by a few sweeps and then by Newton's method,
+// for where the sweeps are slow, as with glass.
 void scale_symmetrically(ReflectionBlock::Matrix& A, const Eigen::VectorXd& row_sums) {
     constexpr int most_sweeps = 100, most_steps = 40;
     const Index n = A.rows();

@@ -1,14 +1,17 @@
-// R on a patch space: what leaves a facet in each cell of its directions is what arrives in all of them, means over the facet's
-// rays, times the material's block and the facet's reflectance. Materials only.
+// R on a patch space: what leaves a facet in each cell of its directions is what arrives in all of them, means over the cells,
+// times the material's block and the facet's reflectance. Materials only.
 //
 // A diffuse facet has one cell, whose block is 1. A patch's reflectance is the mean of its points'; rows then sum to the mean
-// directional albedo, so that ‖R‖∞ is at most the largest albedo and the white furnace holds to rounding on any mesh. The two facets
-// of a patch that light goes through share a block.
+// directional albedo, so that ‖R‖∞ is at most the largest albedo and the white furnace holds to rounding on any mesh. The two
+// facets of a patch that light goes through share a block.
+//
+// R is reciprocal: the numbers of R* are those of R, which takes what leaves to what it is worth where it arrives.
 #pragma once
 
-#include "core/scene/scene.h"
+#include "core/material/materials.h"
+#include "operators/matrix/patch_field.h"
 #include "operators/matrix/reflection_block.h"
-#include "operators/matrix/transport_matrix.h"
+#include "operators/patches/patch_space.h"
 
 #include <memory>
 
@@ -19,6 +22,9 @@ struct FacetBlock {
     std::shared_ptr<const ReflectionBlock> block;
     std::uint32_t first = 0;
 };
+
+template <int C>
+class AdjointReflectionMatrix;
 
 template <int C>
 class ReflectionMatrix {
@@ -34,35 +40,76 @@ public:
     // One colour channel, 0 … 2.
     ReflectionMatrix<1> channel(int c) const;
 
-    Range operator()(const Domain& g) const;
-    // The same of means over the cells, one for each unknown.
-    Range of_means(Range means) const;
+    // In place where g is given away.
+    Range operator()(Domain g) const { return Range(reflect(std::move(g).values())); }
+    AdjointReflectionMatrix<C> adjoint() const { return AdjointReflectionMatrix<C>(*this); }
+    // Of what leaves unknown u.
+    template <class Each>
+    void for_row(std::uint32_t u, const Each& each) const requires(C == 1) {
+        const std::uint32_t f = space_->facet_of(u);
+        const double rho = (*reflectance_)(0, f);
+        const ReflectionBlock::Matrix* const B = block(f);
+        if (!B) {
+            each(u, rho);
+            return;
+        }
+        const std::uint32_t first = first_of_block(f);
+        for (ReflectionBlock::Matrix::InnerIterator entry(*B, u - first); entry; ++entry)
+            each(first + static_cast<std::uint32_t>(entry.col()), rho * entry.value());
+    }
 
     const PatchSpace& space() const { return *space_; }
     // Of each facet.
-    const Reflectance& reflectance() const { return reflectance_; }
+    const Reflectance& reflectance() const { return *reflectance_; }
     // Of a facet, null for 1, and the unknown that its rows and columns begin with.
     const ReflectionBlock::Matrix* block(std::uint32_t facet, int channel = 0) const {
-        return blocks_[facet].block ? &blocks_[facet].block->matrix(channel_ + channel) : nullptr;
+        const FacetBlock& of = (*blocks_)[facet];
+        return of.block ? &of.block->matrix(channel_ + channel) : nullptr;
     }
-    std::uint32_t first_of_block(std::uint32_t facet) const { return blocks_[facet].first; }
+    std::uint32_t first_of_block(std::uint32_t facet) const { return (*blocks_)[facet].first; }
 
 private:
     template <int>
     friend class ReflectionMatrix;
+    template <int>
+    friend class AdjointReflectionMatrix;
     using Blocks = std::vector<FacetBlock>;
-    ReflectionMatrix(const PatchSpace& space, Reflectance reflectance, Blocks blocks, int channel)
-        : space_(&space), reflectance_(std::move(reflectance)), blocks_(std::move(blocks)), channel_(channel) {}
+    using Values = typename Domain::Values;
+    ReflectionMatrix(const PatchSpace& space, Reflectance reflectance, std::shared_ptr<const Blocks> blocks, int channel)
+        : space_(&space),
+          reflectance_(std::make_shared<const Reflectance>(std::move(reflectance))),
+          blocks_(std::move(blocks)),
+          channel_(channel) {}
     // The back of a patch whose front has the block of both.
     bool goes_with_front(std::uint32_t facet) const {
-        return blocks_[facet].block && blocks_[facet].first != space_->facets()[facet].first;
+        return block(facet) && first_of_block(facet) != space_->facets()[facet].first;
     }
     void reflect_cells(std::uint32_t facet, double* values) const;
+    Values reflect(Values means) const;
 
     const PatchSpace* space_;
-    Reflectance reflectance_;
-    Blocks blocks_;    // of each facet; patches of a material share one
-    int channel_ = 0;  // of the blocks, where C is 1
+    std::shared_ptr<const Reflectance> reflectance_;
+    std::shared_ptr<const Blocks> blocks_;  // of each facet; patches of a material share one
+    int channel_ = 0;                       // of the blocks, where C is 1
+};
+
+template <int C>
+class AdjointReflectionMatrix {
+public:
+    using Domain = ExitantVector<C>;
+    using Range = IncidentVector<C>;
+
+    explicit AdjointReflectionMatrix(ReflectionMatrix<C> R) : R_(std::move(R)) {}
+
+    Range operator()(Domain f) const { return Range(R_.reflect(std::move(f).values())); }
+    ReflectionMatrix<C> adjoint() const { return R_; }
+    template <class Each>
+    void for_row(std::uint32_t u, const Each& each) const requires(C == 1) {
+        R_.for_row(u, each);
+    }
+
+private:
+    ReflectionMatrix<C> R_;
 };
 
 extern template class ReflectionMatrix<1>;

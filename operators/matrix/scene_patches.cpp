@@ -63,7 +63,8 @@ void check_camera(const Scene& scene, const PatchSpace& space) {
                         film.crop_y + std::min(static_cast<int>(u.y * film.crop_height), film.crop_height - 1));
         const Ray ray = scene.camera.sample_ray(pixel.position, sampler);
         SurfacePoint met;
-        if (scene.geometry.first_hit(ray.origin, ray.direction, ray.length, met)) check(scene, space, met, ray.direction, "the camera");
+        if (scene.geometry.first_hit(ray.origin, ray.direction, ray.length, met))
+            check(scene, space, met, ray.direction, "the camera");
     }
 }
 

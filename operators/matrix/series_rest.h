@@ -5,6 +5,7 @@
 #pragma once
 
 #include "operators/matrix/patch_field.h"
+#include "operators/series/compensated_sum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +25,14 @@ struct SeriesRest {
 // `term`: K^N Le.
 template <int C, class Op>
 SeriesRest<C> rest_of_series(const Op& K, ExitantVector<C> term) {
-    SeriesRest<C> rest{ExitantVector<C>::Zero(C, term.cols())};
+    SeriesRest<C> rest{ExitantVector<C>::zero(static_cast<std::uint32_t>(term.unknowns()))};
+    CompensatedSum<ExitantVector<C>> sum(rest.sum);
     while (rest.applications < most_terms_of_rest) {
         const ExitantVector<C> first = std::move(term), second = K(first);
         term = K(second);
-        rest.sum += second + term;
+        sum.add(second);
+        sum.add(term);
+        rest.sum = sum.value();
         rest.applications += 2;
         bool closed = true;
         Channels<C> factor = Channels<C>::Zero(C);
@@ -42,7 +46,8 @@ SeriesRest<C> rest_of_series(const Op& K, ExitantVector<C> term) {
             factor[c] = mu / left;
         }
         if (!closed) continue;
-        rest.sum += (second + term).colwise() * factor;
+        sum.add(factor * (second + term));
+        rest.sum = sum.value();
         rest.converges = true;
         return rest;
     }

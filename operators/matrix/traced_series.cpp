@@ -1,12 +1,12 @@
 #include "operators/matrix/traced_series.h"
 
-#include "operators/matrix/adjoint.h"
 #include "operators/matrix/camera_vector.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
-#include "operators/series/product.h"
+#include "operators/matrix/transport_matrix.h"
+#include "operators/series/algebra.h"
 
 #include <optional>
 
@@ -22,13 +22,13 @@ public:
 
     template <int C>
     ExitantVector<C> prolong(const ExitantVector<C>& x) const {
-        ExitantVector<C> result = ExitantVector<C>::Zero(C, fine_.size() + 1);
+        ExitantVector<C> result = ExitantVector<C>::zero(fine_.size());
         for (std::uint32_t u = 0; u < fine_.size(); ++u) result.col(u) = x.col(around_[u]);
         return result;
     }
     template <int C>
     ExitantVector<C> mean(const ExitantVector<C>& x) const {
-        ExitantVector<C> result = ExitantVector<C>::Zero(C, coarse_.size() + 1);
+        ExitantVector<C> result = ExitantVector<C>::zero(coarse_.size());
         for (const Facet& facet : fine_.facets())
             for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u)
                 result.col(around_[u]) += x.col(u) * fine_.measure(facet);
@@ -69,13 +69,13 @@ TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::o
     const bool begin = second && settings.bounces == 0;
     if (begin) term = *second;
     auto rest = rest_of_series<C>(K, term);
-    if (begin) rest.sum += term;
+    if (begin) rest.sum = rest.sum + term;
     series.fine.set<C>(settings.bounces + 1, rest.sum);
     series.rest_converges = rest.converges;
     if (!rest.converges) return series;
     if (begin) coarse_term = coarsening.mean<C>(term);
     auto coarse_rest = rest_of_series<C>(K_coarse, coarse_term);
-    if (begin) coarse_rest.sum += coarse_term;
+    if (begin) coarse_rest.sum = coarse_rest.sum + coarse_term;
     series.coarse.set<C>(settings.bounces + 1, coarse_rest.sum);
     return series;
 }
@@ -102,7 +102,7 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
                            const TracedSeriesSettings& settings) {
     const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
     const ReflectionMatrix<C> R(scene.materials, space);
-    TracedSeries series = apply_powers<C>(AdjointTransportMatrix<C>(table) * AdjointReflectionMatrix<C>(R, table),
+    TracedSeries series = apply_powers<C>(adjoint(R * TransportMatrix<C>(table)),
                                           camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space,
                                           coarser, settings, [](TracedSeries&, const ExitantVector<C>&) {});
     series.fine.average_over_directions();

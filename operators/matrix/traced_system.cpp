@@ -43,9 +43,9 @@ void TracedSystem::fill() {
     const Eigen::Index n = space_.size(), channels = std::min(C, 3);
     const ReflectionMatrix<C> R(scene_->materials, space_);
     for (int c = 0; c < channels; ++c) R_.push_back(R.channel(c));
-    emitted_ = emitted_light<C>(*scene_, space_).topLeftCorner(channels, n).matrix();
+    emitted_ = emitted_light<C>(*scene_, space_).values().topLeftCorner(channels, n).matrix();
     if (samples_lights_) {
-        direct_ = direct_light<C>(*scene_, R, settings_.rays, settings_.seed).topLeftCorner(channels, n).matrix();
+        direct_ = direct_light<C>(*scene_, R, settings_.rays, settings_.seed).values().topLeftCorner(channels, n).matrix();
         return;
     }
     direct_.resize(channels, n);

@@ -1,28 +1,17 @@
-// T on a patch space: what a ray brings is what the unknown that it sees sends. T f is not stored: it answers ray by ray, so that
-// R(T f) touches each entry of the table once and K is never formed.
+// T on a patch space: what arrives in a cell of directions of a facet is the mean of what its rays see. Geometry only.
+//
+// T* takes what each ray is worth where it arrives to the unknown that it comes from.
 #pragma once
 
 #include "operators/matrix/patch_field.h"
 #include "operators/matrix/ray_table.h"
 
-#include <utility>
+#include <memory>
 
 namespace neumann {
 
-// T f, one value a ray.
 template <int C>
-class IncidentVector {
-public:
-    IncidentVector(const RayTable& table, ExitantVector<C> f) : table_(&table), f_(std::move(f)) {}
-
-    const RayTable& table() const { return *table_; }
-    const ExitantVector<C>& source() const { return f_; }
-    auto operator[](std::size_t ray) const { return f_.col(table_->seen()[ray]); }
-
-private:
-    const RayTable* table_;
-    ExitantVector<C> f_;
-};
+class AdjointTransportMatrix;
 
 template <int C>
 class TransportMatrix {
@@ -33,10 +22,65 @@ public:
     // The table is kept by reference.
     explicit TransportMatrix(const RayTable& table) : table_(&table) {}
 
-    Range operator()(Domain f) const { return {*table_, std::move(f)}; }
+    Range operator()(const Domain& f) const;
+    // Finds the rays that see each unknown.
+    AdjointTransportMatrix<C> adjoint() const;
+    // Of what arrives in the cell of unknown u.
+    template <class Each>
+    void for_row(std::uint32_t u, const Each& each) const {
+        const auto seen = table_->row_of_cell(u);
+        const double part = 1.0 / static_cast<double>(seen.size());
+        for (const std::uint32_t v : seen)
+            if (v != table_->space().nothing()) each(v, part);
+    }
 
 private:
     const RayTable* table_;
 };
+
+template <int C>
+class AdjointTransportMatrix {
+public:
+    using Domain = IncidentVector<C>;
+    using Range = ExitantVector<C>;
+
+    explicit AdjointTransportMatrix(const RayTable& table);
+
+    Range operator()(const Domain& g) const;
+    TransportMatrix<C> adjoint() const { return TransportMatrix<C>(*table_); }
+    template <class Each>
+    void for_row(std::uint32_t u, const Each& each) const {
+        const PatchSpace& space = table_->space();
+        const double part = 1.0 / space.measure(space.facets()[space.facet_of(u)]);
+        for (const std::uint32_t v : seers_->of(u)) each(v, table_->measure(space.facet_of(v)) * part);
+    }
+
+private:
+    // For each unknown, where the rays that see it arrive, in their order.
+    class Seers {
+    public:
+        explicit Seers(const RayTable& table);
+        std::span<const std::uint32_t> of(std::uint32_t unknown) const {
+            return {arrives_in_.data() + first_[unknown], arrives_in_.data() + first_[unknown + 1]};
+        }
+
+    private:
+        std::vector<std::uint64_t> first_;
+        std::vector<std::uint32_t> arrives_in_;
+    };
+
+    const RayTable* table_;
+    std::shared_ptr<const Seers> seers_;
+};
+
+template <int C>
+AdjointTransportMatrix<C> TransportMatrix<C>::adjoint() const {
+    return AdjointTransportMatrix<C>(*table_);
+}
+
+extern template class TransportMatrix<1>;
+extern template class TransportMatrix<4>;
+extern template class AdjointTransportMatrix<1>;
+extern template class AdjointTransportMatrix<4>;
 
 }  // namespace neumann

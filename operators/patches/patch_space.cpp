@@ -27,8 +27,8 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
         for (const bool front : {true, false}) {
             const std::uint32_t k = directions.of(front);
             if (k == 0) continue;
-            facets_.push_back({patch, front, {k}, static_cast<std::uint32_t>(unknowns),
-                               front ? directions.front_index : directions.back_index});
+            facets_.push_back(
+                {patch, front, {k}, static_cast<std::uint32_t>(unknowns), front ? directions.front_index : directions.back_index});
             unknowns += DirectionCells{k}.size();
         }
     }
@@ -36,6 +36,9 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
         throw InputError(
             fmt::format("{} patches have {} unknowns, more than can be numbered; take fewer patches", patches_.size(), unknowns));
     size_ = static_cast<std::uint32_t>(unknowns);
+    facet_of_unknown_.reserve(size_);
+    for (std::uint32_t f = 0; f < facets_.size(); ++f)
+        facet_of_unknown_.insert(facet_of_unknown_.end(), facets_[f].cells.size(), f);
     std::fill(facet_of_side_.begin(), facet_of_side_.end(), static_cast<std::uint32_t>(facets_.size()));
     first_of_side_.assign(facet_of_side_.size(), nothing());
     for (std::uint32_t f = 0; f < facets_.size(); ++f) {

@@ -1,7 +1,7 @@
 // The space that T and R become matrices on. Its unknowns are the exitant radiance of each side of each patch in each cell of its
-// directions; a side that neither reflects nor emits has none, nor has one that faces nothing. It is basic radiance L/n², which glass
-// does not change, with the refractive index n of the medium that the side faces. Geometry only: how many directions a side needs,
-// and n, is told by whoever knows the materials (operators/matrix/sides.h).
+// directions; a side that neither reflects nor emits has none, nor has one that faces nothing. It is basic radiance L/n², which
+// glass does not change, with the refractive index n of the medium that the side faces. Geometry only: how many directions a side
+// needs, and n, is told by whoever knows the materials (operators/matrix/sides.h).
 #pragma once
 
 #include "core/base/frame.h"
@@ -15,8 +15,8 @@ namespace neumann {
 // Directions of the two sides of a shape, as DirectionCells::k; 0: this side is neither seen nor lit.
 struct SideDirections {
     std::uint32_t front = 1, back = 0;
-    bool emits = false;               // the front does
-    bool lit_from_elsewhere = false;  // by more than surfaces: what faces no surface may be lit
+    bool emits = false;                          // the front does
+    bool lit_from_elsewhere = false;             // by more than surfaces: what faces no surface may be lit
     double front_index = 1.0, back_index = 1.0;  // n
     std::uint32_t of(bool front_side) const { return front_side ? front : back; }
 };
@@ -54,6 +54,8 @@ public:
         return facet.index * facet.index * patches_.area(facet.patch) * pi / facet.cells.size();
     }
 
+    // The facet of an unknown.
+    std::uint32_t facet_of(std::uint32_t unknown) const { return facet_of_unknown_[unknown]; }
     // The facet of a side of a patch; facets().size() where there is none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 
@@ -88,6 +90,7 @@ private:
     Patches patches_;
     std::vector<SideDirections> sides_;
     std::vector<Facet> facets_;
+    std::vector<std::uint32_t> facet_of_unknown_;
     std::vector<std::uint32_t> facet_of_side_, first_of_side_;  // front and back of each patch; first: unknown, or nothing()
     std::uint32_t size_ = 0;
 };

@@ -6,8 +6,10 @@
 #pragma once
 
 #include "core/geometry/surface_point.h"
+#include "operators/series/compensated_sum.h"
 
 #include <functional>
+#include <vector>
 
 namespace neumann {
 
@@ -30,17 +32,46 @@ public:
 
     Rgb operator()(const SurfacePoint& p, const Vec3& w, Random& random) const { return value_(p, w, random); }
 
-    friend Field operator+(Field f, Field g) {
-        return Field([f = std::move(f), g = std::move(g)](const SurfacePoint& p, const Vec3& w, Random& random) {
-            return f(p, w, random) + g(p, w, random);
-        });
+    // f is asked first.
+    friend Field operator+(Field f, Field g) { return combined(std::move(f), std::move(g), 1.0); }
+    friend Field operator-(Field f, Field g) { return combined(std::move(f), std::move(g), -1.0); }
+    friend Field operator*(double a, Field f) {
+        return Field([a, f = std::move(f)](const SurfacePoint& p, const Vec3& w, Random& random) { return a * f(p, w, random); });
     }
 
 private:
+    static Field combined(Field f, Field g, double a) {
+        return Field([f = std::move(f), g = std::move(g), a](const SurfacePoint& p, const Vec3& w, Random& random) {
+            const Rgb value = f(p, w, random);
+            return value + a * g(p, w, random);
+        });
+    }
     Function value_;
 };
 
 using ExitantField = Field<struct Exitant>;
 using IncidentField = Field<struct Incident>;
+
+// Of functions: asks all of them, the first one first, and adds up their values.
+template <class Side>
+class CompensatedSum<Field<Side>> {
+public:
+    explicit CompensatedSum(Field<Side> first) : terms_{std::move(first)} {}
+
+    void add(Field<Side> term) { terms_.push_back(std::move(term)); }
+    Field<Side> value() const {
+        return Field<Side>([terms = terms_](const SurfacePoint& p, const Vec3& w, Random& random) {
+            Rgb sum(0.0), lost(0.0);
+            for (const Field<Side>& term : terms) {
+                const Rgb value = term(p, w, random);
+                for (int c = 0; c < 3; ++c) add_keeping(sum[c], lost[c], value[c]);
+            }
+            return sum + lost;
+        });
+    }
+
+private:
+    std::vector<Field<Side>> terms_;
+};
 
 }  // namespace neumann

@@ -1,10 +1,15 @@
 // (T f)(p, ω) = f(tr(p, ω), −ω): what arrives at p from ω is what left the first surface seen along ω. Geometry only.
+//
+// Its adjoint is the same the other way round, as rays go both ways: (T* g)(q, ω) = g(tr(q, ω), −ω), what leaves q along ω is worth
+// what it is where it arrives; of surfaces, for what leaves the scene is worth nothing. ⟨f, g⟩ = ∫∫ f g |cos θ| dω dA.
 #pragma once
 
 #include "core/geometry/geometry.h"
 #include "operators/pointwise/field.h"
 
 namespace neumann {
+
+class AdjointTransportOperator;
 
 class TransportOperator {
 public:
@@ -20,9 +25,32 @@ public:
             return f(seen, -w, random);
         });
     }
+    AdjointTransportOperator adjoint() const;
 
 private:
     const Geometry* geometry_;
 };
+
+class AdjointTransportOperator {
+public:
+    using Domain = IncidentField;
+    using Range = ExitantField;
+
+    explicit AdjointTransportOperator(const Geometry& geometry) : geometry_(&geometry) {}
+
+    ExitantField operator()(IncidentField g) const {
+        return ExitantField([geometry = geometry_, g = std::move(g)](const SurfacePoint& q, const Vec3& w, Random& random) {
+            SurfacePoint seen;
+            if (q.is_infinite() || !geometry->first_hit(q, w, seen)) return Rgb(0.0);
+            return g(seen, -w, random);
+        });
+    }
+    TransportOperator adjoint() const { return TransportOperator(*geometry_); }
+
+private:
+    const Geometry* geometry_;
+};
+
+inline AdjointTransportOperator TransportOperator::adjoint() const { return AdjointTransportOperator(*geometry_); }
 
 }  // namespace neumann

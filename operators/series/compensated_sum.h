@@ -4,30 +4,41 @@
 // each addition is collected and added at the end. Error 2ε + O(n²ε²) Σ|t|/|Σ t| instead of O(nε).
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace neumann {
 
+// sum + t, and to `lost` what that leaves out.
 template <class Real>
+void add_keeping(Real& sum, Real& lost, Real t) {
+    const Real s = sum + t;
+    lost += std::abs(sum) >= std::abs(t) ? (sum - s) + t : (t - s) + sum;
+    sum = s;
+}
+
+// Of fields that are stored, as size() numbers at data(). Functions have one of their own (operators/pointwise/field.h).
+template <class Field>
 class CompensatedSum {
 public:
-    using Values = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+    explicit CompensatedSum(Field first) : sum_(std::move(first)), lost_(static_cast<std::size_t>(sum_.size())) {}
 
-    explicit CompensatedSum(Eigen::Index size) : sum_(Values::Zero(size)), lost_(Values::Zero(size)) {}
-
-    void add(const Values& term) {
-        for (Eigen::Index u = 0; u < sum_.size(); ++u) {
-            const Real t = term[u], s = sum_[u] + t;
-            lost_[u] += std::abs(sum_[u]) >= std::abs(t) ? (sum_[u] - s) + t : (t - s) + sum_[u];
-            sum_[u] = s;
-        }
+    void add(const Field& term) {
+        for (std::size_t u = 0; u < lost_.size(); ++u) add_keeping(sum_.data()[u], lost_[u], term.data()[u]);
     }
-    Values value() const { return sum_ + lost_; }
+    Field value() const {
+        Field all = sum_;
+        for (std::size_t u = 0; u < lost_.size(); ++u) all.data()[u] += lost_[u];
+        return all;
+    }
 
 private:
-    Values sum_, lost_;
+    using Real = std::remove_cvref_t<decltype(*std::declval<Field&>().data())>;
+    Field sum_;
+    std::vector<Real> lost_;
 };
 
 }  // namespace neumann

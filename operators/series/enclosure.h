@@ -8,7 +8,7 @@
 // L. Collatz, Einschließungssatz für die charakteristischen Zahlen von Matrizen, Math. Z. 48 (1942).
 #pragma once
 
-#include "operators/solvers/channel_operator.h"
+#include "operators/series/vector.h"
 
 #include <string>
 

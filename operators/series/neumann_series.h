@@ -1,32 +1,35 @@
 // L = Le + K L  ⇒  L = Le + K Le + K² Le + …
 #pragma once
 
-#include "operators/series/product.h"
+#include "operators/series/algebra.h"
+#include "operators/series/compensated_sum.h"
 
 namespace neumann {
 
 // Steps through the terms K^i Le and the partial sums of any operator that maps a kind of field to itself.
-template <Operator Op>
-requires std::same_as<typename Op::Domain, typename Op::Range>
+template <Endomorphism Op>
 class NeumannSeries {
 public:
     using Field = typename Op::Domain;
 
-    NeumannSeries(Op K, Field Le) : K_(std::move(K)), term_(Le), sum_(std::move(Le)) {}
+    NeumannSeries(Op K, Field Le) : K_(std::move(K)), term_(Le), before_(Le), sum_(std::move(Le)) {}
 
-    int bounce() const { return bounce_; }       // i
-    const Field& term() const { return term_; }  // K^i Le
-    const Field& sum() const { return sum_; }    // Σ_{k≤i} K^k Le
+    int bounce() const { return bounce_; }           // i
+    const Field& term() const { return term_; }      // K^i Le
+    const Field& before() const { return before_; }  // K^(i−1) Le, for i ≥ 1
+    Field sum() const { return sum_.value(); }       // Σ_{k≤i} K^k Le, compensated
 
     void advance() {
-        term_ = K_(term_);
-        sum_ = sum_ + term_;
+        before_ = std::move(term_);
+        term_ = K_(std::as_const(before_));
+        sum_.add(term_);
         ++bounce_;
     }
 
 private:
     Op K_;
-    Field term_, sum_;
+    Field term_, before_;
+    CompensatedSum<Field> sum_;
     int bounce_ = 0;
 };
 

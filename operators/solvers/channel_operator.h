@@ -4,11 +4,9 @@
 // area times projected solid angle. Inner product and adjoint: ⟨f, g⟩ = Σ_u measure_u f_u g_u,  ⟨K f, g⟩ = ⟨f, K* g⟩.
 #pragma once
 
-#include <Eigen/Core>
+#include "operators/series/vector.h"
 
 namespace neumann {
-
-using Vector = Eigen::VectorXd;  // one value per unknown
 
 // All vectors have size() values; x and y are different vectors. Calls change nothing that can be seen from outside.
 class ChannelOperator {
@@ -16,12 +14,16 @@ public:
     virtual ~ChannelOperator() = default;
 
     virtual Eigen::Index size() const = 0;
-    virtual void apply(const Vector& x, Vector& y) const = 0;                // y = K x
+    virtual void apply(const Vector& x, Vector& y) const = 0;  // y = K x
+    virtual const Vector& measure() const = 0;                 // > 0
+
+    // Some K can only be applied: K* or the entries answer where these are true, and throw std::logic_error elsewhere.
+    virtual bool has_adjoint() const { return true; }
+    virtual bool has_entries() const { return true; }
     virtual void apply_adjoint(const Vector& x, Vector& y) const = 0;        // y = K* x
     virtual double row(Eigen::Index u, const Vector& x) const = 0;           // (K x)_u
     virtual double diagonal(Eigen::Index u) const = 0;                       // K_uu
     virtual void add_column(Eigen::Index u, double a, Vector& y) const = 0;  // y += a K e_u
-    virtual const Vector& measure() const = 0;                               // > 0
 };
 
 }  // namespace neumann

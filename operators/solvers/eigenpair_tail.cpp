@@ -1,7 +1,7 @@
 #include "operators/solvers/eigenpair_tail.h"
 
-#include "operators/series/term_series.h"
 #include "operators/solvers/progress.h"
+#include "operators/solvers/term_series.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@ namespace neumann {
 
 SolverResult solve_eigenpair_tail(const Problem& problem) {
     Progress progress(problem);
+    if (!progress.K().has_adjoint()) return progress.end(problem.Le, Verdict::refused, "needs K*, which this K does not have");
     const Eigenpairs right = leading_eigenpairs(progress.K(), 1), left = leading_eigenpairs(progress.K(), 1, true);
     progress.count(right.applications + left.applications);
     progress.setup_ends();

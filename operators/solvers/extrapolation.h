@@ -1,8 +1,8 @@
 // The loop around whatever extrapolates the partial sums of the series.
 #pragma once
 
-#include "operators/series/term_series.h"
 #include "operators/solvers/solver.h"
+#include "operators/solvers/term_series.h"
 
 #include <functional>
 #include <optional>

@@ -9,6 +9,7 @@ namespace neumann {
 
 SolverResult solve_lu(const Problem& problem, double most_bytes) {
     Progress progress(problem);
+    if (!progress.K().has_entries()) return progress.end_without_entries();
     const Eigen::Index n = problem.Le.size();
     const double bytes = 2.0 * sizeof(double) * static_cast<double>(n) * static_cast<double>(n);
     if (bytes > most_bytes)

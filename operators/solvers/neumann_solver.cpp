@@ -1,6 +1,6 @@
-#include "operators/series/term_series.h"
 #include "operators/solvers/progress.h"
 #include "operators/solvers/series_solvers.h"
+#include "operators/solvers/term_series.h"
 
 #include <fmt/format.h>
 

@@ -99,6 +99,10 @@ SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
     return std::move(result_);
 }
 
+SolverResult Progress::end_without_entries() {
+    return end(problem_.Le, Verdict::refused, "needs the entries of K, its rows and columns, and this K can only be applied");
+}
+
 SolverResult Progress::end_limit(Vector x) {
     if (evidence_.known_to_diverge())
         return end_diverging(std::move(x), fmt::format("{} applications were used up", problem_.most));

@@ -46,6 +46,8 @@ public:
     // more, where x is 10¹² times Le, and where Le ≥ 0 but x is negative somewhere, unless the radius is below 1. The last is a
     // proof, for K ≥ 0: were x ≥ 0 a solution, then x = S_n + K^{n+1} x ≥ S_n for all n and the series would converge.
     SolverResult end(Vector x, Verdict verdict, std::string why);
+    // Refused, by a method that takes unknowns one by one: this K can only be applied.
+    SolverResult end_without_entries();
     // All applications are used up; or the radius, where it is known, says why they do not help.
     SolverResult end_limit(Vector x);
     // diverges(), and what was seen of it.

@@ -7,6 +7,7 @@ namespace neumann {
 
 SolverResult solve_ratio_tail(const Problem& problem) {
     return solve_extrapolated(problem, [&](const TermSeries& series, Vector& x) -> std::optional<Trouble> {
+        if (series.bounce() == 0) return Trouble{Verdict::refused, "one term is not enough"};
         const Vector& measure = problem.K->measure();
         const Vector weighted = measure.cwiseProduct(series.term());
         const double lambda = weighted.dot(series.term()) / weighted.dot(series.before());

@@ -13,6 +13,7 @@ SolverResult solve_gauss_seidel(const Problem& problem) { return solve_sor(probl
 SolverResult solve_sor(const Problem& problem, double omega) {
     Progress progress(problem);
     const ChannelOperator& K = progress.K();
+    if (!K.has_entries()) return progress.end_without_entries();
     Vector x = problem.Le;
     ChangeRate rate;
     for (;;) {
@@ -41,6 +42,7 @@ SolverResult solve_sor(const Problem& problem, double omega) {
 SolverResult solve_southwell(const Problem& problem) {
     Progress progress(problem);
     const ChannelOperator& K = progress.K();
+    if (!K.has_entries()) return progress.end_without_entries();
     const Eigen::Index n = problem.Le.size();
     const double cost = 1.0 / static_cast<double>(std::max<Eigen::Index>(n, 1));
     Vector x = Vector::Zero(n), r = problem.Le;

@@ -24,6 +24,8 @@ public:
         : StoppableChannel(std::shared_ptr<const ChannelOperator>(std::shared_ptr<void>(), &K), std::move(stop)) {}
 
     Eigen::Index size() const override { return K_->size(); }
+    bool has_adjoint() const override { return K_->has_adjoint(); }
+    bool has_entries() const override { return K_->has_entries(); }
     void apply(const Vector& x, Vector& y) const override {
         go_on();
         K_->apply(x, y);

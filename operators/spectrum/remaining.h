@@ -1,7 +1,7 @@
 // How many bounces it takes, from the series itself: the early terms are not yet those of the leading eigenvalue.
 #pragma once
 
-#include "operators/series/series_run.h"
+#include "operators/solvers/series_run.h"
 
 #include <optional>
 #include <vector>

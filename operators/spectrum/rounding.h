@@ -1,7 +1,7 @@
 // What rounding leaves of the series: where naive addition stops by itself, and how much the result is worth.
 #pragma once
 
-#include "operators/series/term_series.h"
+#include "operators/solvers/term_series.h"
 
 #include <optional>
 

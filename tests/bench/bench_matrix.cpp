@@ -17,7 +17,7 @@
 #include "operators/matrix/sides.h"
 #include "operators/pictures/field_pictures.h"
 #include "operators/pictures/rendered_series.h"
-#include "operators/series/product.h"
+#include "operators/series/algebra.h"
 #include "operators/statistics/metrics.h"
 #include "tests/bench/recorded_rays.h"
 

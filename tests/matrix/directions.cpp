@@ -4,6 +4,7 @@
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
+#include "operators/matrix/transport_matrix.h"
 #include "operators/series/neumann_series.h"
 #include "tests/matrix/one_matrix.h"
 
@@ -123,16 +124,16 @@ TEST(Directions, DotTestsHold) {
     const RayTable table(space, 32, 1);
     const TransportMatrix<4> T(table);
     const ReflectionMatrix<4> R(scene.materials, space);
-    const AdjointReflectionMatrix<4> R_adjoint(R, table);
-    const AdjointTransportMatrix<4> T_adjoint(table);
-    ExitantVector<4> f = ExitantVector<4>::Zero(4, space.size() + 1), g = f;
+    const auto R_adjoint = adjoint(R);
+    const auto T_adjoint = adjoint(T);
+    ExitantVector<4> f = ExitantVector<4>::zero(space.size()), g = f;
     for (std::uint32_t u = 0; u < space.size(); ++u)
         for (int c = 0; c < 3; ++c) {
             f(c, u) = std::sin(1.0 + 3.0 * u + c);
             g(c, u) = std::cos(2.0 + 5.0 * u + c);
         }
     const Channels<4> Kf_g = inner_product(space, R(T(f)), g), f_Kg = inner_product(space, f, T_adjoint(R_adjoint(g)));
-    const Channels<4> Tf_Rg = inner_product<4>(table, T(f), R_adjoint(g));
+    const Channels<4> Tf_Rg = inner_product(space, T(f), R_adjoint(g));
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(Kf_g[c], f_Kg[c], 1e-13);
         EXPECT_NEAR(Kf_g[c], Tf_Rg[c], 1e-13);

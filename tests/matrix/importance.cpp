@@ -127,7 +127,7 @@ TEST(Importance, HiddenLightsHaveNoneOfTheCameraItself) {
         const PatchSpace space(scene.geometry, {100, 0.6}, side_directions(scene));
         const auto We = camera_importance<4>(scene, space, 4, 0), Le = emitted_light<4>(scene, space);
         EXPECT_EQ(inner_product(space, We, Le)[0] == 0.0, hidden);
-        EXPECT_GT(We.maxCoeff(), 0.0);
+        EXPECT_GT(We.values().maxCoeff(), 0.0);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/sides.h"
+#include "operators/matrix/transport_matrix.h"
 #include "operators/series/neumann_series.h"
 #include "tests/physics/scene_maker.h"
 

@@ -1,10 +1,10 @@
 // What holds by construction, to rounding: rows of T, the furnace, norms, adjoints, and L = Le + K L.
 #include "core/sampling/independent_sampler.h"
 #include "operators/known/enclosures.h"
-#include "operators/matrix/adjoint.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
+#include "operators/matrix/transport_matrix.h"
 #include "operators/series/neumann_series.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ template <int C>
 ExitantVector<C> random_field(const PatchSpace& space, std::uint32_t stream) {
     IndependentSampler random(11, stream);
     random.start(0);
-    ExitantVector<C> f = ExitantVector<C>::Zero(C, space.size() + 1);
+    ExitantVector<C> f = ExitantVector<C>::zero(space.size());
     for (std::uint32_t u = 0; u < space.size(); ++u)
         for (int c = 0; c < (C == 4 ? 3 : C); ++c) f(c, u) = random.next() - 0.5;
     return f;
@@ -98,8 +98,8 @@ TEST(ReflectionMatrix, FurnaceIsExact) {
 TEST(ReflectionMatrix, NormIsAtMostTheLargestAlbedo) {
     const Scene scene = colourful_room();
     const System<4> s(scene, 800, 32);
-    ExitantVector<4> one = ExitantVector<4>::Zero(4, s.space.size() + 1);
-    one.leftCols(s.space.size()).setOnes();
+    ExitantVector<4> one = ExitantVector<4>::zero(s.space.size());
+    for (std::uint32_t u = 0; u < s.space.size(); ++u) one.col(u).setOnes();
     const ExitantVector<4> K_one = (s.R * s.T)(one);
     const Rgb albedo = scene.materials.largest_albedo();
     for (int c = 0; c < 3; ++c) EXPECT_LE(K_one.row(c).maxCoeff(), albedo[c] * (1.0 + 4.0 * epsilon));
@@ -114,9 +114,9 @@ TEST(MatrixSeries, SumsSolveTheEquationUpToTheNextTerm) {
         NeumannSeries series(K, source);
         for (int i = 0; i < 12; ++i) {
             const ExitantVector<4> residual = source + K(series.sum()) - series.sum();
-            const double size = series.sum().abs().maxCoeff();
+            const double size = series.sum().values().abs().maxCoeff();
             series.advance();
-            EXPECT_LE((residual - series.term()).abs().maxCoeff(), 32.0 * epsilon * size) << i;
+            EXPECT_LE((residual - series.term()).values().abs().maxCoeff(), 32.0 * epsilon * size) << i;
         }
     }
 }
@@ -124,16 +124,15 @@ TEST(MatrixSeries, SumsSolveTheEquationUpToTheNextTerm) {
 TEST(Adjoint, DotTestsHoldForTAndRAndK) {
     const Scene scene = colourful_room();
     const System<4> s(scene, 600, 32);
-    const AdjointReflectionMatrix<4> R_adjoint(s.R, s.table);
-    const AdjointTransportMatrix<4> T_adjoint(s.table);
+    const auto R_adjoint = adjoint(s.R);
+    const auto T_adjoint = adjoint(s.T);
     const auto f = random_field<4>(s.space, 0), g = random_field<4>(s.space, 1);
     const double size = s.space.patches().size();
 
-    const RayVector<4> R_star_g = R_adjoint(g);
-    const Channels<4> Tf_a = inner_product<4>(s.table, s.T(f), R_star_g), f_Ta = inner_product(s.space, f, T_adjoint(R_star_g));
+    const IncidentVector<4> R_star_g = R_adjoint(g);
+    const Channels<4> Tf_a = inner_product(s.space, s.T(f), R_star_g), f_Ta = inner_product(s.space, f, T_adjoint(R_star_g));
     const Channels<4> RTf_g = inner_product(s.space, s.R(s.T(f)), g);
-    const Channels<4> Kf_g = inner_product(s.space, (s.R * s.T)(f), g),
-                      f_Kg = inner_product(s.space, f, (T_adjoint * R_adjoint)(g));
+    const Channels<4> Kf_g = inner_product(s.space, (s.R * s.T)(f), g), f_Kg = inner_product(s.space, f, adjoint(s.R * s.T)(g));
     for (int c = 0; c < 3; ++c) {
         const double scale = epsilon * size * 4.0;
         EXPECT_NEAR(Tf_a[c], f_Ta[c], scale) << "T";
@@ -147,8 +146,8 @@ TEST(Adjoint, ImportanceMeasuresEveryBounce) {
     const Scene scene = colourful_room();
     const System<4> s(scene, 600, 32);
     const auto K = s.R * s.T;
-    const auto K_adjoint = AdjointTransportMatrix<4>(s.table) * AdjointReflectionMatrix<4>(s.R, s.table);
-    ExitantVector<4> We = ExitantVector<4>::Zero(4, s.space.size() + 1);
+    const auto K_adjoint = adjoint(K);
+    ExitantVector<4> We = ExitantVector<4>::zero(s.space.size());
     for (std::uint32_t u = 0; u < 40; ++u) We.col(u).head(3).setConstant(1.0 + u);
     for (const ExitantVector<4>& source : {s.Le, direct_light<4>(scene, s.R, 64, 1)}) {
         NeumannSeries light(K, source);
@@ -170,7 +169,7 @@ TEST(RayTable, IsTheSameOnAnyNumberOfThreads) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
         const System<4> some(scene, 800, 64, 5);
         EXPECT_TRUE(std::equal(all.table.seen().begin(), all.table.seen().end(), some.table.seen().begin()));
-        EXPECT_TRUE(((some.R * some.T)(random_field<4>(some.space, 2)) == K_all).all());
+        EXPECT_TRUE(((some.R * some.T)(random_field<4>(some.space, 2)).values() == K_all.values()).all());
     }
     const System<4> other(scene, 800, 64, 6);
     EXPECT_FALSE(std::equal(all.table.seen().begin(), all.table.seen().end(), other.table.seen().begin()));
@@ -180,8 +179,9 @@ TEST(MatrixSeries, EmissionTimesAPowerOfTwoScalesBitwise) {
     const Scene scene = colourful_room();
     const System<4> s(scene, 300, 32);
     const auto K = s.R * s.T;
-    NeumannSeries series(K, s.Le), scaled(K, ExitantVector<4>(s.Le * 0x1p-40));
-    for (int i = 0; i < 8; ++i, series.advance(), scaled.advance()) EXPECT_TRUE((scaled.term() == series.term() * 0x1p-40).all());
+    NeumannSeries series(K, s.Le), scaled(K, 0x1p-40 * s.Le);
+    for (int i = 0; i < 8; ++i, series.advance(), scaled.advance())
+        EXPECT_TRUE((scaled.term().values() == series.term().values() * 0x1p-40).all());
 }
 
 }  // namespace

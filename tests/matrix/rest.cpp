@@ -8,13 +8,9 @@ namespace neumann {
 namespace {
 
 // K as a matrix, each channel by itself, and the last unknown for nothing.
-ExitantVector<1> times(const Eigen::MatrixXd& K, const ExitantVector<1>& x) {
-    ExitantVector<1> y = x;
-    y.leftCols(K.rows()) = (K * x.leftCols(K.rows()).matrix().transpose()).transpose().array();
-    return y;
-}
+ExitantVector<1> times(const Eigen::MatrixXd& K, const ExitantVector<1>& x) { return ExitantVector<1>(Vector(K * to_vector(x))); }
 SeriesRest<1> rest(const Eigen::MatrixXd& K, const std::vector<double>& term) {
-    ExitantVector<1> t = ExitantVector<1>::Zero(1, K.rows() + 1);
+    ExitantVector<1> t = ExitantVector<1>::zero(static_cast<std::uint32_t>(K.rows()));
     for (std::size_t i = 0; i < term.size(); ++i) t(0, static_cast<Eigen::Index>(i)) = term[i];
     return rest_of_series<1>([&](const ExitantVector<1>& x) { return times(K, x); }, t);
 }
@@ -56,7 +52,7 @@ TEST(SeriesRest, LightThatGoesToAndFro) {
 TEST(SeriesRest, NothingLeft) {
     const auto found = rest(Eigen::MatrixXd::Zero(2, 2), {1.0, 1.0});
     EXPECT_TRUE(found.converges);
-    EXPECT_EQ(found.sum.abs().maxCoeff(), 0.0);
+    EXPECT_EQ(found.sum.values().abs().maxCoeff(), 0.0);
 }
 
 TEST(SeriesRest, AlbedoOneOrMoreDoesNotConverge) {

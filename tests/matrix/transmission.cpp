@@ -1,7 +1,9 @@
 // Glass and other things that light goes through: R between both sides of a patch, and basic radiance.
 #include "core/material/diffuse_fresnel.h"
 #include "operators/matrix/inner_product.h"
+#include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/scene_patches.h"
+#include "operators/matrix/transport_matrix.h"
 #include "tests/matrix/one_matrix.h"
 #include "tests/physics/scene_maker.h"
 
@@ -101,8 +103,7 @@ TEST_P(TransmissionScenes, FurnaceIsExact) {
     const PatchSpace space = scene_patches(scene, {60, 0.6});
     const RayTable table(space, 256, 1);
     const ReflectionMatrix<1> R(scene.materials, space);
-    ExitantVector<1> one = ExitantVector<1>::Ones(1, space.size() + 1);
-    one(0, space.nothing()) = 0.0;
+    const ExitantVector<1> one(Vector(Vector::Ones(space.size())));
     const ExitantVector<1> K1 = R(TransportMatrix<1>(table)(one));
     std::size_t both = 0;
     for (std::uint32_t f = 0; f < space.facets().size(); ++f) {
@@ -141,10 +142,12 @@ TEST(TransmissionRefusals, OfWhatStandsInGlass) {
     SceneMaker lamp_inside = maker, lamp_outside = maker;
     lamp_inside.add(Sphere{{0, 0, 0}, 0.2, false}, lamp(1.0));
     lamp_outside.add(Sphere{{0.8, 0.8, 0.8}, 0.1, false}, lamp(1.0));
-    EXPECT_EQ(refusal(lamp_inside.make(), false), "a light stands within glass, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(lamp_inside.make(), false),
+              "a light stands within glass, which patches do not hold; 'render --method walk' can");
     EXPECT_EQ(refusal(lamp_outside.make(), false), "none");
     lamp_outside.parts.camera.fov = 1.0;
-    EXPECT_EQ(refusal(lamp_outside.make(), true), "the camera stands within glass, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(lamp_outside.make(), true),
+              "the camera stands within glass, which patches do not hold; 'render --method walk' can");
 }
 
 }  // namespace

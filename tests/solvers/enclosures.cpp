@@ -1,8 +1,8 @@
 // The two-sided enclosure: what it stops, and what has none. Its figures are in operators/known/series_verdicts.cpp.
 #include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
-#include "operators/series/series_run.h"
 #include "operators/solvers/lu.h"
+#include "operators/solvers/series_run.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What stops the series, and what must not.
 #include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
-#include "operators/series/series_run.h"
+#include "operators/solvers/series_run.h"
 #include "operators/spectrum/remaining.h"
 
 #include <gtest/gtest.h>
@@ -34,8 +34,8 @@ TEST(SeriesRuns, Furnace) {
 // Rounding does not pile up: 27618 terms of ρ = 0.999, in double and compensated.
 TEST(SeriesRuns, LongSumsKeepTheirDigits) {
     for (const double rho : {0.9, 0.99, 0.999}) {
-        CompensatedSum<double> sum(1);
-        CompensatedSum<float> sum_f(1);
+        CompensatedSum<Vector> sum(Vector::Zero(1));
+        CompensatedSum<Eigen::VectorXf> sum_f(Eigen::VectorXf::Zero(1));
         const float rho_f = static_cast<float>(rho);
         double t = 1.0;
         float t_f = 1.0f;

@@ -1,6 +1,6 @@
 // Two unknowns, where everything can be written down: near-parallel plates (concentric spheres) and the dome over a disc.
 #include "operators/known/small_problems.h"
-#include "operators/series/series_run.h"
+#include "operators/solvers/series_run.h"
 #include "operators/solvers/solvers.h"
 #include "operators/spectrum/spectrum.h"
 

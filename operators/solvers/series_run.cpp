@@ -1,4 +1,4 @@
-#include "operators/series/series_run.h"
+#include "operators/solvers/series_run.h"
 
 #include "operators/series/change_rate.h"
 #include "operators/spectrum/radius_evidence.h"
@@ -8,8 +8,6 @@
 namespace neumann {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity(), epsilon = std::numeric_limits<double>::epsilon();
 
 // Neighbours first; where these alternate, every second term.
 Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum) {
@@ -33,6 +31,7 @@ double rate_over(const std::vector<SeriesRow>& rows) {
 
 SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOptions& options) {
     SeriesRun run;
+    constexpr double infinity = std::numeric_limits<double>::infinity(), epsilon = std::numeric_limits<double>::epsilon();
     const bool bounded = options.norm && *options.norm < 1.0;
     const double a = bounded ? *options.norm : 1.0;
     if (options.norm && !bounded)
@@ -42,7 +41,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
     ChangeRate rate;
     RadiusEvidence evidence(&K, bounded ? options.norm : std::nullopt);
     Vector before_last;
-    const double emitted = series.term_norms().sup;
+    const double emitted = norms(Le, K.measure()).sup;
     const auto end = [&](Verdict verdict, std::string why) {
         run.verdict = verdict;
         run.why = std::move(why);
@@ -53,7 +52,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
         run.sum = series.sum();
         SeriesRow row;
         row.bounce = series.bounce();
-        row.term = series.term_norms();
+        row.term = norms(series.term(), K.measure());
         rate.add(row.term.sup);
         row.ratio = run.rows.empty() ? std::numeric_limits<double>::quiet_NaN() : row.term.power / run.rows.back().term.power;
         row.a_priori = bounded ? std::pow(a, row.bounce + 1) / (1.0 - a) * emitted : infinity;

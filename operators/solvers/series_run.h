@@ -2,8 +2,8 @@
 #pragma once
 
 #include "operators/series/enclosure.h"
-#include "operators/series/term_series.h"
 #include "operators/series/verdict.h"
+#include "operators/solvers/term_series.h"
 
 #include <functional>
 #include <optional>

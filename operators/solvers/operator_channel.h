@@ -1,0 +1,93 @@
+// An operator of the algebra as the solvers' K, and I − K handed to one of them: solve(I - R * T, Le, measure, solve_gmres).
+#pragma once
+
+#include "operators/series/algebra.h"
+#include "operators/solvers/solver.h"
+
+#include <stdexcept>
+#include <type_traits>
+
+namespace neumann {
+
+// Fields of one value an unknown, which a Vector can be made of and turned into.
+template <class Field>
+concept OnUnknowns = std::constructible_from<Field, const Vector&> && requires(const Field& f) {
+    { to_vector(f) } -> std::convertible_to<Vector>;
+};
+
+// K has K* and entries as far as the operator has: its rows are those of K, and its columns those of K*.
+template <Endomorphism Op>
+requires OnUnknowns<typename Op::Domain>
+class OperatorChannel : public ChannelOperator {
+public:
+    // `measure`: of each unknown, with which the adjoint of K is one.
+    OperatorChannel(Op K, Vector measure) : K_(std::move(K)), adjoint_(adjoint_of(K_)), measure_(std::move(measure)) {}
+
+    Eigen::Index size() const override { return measure_.size(); }
+    void apply(const Vector& x, Vector& y) const override { y = to_vector(K_(Field(x))); }
+    const Vector& measure() const override { return measure_; }
+
+    bool has_adjoint() const override { return adjointable; }
+    bool has_entries() const override { return entries; }
+    void apply_adjoint(const Vector& x, Vector& y) const override {
+        if constexpr (adjointable)
+            y = to_vector(adjoint_(Field(x)));
+        else
+            throw std::logic_error("this K has no adjoint");
+    }
+    double row(Eigen::Index u, const Vector& x) const override {
+        double sum = 0.0;
+        for_row(K_, u, [&](std::uint32_t v, double a) { sum += a * x[v]; });
+        return sum;
+    }
+    double diagonal(Eigen::Index u) const override {
+        double sum = 0.0;
+        for_row(K_, u, [&](std::uint32_t v, double a) { sum += v == u ? a : 0.0; });
+        return sum;
+    }
+    void add_column(Eigen::Index u, double a, Vector& y) const override {
+        // m_w K_wu = m_u K*_uw.
+        for_row(adjoint_, u, [&](std::uint32_t w, double b) { y[w] += a * b * (measure_[u] / measure_[w]); });
+    }
+
+protected:
+    const auto& adjoint() const { return adjoint_; }
+
+private:
+    using Field = typename Op::Domain;
+    static constexpr bool adjointable = Adjointable<Op>;
+    struct None {};
+    static auto adjoint_of(const Op& K) {
+        if constexpr (adjointable)
+            return neumann::adjoint(K);
+        else
+            return None();
+    }
+    using Adjoint = decltype(adjoint_of(std::declval<const Op&>()));
+    static constexpr bool entries = HasRows<Op> && HasRows<Adjoint>;
+    template <class A, class Each>
+    static void for_row(const A& op, Eigen::Index u, const Each& each) {
+        if constexpr (entries)
+            op.for_row(static_cast<std::uint32_t>(u), each);
+        else
+            throw std::logic_error("this K can only be applied, and not asked for its entries");
+    }
+
+    Op K_;
+    Adjoint adjoint_;
+    Vector measure_;
+};
+
+// (I − K) L = Le by any solver, of solvers() or by name. `how`: all but K and Le, which are filled in. A solver that needs K* or
+// entries of a K that has none ends with Verdict::refused. Fields on unknowns only: there is no other I − K to solve.
+template <Endomorphism K>
+requires OnUnknowns<typename K::Domain> SolverResult solve(const Difference<Identity<typename K::Domain>, K>& equation,
+                                                           const typename K::Domain& Le, Vector measure, const Solver& solver,
+                                                           Problem how = {}) {
+    const OperatorChannel<K> channel(equation.right(), std::move(measure));
+    how.K = &channel;
+    how.Le = to_vector(Le);
+    return solver(how);
+}
+
+}  // namespace neumann

@@ -1,0 +1,42 @@
+# What files include, and what that includes, tells who knows whom. cmake -DROOT=… -P layers.cmake
+cmake_minimum_required(VERSION 3.25)
+
+# All files of neumann that `file` includes, with itself, in `reached`.
+function(visit file)
+  if(file IN_LIST reached)
+    return()
+  endif()
+  list(APPEND reached ${file})
+  file(STRINGS ${ROOT}/${file} lines REGEX "^#include \"")
+  foreach(line ${lines})
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
+    visit(${included})
+  endforeach()
+  set(reached ${reached} PARENT_SCOPE)
+endfunction()
+
+# No file of `files` reaches one whose path matches `pattern`; `known` is reached, or nothing was looked at.
+function(expect_unknown files pattern known)
+  file(GLOB found RELATIVE ${ROOT} ${files})
+  set(all)
+  foreach(file ${found})
+    set(reached)
+    visit(${file})
+    list(APPEND all ${reached})
+    list(FILTER reached INCLUDE REGEX "${pattern}")
+    if(reached)
+      message(SEND_ERROR "${file} knows ${reached}")
+    endif()
+  endforeach()
+  if(NOT known IN_LIST all)
+    message(SEND_ERROR "nothing in ${files} knows ${known}")
+  endif()
+endfunction()
+
+expect_unknown("${ROOT}/operators/series/*" "^operators/(solvers|spectrum|pointwise|walk|patches|matrix|pictures)/" operators/series/algebra.h)
+expect_unknown("${ROOT}/operators/pointwise/*" "^operators/(patches|matrix|solvers|walk)/" operators/pointwise/field.h)
+# T needs no materials, and R no rays.
+expect_unknown("${ROOT}/operators/pointwise/transport.h" "^core/material/" core/geometry/geometry.h)
+expect_unknown("${ROOT}/operators/matrix/transport_matrix.*" "^core/material/|reflection" operators/matrix/ray_table.h)
+expect_unknown("${ROOT}/operators/pointwise/reflection.h" "^core/geometry/geometry|ray_caster|transport" core/material/materials.h)
+expect_unknown("${ROOT}/operators/matrix/reflection_matrix.*" "ray_table|facet_rays|transport_matrix" core/material/materials.h)
