@@ -46,21 +46,22 @@ public:
     // A path for each ray, `camera` and `light` draw its halves. `found(i, Found)` is told what the i-th brings to its own pixel,
     // `splatted(i, position, Found)` what its light half brings to a place on the film, times pixels. `rays`: N + 2 entries.
     // Returns the walks that were given up.
-    template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat>
+    template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
                                     std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,
-                                    const OnSplat& splatted, std::span<std::uint64_t> counts) const {
-        trace_light_half(T, light, work, splatted, counts);
-        return trace_camera_half(T, rays, camera, work, found, counts);
+                                    const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer = {}) const {
+        trace_light_half(T, light, work, splatted, counts, observer);
+        return trace_camera_half(T, rays, camera, work, found, counts, observer);
     }
 
 private:
-    template <class Transport, class LightRandom, class OnSplat>
+    template <class Transport, class LightRandom, class OnSplat, class Observer>
     void trace_light_half(const Transport& T, std::span<LightRandom> samplers, BidirectionalWork& work, const OnSplat& splatted,
-                          std::span<std::uint64_t> counts) const;
-    template <class Transport, class Sampler, class OnFound>
+                          std::span<std::uint64_t> counts, const Observer& observer) const;
+    template <class Transport, class Sampler, class OnFound, class Observer>
     std::uint64_t trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
-                                    BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts) const;
+                                    BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
+                                    const Observer& observer) const;
 
     const Scene* scene_;
     WalkSettings settings_;
@@ -69,9 +70,9 @@ private:
     LightSampler lights_;
 };
 
-template <class Transport, class LightRandom, class OnSplat>
+template <class Transport, class LightRandom, class OnSplat, class Observer>
 void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> samplers, BidirectionalWork& work,
-                                     const OnSplat& splatted, std::span<std::uint64_t> counts) const {
+                                     const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer) const {
     const Heuristic h = settings_.direct.heuristic;
     const Ending ending{settings_.bounces, settings_.roulette, 0.0, 0};
     work.light_path.resize(samplers.size());
@@ -91,19 +92,23 @@ void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> 
             work.camera_weights.push_back(1.0 / (1.0 + others));
         }
         counts[static_cast<std::size_t>(j)] += work.camera_edges.size();
-        splat_what_is_seen(T, work.light, work.camera_edges, [&](std::size_t k) {
-            const CameraEdge& edge = work.camera_edges[k];
-            splatted(edge.walker, edge.position, Found{j, j + 1, edge.value, work.camera_weights[k]});
-        });
+        splat_what_is_seen(
+            T, work.light, work.camera_edges, j,
+            [&](std::size_t k) {
+                const CameraEdge& edge = work.camera_edges[k];
+                splatted(edge.walker, edge.position, Found{j, j + 1, edge.value, work.camera_weights[k]});
+            },
+            observer);
     };
-    walk_from_lights(*scene_, T, emission_, lights_, ending, h, samplers, work.light, visit,
-                     [&](int j, std::size_t n) { counts[static_cast<std::size_t>(j)] += n; });
+    walk_from_lights(
+        *scene_, T, emission_, lights_, ending, h, samplers, work.light, visit,
+        [&](int j, std::size_t n) { counts[static_cast<std::size_t>(j)] += n; }, observer);
 }
 
-template <class Transport, class Sampler, class OnFound>
+template <class Transport, class Sampler, class OnFound, class Observer>
 std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
-                                               BidirectionalWork& work, const OnFound& found,
-                                               std::span<std::uint64_t> counts) const {
+                                               BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
+                                               const Observer& observer) const {
     const Heuristic h = settings_.direct.heuristic;
     const Ending ending = settings_.ending();
     const int N = settings_.bounces;
@@ -114,17 +119,14 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
 
     // T: the first vertices, and (0, 2).
     counts[0] += rays.size();
-    walkers.begin(rays);
-    walkers.advance([&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); },
-                    [&](CameraWalker& z, std::uint32_t i) {
-                        z.wo = -z.w;
-                        found(i, Found{0, 0, emitters.emitted(z.x, z.wo), 1.0});
-                        if (z.x.is_infinite()) return false;
-                        const double density =
-                            scene_->camera.pixels_per_area(rays[i], z.x.position) * std::abs(glm::dot(z.x.normal, z.wo));
-                        z.weights = {.last = counted(h, pixels_ / density)};
-                        return density > 0.0;
-                    });
+    walkers.set_out(T, rays, observer, [&](CameraWalker& z, std::uint32_t i) {
+        z.wo = -z.w;
+        found(i, Found{0, 0, emitters.emitted(z.x, z.wo), 1.0});
+        if (z.x.is_infinite()) return false;
+        const double density = scene_->camera.pixels_per_area(rays[i], z.x.position) * std::abs(glm::dot(z.x.normal, z.wo));
+        z.weights = {.last = counted(h, pixels_ / density)};
+        return density > 0.0;
+    });
 
     const Split& split = settings_.split;
     if (split.walks > 1) walkers.remember_first();
@@ -163,7 +165,9 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                 },
                 [&](std::size_t k, bool seen) {
                     const auto& [i, edge] = work.edges[k];
+                    const SurfacePoint& x = walkers.walker[i].x;
                     ++count(edge.found.bounce);
+                    observer.asks(i, false, bounce, x, edge.y.position - x.position, edge.y, seen);
                     if (seen) found(i, edge.found);
                 });
 
@@ -188,23 +192,22 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
 
             // T: the next vertices, and (0, t).
             count(bounce) += walkers.alive.size();
-            walkers.advance([&](std::size_t k, std::size_t n, const auto& hit) { return walkers.first_hits(T, k, n, hit); },
-                            [&](CameraWalker& z, std::uint32_t i) {
-                                z.wo = -z.w;
-                                if (emitters.is_emitter(z.x.shape)) {
-                                    const Rgb emitted = emitters.emitted(z.x, z.wo);
-                                    if (!is_black(emitted)) {
-                                        double others = counted(h, lights_.pdf(z.from, z.w, z.x)) * z.weights.last;
-                                        if (!rest) others += counted(h, emission_.density(z.x, z.w)) * z.weights.before;
-                                        found(i, Found{bounce, 0, z.beta * emitted * share, 1.0 / (1.0 + others)});
-                                    }
-                                }
-                                if (z.x.is_infinite()) return false;
-                                const Vec3 d = z.x.position - z.from;
-                                const double cosine = std::abs(glm::dot(z.x.normal, z.w));
-                                z.weights.arrive(h, glm::dot(d, d), cosine);
-                                return cosine > 0.0;
-                            });
+            walkers.follow(T, bounce, observer, [&](CameraWalker& z, std::uint32_t i) {
+                z.wo = -z.w;
+                if (emitters.is_emitter(z.x.shape)) {
+                    const Rgb emitted = emitters.emitted(z.x, z.wo);
+                    if (!is_black(emitted)) {
+                        double others = counted(h, lights_.pdf(z.from, z.w, z.x)) * z.weights.last;
+                        if (!rest) others += counted(h, emission_.density(z.x, z.w)) * z.weights.before;
+                        found(i, Found{bounce, 0, z.beta * emitted * share, 1.0 / (1.0 + others)});
+                    }
+                }
+                if (z.x.is_infinite()) return false;
+                const Vec3 d = z.x.position - z.from;
+                const double cosine = std::abs(glm::dot(z.x.normal, z.w));
+                z.weights.arrive(h, glm::dot(d, d), cosine);
+                return cosine > 0.0;
+            });
         }
     }
     return given_up;

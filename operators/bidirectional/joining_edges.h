@@ -16,6 +16,7 @@ struct Found {
 
 // A path from the camera on its way.
 struct CameraWalker : PathEnd {
+    static constexpr bool from_light = false;
     Vec3 wo;    // towards the vertex before
     Vec3 from;  // that vertex
     PathWeights weights;

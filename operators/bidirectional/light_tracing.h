@@ -16,10 +16,11 @@ struct LightTracingWork {
 
 // A path for each sampler. `splatted(path, position, quantity, value)`: radiance times pixels at a place on the film, of bounces
 // 0 … N and the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
-template <class Transport, class Sampler, class OnSplat>
+template <class Transport, class Sampler, class OnSplat, class Observer = NoObserver>
 NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
                                       const LightSampler& lights, const Ending& ending, std::span<Sampler> samplers,
-                                      LightTracingWork& work, const OnSplat& splatted, std::span<std::uint64_t> rays) {
+                                      LightTracingWork& work, const OnSplat& splatted, std::span<std::uint64_t> rays,
+                                      const Observer& observer = {}) {
     const auto quantity = [&](int bounce) { return static_cast<std::size_t>(std::min(bounce, ending.bounces + 1)); };
     return walk_from_lights(
         scene, T, emission, lights, ending, std::nullopt, samplers, work.walkers,
@@ -32,12 +33,15 @@ NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, co
                 if (!is_black(edge.value)) work.edges.push_back(edge);
             }
             rays[quantity(j)] += work.edges.size();
-            splat_what_is_seen(T, work.walkers, work.edges, [&](std::size_t k) {
-                const CameraEdge& edge = work.edges[k];
-                splatted(edge.walker, edge.position, quantity(j), edge.value);
-            });
+            splat_what_is_seen(
+                T, work.walkers, work.edges, j,
+                [&](std::size_t k) {
+                    const CameraEdge& edge = work.edges[k];
+                    splatted(edge.walker, edge.position, quantity(j), edge.value);
+                },
+                observer);
         },
-        [&](int j, std::size_t n) { rays[quantity(j)] += n; });
+        [&](int j, std::size_t n) { rays[quantity(j)] += n; }, observer);
 }
 
 }  // namespace neumann

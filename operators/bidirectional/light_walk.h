@@ -10,6 +10,7 @@
 #include "operators/bidirectional/adjoint_reflection.h"
 #include "operators/bidirectional/path_weights.h"
 #include "operators/walk/ending.h"
+#include "operators/walk/observer.h"
 #include "operators/walk/path_end.h"
 #include "operators/walk/together.h"
 
@@ -29,6 +30,7 @@ struct LightVertex {
 
 // A path on its way.
 struct LightWalker : PathEnd {
+    static constexpr bool from_light = true;
     Vec3 wi;  // to where the light came from
     PathWeights weights;
     SurfacePoint from;          // where the edge began
@@ -52,10 +54,10 @@ inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, con
 // Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, where they are wanted.
 // `visit(j)` is told when all that are alive are at vertex j, of which vertex 0 is on the light. Returns those that were given up.
 // `rays(j, n)` counts.
-template <class Transport, class Sampler, class Visit, class CountRays>
+template <class Transport, class Sampler, class Visit, class CountRays, class Observer>
 std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
                                const Ending& ending, std::optional<Heuristic> weights, std::span<Sampler> samplers,
-                               LightWalkers& walkers, const Visit& visit, const CountRays& rays) {
+                               LightWalkers& walkers, const Visit& visit, const CountRays& rays, const Observer& observer) {
     std::uint64_t given_up = 0;
     walkers.begin(emission.empty() ? 0 : samplers.size());
     walkers.keep_if([&](LightWalker& w, std::uint32_t i) {
@@ -73,19 +75,18 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
     for (int j = 1; ending.reach(j, walkers, samplers, given_up); ++j) {
         // T*: where the power arrives.
         rays(j, walkers.alive.size());
-        walkers.advance([&](std::size_t k, std::size_t n, const auto& hit) { return walkers.first_hits(T, k, n, hit); },
-                        [&](LightWalker& w, std::uint32_t) {
-                            if (w.x.is_infinite()) return false;
-                            w.wi = -w.w;
-                            const Vec3 d = w.x.position - w.from.position;
-                            const double cosine = std::abs(glm::dot(w.x.normal, w.wi)), distance2 = glm::dot(d, d);
-                            if (!(cosine > 0.0)) return false;
-                            if (weights && j == 1)
-                                w.weights = weights_at_first(*weights, lights, w, distance2, cosine);
-                            else if (weights)
-                                w.weights.arrive(*weights, distance2, cosine);
-                            return true;
-                        });
+        walkers.follow(T, j - 1, observer, [&](LightWalker& w, std::uint32_t) {
+            if (w.x.is_infinite()) return false;
+            w.wi = -w.w;
+            const Vec3 d = w.x.position - w.from.position;
+            const double cosine = std::abs(glm::dot(w.x.normal, w.wi)), distance2 = glm::dot(d, d);
+            if (!(cosine > 0.0)) return false;
+            if (weights && j == 1)
+                w.weights = weights_at_first(*weights, lights, w, distance2, cosine);
+            else if (weights)
+                w.weights.arrive(*weights, distance2, cosine);
+            return true;
+        });
         visit(j);
         if (ending.is_last(j)) break;
 

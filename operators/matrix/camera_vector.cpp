@@ -1,6 +1,7 @@
 #include "operators/matrix/camera_vector.h"
 
 #include "core/sampling/sobol_sampler.h"
+#include "core/scene/camera_sample.h"
 #include "core/scene/pass_lights.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -32,10 +33,10 @@ void look_through(const Scene& scene, const PatchSpace& space, std::uint32_t sam
             const std::uint32_t x = (begin + i) / samples;
             SobolSampler sampler(points, seed ^ camera_stream, y * width + x);
             sampler.start((begin + i) % samples);
-            const FilmSample place =
-                film.sample(sampler.next2(), film.crop_x + static_cast<int>(x), film.crop_y + static_cast<int>(y));
-            ray[i] = scene.camera.sample_ray(place.position, sampler);
-            weights[begin + i] = place.weight;
+            const CameraSample sample =
+                sample_camera(scene, film.crop_x + static_cast<int>(x), film.crop_y + static_cast<int>(y), sampler);
+            ray[i] = sample.ray;
+            weights[begin + i] = sample.weight;
         }
         const std::uint32_t found =
             scene.geometry.first_hits(std::span<const Ray>(ray).first(n), [&](std::size_t i) -> SurfacePoint& { return hit[i]; });

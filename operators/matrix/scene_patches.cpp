@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/emitter/emission_sampler.h"
 #include "core/sampling/sobol_sampler.h"
+#include "core/scene/camera_sample.h"
 #include "operators/matrix/sides.h"
 
 #include <fmt/format.h>
@@ -58,10 +59,10 @@ void check_camera(const Scene& scene, const PatchSpace& space) {
         sampler.start(i);
         const Vec2 u = sampler.next2();
         const Film& film = scene.film;
-        const FilmSample pixel =
-            film.sample(sampler.next2(), film.crop_x + std::min(static_cast<int>(u.x * film.crop_width), film.crop_width - 1),
-                        film.crop_y + std::min(static_cast<int>(u.y * film.crop_height), film.crop_height - 1));
-        const Ray ray = scene.camera.sample_ray(pixel.position, sampler);
+        const Ray ray =
+            sample_camera(scene, film.crop_x + std::min(static_cast<int>(u.x * film.crop_width), film.crop_width - 1),
+                          film.crop_y + std::min(static_cast<int>(u.y * film.crop_height), film.crop_height - 1), sampler)
+                .ray;
         SurfacePoint met;
         if (scene.geometry.first_hit(ray.origin, ray.direction, ray.length, met))
             check(scene, space, met, ray.direction, "the camera");

@@ -1,6 +1,7 @@
 #include "operators/pictures/field_pictures.h"
 
 #include "core/base/stopwatch.h"
+#include "core/scene/camera_sample.h"
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
@@ -216,12 +217,12 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                 SobolSampler& sampler = work.samplers[i];
                 const std::uint64_t sample_number = std::uint64_t{r} * settings.samples + i % settings.samples;
                 sampler.start(sample_number);
-                const FilmSample film = scene.film.sample(sampler.next2(), scene.film.crop_x + static_cast<int>(pixel) % width,
-                                                          scene.film.crop_y + static_cast<int>(pixel) / width);
-                work.samples.push_back(
-                    {scene.camera.sample_ray(film.position, sampler), film.weight, work.values.data() + offset * all + r * stride,
-                     i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr, difference_weight,
-                     &sampler, &work.gather_samplers[offset], sample_number * settings.gather_rays});
+                const CameraSample sample = sample_camera(scene, scene.film.crop_x + static_cast<int>(pixel) % width,
+                                                          scene.film.crop_y + static_cast<int>(pixel) / width, sampler);
+                work.samples.push_back({sample.ray, sample.weight, work.values.data() + offset * all + r * stride,
+                                        i % settings.samples < compared ? work.difference.data() + offset * stride : nullptr,
+                                        difference_weight, &sampler, &work.gather_samplers[offset],
+                                        sample_number * settings.gather_rays});
             }
             const auto rays = reader.read({series[r].fine, series[r].coarse}, work.samples);
             for (std::size_t k = 0; k < 3; ++k) work.rays[k] += rays[k];

@@ -1,7 +1,7 @@
 // Paths that advance together: those of some consecutive pixels in one replicate, one after the other.
 #pragma once
 
-#include "core/scene/scene.h"
+#include "core/scene/camera_sample.h"
 #include "operators/statistics/sample_place.h"
 #include "operators/walk/walk.h"
 
@@ -47,15 +47,14 @@ struct PathGroup {
 template <class Estimate, class Sampler>
 std::uint64_t trace(const Scene& scene, const Estimate& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
                     std::uint64_t replicate, PathGroup& group, std::span<std::uint64_t> rays) {
-    const Film& film = scene.film;
     const std::size_t size = samplers.size() / pixels.size(), quantities = rays.size();
     group.rays.resize(samplers.size());
     group.weights.resize(samplers.size());
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         const Pixel& pixel = pixels[i / size];
         samplers[i].start(replicate * size + i % size);
-        const FilmSample sample = film.sample(samplers[i].next2(), pixel.x, pixel.y);
-        group.rays[i] = scene.camera.sample_ray(sample.position, samplers[i]);
+        const CameraSample sample = sample_camera(scene, pixel.x, pixel.y, samplers[i]);
+        group.rays[i] = sample.ray;
         group.weights[i] = sample.weight;
     }
     group.samples.assign(samplers.size() * quantities, Rgb(0.0));

@@ -2,6 +2,7 @@
 
 #include "core/emitter/emission_sampler.h"
 #include "core/sampling/independent_sampler.h"
+#include "core/scene/camera_sample.h"
 #include "core/scene/pass_lights.h"
 #include "operators/pictures/path_group.h"
 
@@ -29,8 +30,7 @@ Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint
         IndependentSampler sampler(seed ^ albedo_stream, static_cast<std::uint32_t>(number));
         for (std::uint64_t i = 0; i < rays_of_pixel; ++i) {
             sampler.start(i);
-            const FilmSample sample = scene.film.sample(sampler.next2(), pixel.x, pixel.y);
-            const CameraRay ray = scene.camera.sample_ray(sample.position, sampler);
+            const CameraRay ray = sample_camera(scene, pixel.x, pixel.y, sampler).ray;
             SurfacePoint x;
             std::uint64_t rays = 0;
             if (!scene.geometry.first_hit(ray.origin, ray.direction, ray.length, x)) continue;

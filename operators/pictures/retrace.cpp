@@ -1,10 +1,9 @@
-// Paths traced again, for an observer: the same walks with another T and any sampler, compiled to be small and not fast.
+// Paths traced again, for an observer: the same walks with any sampler, compiled to be small and not fast.
 #include "operators/pictures/any_sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/picture_sampler.h"
 #include "operators/pictures/splat_group.h"
-#include "operators/pictures/watched_halves.h"
-#include "operators/pictures/watched_walk.h"
+#include "operators/pictures/watched_paths.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -31,10 +30,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
                 throw std::logic_error("PictureSampler: the pointwise method has no paths");
             } else {
                 const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
-                    const WatchedWalk T(scene_.geometry, camera_rays, walkers, result.quantities, settings_.walk.split.walks > 1,
-                                        observer);
-                    estimator.trace(T, camera_rays, random, walkers, result);
-                    T.finish();
+                    estimator.trace(WatchedPaths(observer), camera_rays, random, walkers, result);
                 };
                 trace(scene_, watched, std::span(samplers), std::span<const Pixel>(some), replicate, group, std::span(rays));
             }
@@ -47,21 +43,20 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = std::min(paths_at_once, pixels_ * settings_.replicate_size - first);
     Workspace work(Q);
-    const bool light = settings_.method == PathMethod::light;
     PathGroup& group = work.group;
-    group.rays.resize(samples);  // where trace_group() puts them, so that T can point there
-    const WatchedHalves T(scene_->geometry, light ? work.light.walkers : work.bidirectional.light, work.bidirectional.camera.walker,
-                          group.rays, settings_.walk.split.walks > 1, observer);
+    const auto tell = [&](std::uint32_t i, std::size_t q, const Rgb& value, const Vec2* position) {
+        if (observer.watches(i)) observer.found(i, q, value, position);
+    };
     trace_group<AnySampler>(
-        replicate, first, samples, T,
+        replicate, first, samples,
         [&](std::uint32_t i, std::size_t q, const Rgb& value) {
             group.samples[i * Q + q] += value;
-            T.found(i, q, value, nullptr);
+            tell(i, q, value, nullptr);
         },
         [&](std::uint32_t i, const Vec2& position, std::size_t q, const Rgb& value) {
-            T.found(i, q, value / static_cast<double>(pixels_), &position);
+            tell(i, q, value / static_cast<double>(pixels_), &position);
         },
-        work);
+        work, WatchedPaths(observer));
     for (std::size_t k = 0; k < group.samples.size(); ++k) group.samples[k] *= group.weights[k / Q];
     return std::move(group.samples);
 }

@@ -25,9 +25,10 @@ struct SplatSampler::Workspace {
     Tally tally;
 };
 
-template <class Sampler, class Transport, class OnFound, class OnSplat>
-void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const Transport& T,
-                               const OnFound& found, const OnSplat& splatted, Workspace& work) const {
+template <class Sampler, class OnFound, class OnSplat, class Observer>
+void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
+                               const OnSplat& splatted, Workspace& work, const Observer& observer) const {
+    const Geometry& T = scene_->geometry;
     const std::size_t Q = settings_.quantities();
     const std::uint32_t size = settings_.replicate_size;
     const Film& film = scene_->film;
@@ -41,7 +42,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
 
     if (settings_.method == PathMethod::light) {
         work.tally.given_up += trace_light(*scene_, T, emission_, lights_, settings_.walk.ending(), std::span(light), work.light,
-                                           splatted, work.tally.rays);
+                                           splatted, work.tally.rays, observer);
         return;
     }
 
@@ -54,9 +55,9 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
         const Pixel pixel = pixel_of(film, number);
         camera.push_back((first + i) % size == 0 ? sampler_of(camera_points_, number) : camera.back());
         camera.back().start(replicate * size + (first + i) % size);
-        const FilmSample place = film.sample(camera[i].next2(), pixel.x, pixel.y);
-        group.rays[i] = scene_->camera.sample_ray(place.position, camera[i]);
-        group.weights[i] = place.weight;
+        const CameraSample sample = sample_camera(*scene_, pixel.x, pixel.y, camera[i]);
+        group.rays[i] = sample.ray;
+        group.weights[i] = sample.weight;
     }
     group.samples.assign(samples * Q, Rgb(0.0));
     const int N = settings_.walk.bounces;
@@ -75,7 +76,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
         [&](std::uint32_t i, const Vec2& position, const Found& f) {
             sort(f, [&](std::size_t q, const Rgb& value) { splatted(i, position, q, value); });
         },
-        work.tally.rays);
+        work.tally.rays, observer);
 }
 
 }  // namespace neumann

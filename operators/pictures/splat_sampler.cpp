@@ -86,7 +86,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
     const std::size_t Q = settings_.quantities();
     const auto name = [&](std::uint32_t i) { return name_in_group(replicate, first, i, settings_.replicate_size); };
     trace_group<Sampler>(
-        replicate, first, samples, scene_->geometry,
+        replicate, first, samples,
         [&](std::uint32_t i, std::size_t q, const Rgb& value) { work.group.samples[i * Q + q] += value; },
         [&](std::uint32_t i, const Vec2& position, std::size_t q, const Rgb& value) {
             spread(position, q, value, name(i), chunk, work);

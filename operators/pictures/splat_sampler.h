@@ -37,9 +37,9 @@ private:
     // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate. `found(path, quantity, value)`: what
     // a path brings to its own pixel, but for the filter's weight; `splatted(path, position, quantity, value)`: radiance times
     // pixels.
-    template <class Sampler, class Transport, class OnFound, class OnSplat>
-    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const Transport& T, const OnFound& found,
-                     const OnSplat& splatted, Workspace& work) const;
+    template <class Sampler, class OnFound, class OnSplat, class Observer = NoObserver>
+    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
+                     const OnSplat& splatted, Workspace& work, const Observer& observer = {}) const;
     template <class Sampler>
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
                       SampleRanges& ranges, Workspace& work) const;

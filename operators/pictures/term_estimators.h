@@ -1,5 +1,5 @@
-// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result). Walks can be asked
-// to do so by another T.
+// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result). Walks can tell
+// an observer (operators/walk/observer.h).
 #pragma once
 
 #include "operators/pictures/sampling_settings.h"
@@ -26,13 +26,13 @@ public:
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
         walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
-    // For whoever looks on through T: with the rays that were left out because their answers are known.
-    template <class Transport, class Sampler>
-    void trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
+    // For whoever looks on: with the rays that were left out because their answers are known.
+    template <class Observer, class Sampler>
+    void trace(const Observer& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                TermSamples& result) const {
         WalkSettings settings = settings_;
         settings.left_out = {};
-        walk(*scene_, T, direct_, settings, rays, samplers, walkers, result, continuation_);
+        walk(*scene_, scene_->geometry, direct_, settings, rays, samplers, walkers, result, continuation_, observer);
     }
 
 private:

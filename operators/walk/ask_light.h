@@ -32,9 +32,9 @@ void choose_question(const DirectLightSampler& direct, std::size_t question, con
 }
 
 // T: the answers, told as found(walk, value). The first vertices of a pixel's walks are close together. Returns the rays cast.
-template <class Transport, class Found>
-std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out,
-                   bool first_vertex, Walkers& walkers, const Found& found) {
+template <class Transport, class Observer, class Found>
+std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out, int bounce,
+                   Walkers& walkers, const Observer& observer, const Found& found) {
     auto& asking = walkers.asking;
     asking.clear();
     for (const std::uint32_t i : walkers.alive) {
@@ -55,15 +55,18 @@ std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSamp
             for (std::size_t j = 0; j < n; ++j) {
                 AskedLight& asked = at(k + j).asked;
                 if (!(hit >> j & 1u)) asked.y.shape = SurfacePoint::infinity;
+                observer.asks(asking[k + j], false, bounce, at(k + j).x, asked.w, asked.y, (hit >> j & 1u) != 0);
                 found(asking[k + j], asked.value * scene.emitters.emitted(asked.y, -asked.w));
             }
         }
     } else {
         ask_visibility(
-            T, asking.size(), first_vertex ? RayCaster::Rays::alike : RayCaster::Rays::any,
+            T, asking.size(), bounce == 1 ? RayCaster::Rays::alike : RayCaster::Rays::any,
             [&](std::size_t k) { return std::pair<const SurfacePoint&, const SurfacePoint&>(at(k).x, at(k).asked.y); },
             [&](std::size_t k, bool seen) {
-                if (seen) found(asking[k], at(k).asked.value);
+                const Walker& w = at(k);
+                observer.asks(asking[k], false, bounce, w.x, w.asked.w, w.asked.y, seen);
+                if (seen) found(asking[k], w.asked.value);
             });
     }
     return asking.size();

@@ -13,7 +13,7 @@
 
 namespace neumann {
 
-// `Walker` is a PathEnd and what its kind of path needs beside it.
+// `Walker` is a PathEnd and what its kind of path needs beside it, and says whether it comes `from_light`.
 template <class Walker>
 struct Together {
     std::vector<Walker> walker;        // one for each path; what they hold of others before is left as it is
@@ -24,17 +24,6 @@ struct Together {
         alive.resize(count);
         std::iota(alive.begin(), alive.end(), 0u);
     }
-    // On the camera.
-    void begin(std::span<const CameraRay> rays) {
-        begin(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            walker[i].x.position = rays[i].origin;
-            walker[i].w = rays[i].direction;
-            walker[i].pdf = 0.0;
-            walker[i].beta = Rgb(1.0);
-        }
-    }
-
     // Goes on with those of which f(walker, number) is true.
     template <class Keep>
     void keep_if(const Keep& f) {
@@ -45,23 +34,25 @@ struct Together {
     }
 
     // The same after asking T for the next points of as many paths at once as make a packet: ask(k, n, point) is that of
-    // alive[k … k + n), writes into point(j), and answers a bit for each; the others end infinitely far away.
-    template <class Ask, class Keep>
-    void advance(const Ask& ask, const Keep& f) {
+    // alive[k … k + n), writes into point(j), and answers a bit for each; the others end infinitely far away. The observer is told.
+    template <class Observer, class Ask, class Keep>
+    void advance(int reflections, const Observer& observer, const Ask& ask, const Keep& f) {
         constexpr std::size_t packet = RayCaster::packet_size;
         std::size_t kept = 0;
         for (std::size_t k = 0; k < alive.size(); k += packet) {
             const std::size_t n = std::min(packet, alive.size() - k);
+            for (std::size_t j = 0; j < n; ++j) observer.casts(alive[k + j], Walker::from_light, reflections, walker[alive[k + j]]);
             const std::uint32_t found = ask(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
             for (std::size_t j = 0; j < n; ++j) {
                 const std::uint32_t i = alive[k + j];
                 if (!(found >> j & 1u)) walker[i].x.shape = SurfacePoint::infinity;
+                observer.meets(i, walker[i].x);
                 if (f(walker[i], i)) alive[kept++] = i;
             }
         }
         alive.resize(kept);
     }
-    // For advance(): T, what is seen from x along w.
+    // Such an answer: T, what is seen from x along w.
     template <class Transport, class HitAt>
     std::uint32_t first_hits(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         return T.first_hits(
@@ -71,6 +62,24 @@ struct Together {
                 return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.w);
             },
             hit);
+    }
+    template <class Transport, class Observer, class Keep>
+    void follow(const Transport& T, int reflections, const Observer& observer, const Keep& f) {
+        advance(
+            reflections, observer, [&](std::size_t k, std::size_t n, const auto& hit) { return first_hits(T, k, n, hit); }, f);
+    }
+    // From the camera.
+    template <class Transport, class Observer, class Keep>
+    void set_out(const Transport& T, std::span<const CameraRay> rays, const Observer& observer, const Keep& f) {
+        begin(rays.size());
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            walker[i].x.position = rays[i].origin;
+            walker[i].w = rays[i].direction;
+            walker[i].pdf = 0.0;
+            walker[i].beta = Rgb(1.0);
+        }
+        advance(
+            0, observer, [&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); }, f);
     }
 
     // Several walks that go on from the first vertex: all is as it was there.

@@ -13,6 +13,7 @@
 #include "core/scene/pass_lights.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
+#include "operators/walk/observer.h"
 #include "operators/walk/walk_settings.h"
 
 #include <algorithm>
@@ -29,30 +30,34 @@ struct TermSamples {
 };
 
 // Samples all terms along some camera rays. `T` answers first_hits() and visible() as Geometry does; samplers[i] gives the numbers
-// of walk i.
-template <class Transport, class Sampler, class Continuation = MaterialContinuation>
+// of walk i. `observer`: observer.h.
+template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
                       std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
-                      const Continuation& continuation = {}) {
+                      const Continuation& continuation = {}, const Observer& observer = {}) {
     const Emitters& emitters = scene.emitters;
     const LeftOut& left_out = settings.left_out;
     const Ending ending = settings.ending();
     const int N = settings.bounces;
     const std::size_t quantities = static_cast<std::size_t>(N) + 2;
     double share = 1.0;  // of a walk, among those that go on from its first vertex
-    const auto find = [&](std::uint32_t i, std::size_t q, const Rgb& x) { out.quantities[i * quantities + q] += x * share; };
+    const auto find = [&](std::uint32_t i, std::size_t q, const Rgb& x) {
+        out.quantities[i * quantities + q] += x * share;
+        observer.finds(i, q, x * share);
+    };
 
     // Le, where T finds the first vertices.
     out.rays[0] += rays.size();
-    walkers.begin(rays);
-    walkers.advance([&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); },
-                    [&](Walker& w, std::uint32_t i) {
-                        w.wo = -w.w;
-                        if (scene.hide_emitters && (w.x.is_infinite() || !pass_lights(emitters, T, w.w, w.x, out.rays[0])))
-                            return false;
-                        find(i, 0, emitters.emitted(w.x, w.wo));
-                        return !w.x.is_infinite();
-                    });
+    walkers.set_out(T, rays, observer, [&](Walker& w, std::uint32_t i) {
+        w.wo = -w.w;
+        const auto passes = [&](const SurfacePoint& light, const SurfacePoint& beyond) {
+            observer.casts(i, Walker::from_light, 0, {light, w.w});
+            observer.meets(i, beyond);
+        };
+        if (scene.hide_emitters && (w.x.is_infinite() || !pass_lights(emitters, T, w.w, w.x, out.rays[0], passes))) return false;
+        find(i, 0, emitters.emitted(w.x, w.wo));
+        return !w.x.is_infinite();
+    });
 
     const Split& split = settings.split;
     Places<Continuation> places(rays.size());
@@ -94,7 +99,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                     return true;
                 });
                 if (questions > 0)
-                    out.rays[q] += answer(scene, T, direct, left_out, first, walkers,
+                    out.rays[q] += answer(scene, T, direct, left_out, bounce, walkers, observer,
                                           [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
             }
 
@@ -115,7 +120,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                     return walkers.first_hits(T, k, n, hit);
             };
             if (!left_out.rays_from_surfaces) out.rays[q] += walkers.alive.size();
-            walkers.advance(next_points, [&](Walker& w, std::uint32_t i) {
+            walkers.advance(bounce, observer, next_points, [&](Walker& w, std::uint32_t i) {
                 if (Continuation::joins_points && w.x.is_infinite()) return false;
                 w.wo = -w.w;
                 if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {

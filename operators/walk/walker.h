@@ -16,6 +16,7 @@ struct AskedLight {
 };
 
 struct Walker : PathEnd {
+    static constexpr bool from_light = false;
     Vec3 wo;                 // towards the vertex before
     Vec3 from;               // that vertex
     double reflected = 0.0;  // largest channel of the last reflection's weight

@@ -1,7 +1,7 @@
 // The balance of energy is kept by what is right, and tells what is wrong.
 #include "core/reader/read_scene.h"
 #include "operators/pictures/checkup.h"
-#include "operators/pictures/watched_walk.h"
+#include "operators/pictures/watched_paths.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 
@@ -53,8 +53,8 @@ EnergyBalance balance_of_walks(const Scene& scene, const WrongWeight& continuati
         std::vector<std::uint64_t> counts(bounces + 2);
         TermSamples result{samples, counts};
         Walkers walkers;
-        const WatchedWalk T(scene.geometry, rays, walkers, samples, false, keeper);
-        walk(scene, T, direct, settings, std::span<const CameraRay>(rays), std::span(samplers), walkers, result, continuation);
+        walk(scene, scene.geometry, direct, settings, std::span<const CameraRay>(rays), std::span(samplers), walkers, result,
+             continuation, WatchedPaths(keeper));
         keeper.sheet.finish(together);
         sheets.push_back(keeper.sheet.shares());
     }

@@ -1,0 +1,42 @@
+// Puts together what paths tell of (operators/walk/observer.h) into steps.
+#pragma once
+
+#include "operators/pictures/path_observer.h"
+#include "operators/walk/observer.h"
+
+#include <vector>
+
+namespace neumann {
+
+class WatchedPaths {
+public:
+    explicit WatchedPaths(PathObserver& observer) : observer_(&observer) {}
+
+    void casts(std::uint32_t path, bool from_light, int reflections, const PathEnd& end) const {
+        if (!observer_->watches(path)) return;
+        if (path >= waiting_.size()) waiting_.resize(path + 1);
+        const auto kind = reflections == 0 ? PathStep::Kind::first : PathStep::Kind::goes_on;
+        waiting_[path] = {kind, from_light, reflections, end.x, end.w, end.pdf, end.beta, false, {}};
+    }
+    void meets(std::uint32_t path, const SurfacePoint& y) const {
+        if (!observer_->watches(path)) return;
+        PathStep& step = waiting_[path];
+        step.found = !y.is_infinite();
+        step.to = y;
+        observer_->step(path, step);
+    }
+    void asks(std::uint32_t path, bool from_light, int bounce, const SurfacePoint& x, const Vec3& w, const SurfacePoint& y,
+              bool seen) const {
+        if (!observer_->watches(path)) return;
+        observer_->step(path, {PathStep::Kind::asks, from_light, bounce, x, glm::normalize(w), 0.0, Rgb(0.0), seen, y});
+    }
+    void finds(std::uint32_t path, std::size_t quantity, const Rgb& value) const {
+        if (observer_->watches(path) && !is_black(value)) observer_->found(path, quantity, value, nullptr);
+    }
+
+private:
+    PathObserver* observer_;
+    mutable std::vector<PathStep> waiting_;  // of each path: its ray, until it meets something
+};
+
+}  // namespace neumann
