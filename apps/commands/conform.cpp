@@ -5,9 +5,9 @@
 #include "apps/files/output_folder.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "core/colour/spectrum_to_rgb.h"
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
-#include "core/spectrum/spectrum_to_rgb.h"
 #include "operators/pictures/render.h"
 #include "operators/statistics/conformity.h"
 

@@ -1,5 +1,6 @@
 #include "core/reader/bsdfs.h"
 
+#include "core/colour/metals.h"
 #include "core/reader/grammar.h"
 #include "core/reader/plastics.h"
 #include "core/reader/principled.h"
@@ -7,7 +8,6 @@
 #include "core/reader/roughness.h"
 #include "core/reader/textures.h"
 #include "core/reader/transparent_bsdfs.h"
-#include "core/spectrum/metals.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/warnings.h"
+#include "core/colour/spectrum_to_rgb.h"
 #include "core/reader/properties.h"
-#include "core/spectrum/spectrum_to_rgb.h"
 
 namespace neumann::reader {
 

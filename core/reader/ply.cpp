@@ -1,8 +1,8 @@
 #include "core/base/error.h"
+#include "core/colour/spectrum_to_rgb.h"
 #include "core/reader/mesh_file.h"
 #include "core/reader/mesh_ply_header.h"
 #include "core/reader/mesh_text.h"
-#include "core/spectrum/spectrum_to_rgb.h"
 
 #include <algorithm>
 #include <array>

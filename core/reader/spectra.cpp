@@ -1,9 +1,9 @@
 #include "core/reader/spectra.h"
 
+#include "core/colour/blackbody.h"
+#include "core/colour/cie.h"
 #include "core/reader/numbers.h"
 #include "core/reader/properties.h"
-#include "core/spectrum/blackbody.h"
-#include "core/spectrum/cie.h"
 
 #include <algorithm>
 #include <cmath>

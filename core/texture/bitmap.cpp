@@ -1,7 +1,7 @@
 #include "core/texture/bitmap.h"
 
+#include "core/colour/spectrum_to_rgb.h"
 #include "core/image/display.h"
-#include "core/spectrum/spectrum_to_rgb.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // Spectra as colours, against the CIE's figures and the colours that Mitsuba's Cornell box gives for its own spectra.
-#include "core/spectrum/spectrum_to_rgb.h"
+#include "core/colour/spectrum_to_rgb.h"
 
-#include "core/spectrum/blackbody.h"
-#include "core/spectrum/cie.h"
+#include "core/colour/blackbody.h"
+#include "core/colour/cie.h"
 
 #include <gtest/gtest.h>
 

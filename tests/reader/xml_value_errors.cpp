@@ -1,5 +1,5 @@
 // What is wrong with objects and their parameters.
-#include "core/spectrum/metals.h"
+#include "core/colour/metals.h"
 #include "tests/reader/xml_scene_files.h"
 
 namespace neumann {

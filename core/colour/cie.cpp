@@ -1,4 +1,4 @@
-#include "core/spectrum/cie.h"
+#include "core/colour/cie.h"
 
 namespace neumann::cie {
 

@@ -1,4 +1,4 @@
-#include "core/spectrum/metals.h"
+#include "core/colour/metals.h"
 
 namespace neumann {
 

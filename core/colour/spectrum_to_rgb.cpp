@@ -1,6 +1,6 @@
-#include "core/spectrum/spectrum_to_rgb.h"
+#include "core/colour/spectrum_to_rgb.h"
 
-#include "core/spectrum/cie.h"
+#include "core/colour/cie.h"
 
 #include <algorithm>
 
