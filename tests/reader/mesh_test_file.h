@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/reader/mesh_file.h"
+#include "core/reader/meshes/mesh_file.h"
 
 #include <array>
 #include <cstdint>

@@ -1,0 +1,38 @@
+// OBJ, PLY and Mitsuba's serialized files as triangle meshes. Written by hand because vertices are needed in double precision and
+// errors need file:line:column; the libraries at hand (tinyobjloader as packaged, assimp) read floats and give no place.
+#pragma once
+
+#include "core/geometry/shape.h"
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct MeshFile {
+    TriangleMesh mesh;  // with texture coordinates, as in the file, and attributes, but without normals
+    // One per vertex, or empty; file space, as long as the file gives them.
+    std::vector<Vec3> normals;
+};
+
+// The first two read polygons as fans around their first vertex, which is right for convex polygons, and refuse files without
+// faces. Errors are InputError "file:line:column: …"; where a binary body has no lines, "file: face 12: …", counted from 1.
+
+// Groups, materials, lines and points are ignored, free-form geometry is refused. With normals or texture coordinates, a vertex is
+// repeated for each of its normals and coordinates and left out if no face uses it; a triangle without normals among others with
+// normals gets its geometric normal, of length 1, or 0 if it has no area, and one without coordinates (0, 0).
+MeshFile read_obj(const std::string& path);
+
+// ASCII and binary of both byte orders. Coordinates are u and v, texture_u and texture_v, or s and t of a vertex. Of the attributes
+// (mesh_ply_header.h) those named are read, where the file has them; whole numbers are taken as parts of their type's largest, in
+// sRGB, and decoded. Other elements and properties are skipped.
+MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes = {});
+
+// Versions 3 and 4, in single or double precision; `index` counts the meshes of a file from 0. Vertex colours are skipped. Errors
+// are "file: mesh 0: byte 12: …", the byte of the compressed file, or "file: mesh 0: triangle 12: …", counted from 1.
+struct SerializedMesh : MeshFile {
+    bool face_normals = false;  // the file asks for a flat look
+};
+SerializedMesh read_serialized(const std::string& path, std::uint64_t index);
+
+}  // namespace neumann

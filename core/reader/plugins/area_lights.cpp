@@ -1,0 +1,31 @@
+#include "core/reader/plugins/area_lights.h"
+
+#include "core/reader/plugins/textures.h"
+
+namespace neumann::reader {
+
+int AreaLights::index(const Element& e) {
+    const auto known = index_.find(&e);
+    if (known != index_.end()) return known->second;
+    lights_.push_back(context_.problems().attempt(e.place, [&] { return read(e); }).value_or(AreaLight(Rgb(0.0))));
+    return index_[&e] = static_cast<int>(lights_.size()) - 1;
+}
+
+AreaLight AreaLights::read(const Element& e) const {
+    if (e.attribute("type").value != "area") fail_type(e, {"area"});
+    Properties p(e, context_.objects);
+    std::optional<AreaLight> light;
+    if (const auto texture = find_color_texture(p, "radiance", Illuminant::equal_energy, context_)) {
+        light = texture->is_constant()
+                    ? AreaLight(texture->upper_bound())
+                    : AreaLight([f = *texture](const ShadingPoint& at, const Vec3&) { return f(at); }, texture->upper_bound());
+    } else {
+        const Element& radiance = p.require("radiance", color_types);
+        light = AreaLight(parse_color(p, "radiance", radiance, Illuminant::equal_energy, context_.warnings));
+    }
+    p.number("sampling_weight");  // how often Mitsuba chooses it; changes noise only
+    p.finish();
+    return *light;
+}
+
+}  // namespace neumann::reader

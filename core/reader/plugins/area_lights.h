@@ -1,0 +1,26 @@
+// <emitter type="area">, on its own or on a shape.
+#pragma once
+
+#include "core/emitter/emitters.h"
+#include "core/reader/plugins/context.h"
+
+namespace neumann::reader {
+
+class AreaLights {
+public:
+    explicit AreaLights(const Context& context) : context_(context) {}
+
+    // Index of the light; each element is stored once. In place of one that is wrong stands darkness.
+    int index(const Element& e);
+
+    bool has(const Element& e) const { return index_.count(&e) > 0; }
+    std::vector<AreaLight> take() { return std::move(lights_); }
+
+private:
+    AreaLight read(const Element& e) const;
+    const Context& context_;
+    std::vector<AreaLight> lights_;
+    std::map<const Element*, int> index_;
+};
+
+}  // namespace neumann::reader

@@ -1,0 +1,18 @@
+// <bsdf type="principled"> and <bsdf type="principledthin">.
+#pragma once
+
+#include "core/material/bsdf.h"
+#include "core/reader/plugins/context.h"
+
+#include <optional>
+
+namespace neumann::reader {
+
+struct PrincipledSides {
+    Bsdf outside;
+    std::optional<Bsdf> inside;  // where light gets in
+};
+PrincipledSides read_principled(const Element& e, const Context& context);
+Bsdf read_principled_thin(const Element& e, const Context& context);
+
+}  // namespace neumann::reader

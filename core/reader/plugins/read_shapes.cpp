@@ -1,0 +1,209 @@
+#include "core/reader/plugins/read_shapes.h"
+
+#include "core/base/memory.h"
+#include "core/geometry/transformed.h"
+#include "core/reader/xml/properties.h"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace neumann::reader {
+
+namespace {
+
+// Of a triangle, with its part of the vertices and of the search structures.
+constexpr double bytes_of_triangle = 300.0;
+constexpr double part_of_memory = 0.5;
+
+struct Reading {
+    const Element* element;
+    bool in_group = false;
+    ReadShape shape = {};
+    Warnings warnings = {};
+    std::vector<std::string> mesh_files = {};
+    TextureStore textures = {};
+    bool is_right = false;
+};
+
+// What the file says at one place of the top level.
+struct Item {
+    const Element* element;
+    Reading* shape = nullptr;        // of a shape
+    const Element* group = nullptr;  // of a group or an instance
+    Mat4 to_world{1.0};
+    Location place_of_to_world = {};
+};
+
+const std::string& type_of(const Element& e) { return e.attribute("type").value; }
+
+double triangle_count(const Shape& shape) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    return mesh ? static_cast<double>(mesh->triangles.size()) : 1.0;
+}
+
+bool has_finite_vertices(const Shape& shape) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    return !mesh || std::all_of(mesh->vertices.begin(), mesh->vertices.end(), [](const Vec3& v) { return is_finite(v); });
+}
+
+void release_spare(Shape& shape) {
+    if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+        mesh->vertices.shrink_to_fit();
+        mesh->triangles.shrink_to_fit();
+        mesh->normals.shrink_to_fit();
+        mesh->uv.shrink_to_fit();
+    }
+}
+
+class ShapesReader {
+public:
+    ShapesReader(const Element& root, const Context& context) : context_(context) {
+        for (const Element& e : root.children) {
+            if (e.tag != "shape") continue;
+            Item item{&e};
+            if (context.problems().attempt(e.place, [&] { plan(item); })) items_.push_back(item);
+        }
+    }
+
+    void read() {
+        oneapi::tbb::parallel_for(std::size_t{0}, readings_.size(), [&](std::size_t i) {
+            Reading& reading = readings_[i];
+            reading.is_right = context_.problems().attempt(reading.element->place, [&] { read(reading); });
+        });
+    }
+
+    void hand_out(const std::function<void(ReadShape)>& take) {
+        add_up_instances();
+        for (Item& item : items_) {
+            if (item.shape) {
+                if (!item.shape->is_right) continue;
+                finish(*item.shape);
+                take(std::move(item.shape->shape));
+                continue;
+            }
+            Group& group = groups_.at(item.group);
+            std::erase_if(group.shapes, [](const Reading* reading) { return !reading->is_right; });
+            if (!group.is_finished)
+                for (Reading* reading : group.shapes) finish(*reading);
+            group.is_finished = true;
+            if (item.group != item.element) context_.problems().attempt(item.element->place, [&] { expand(item, group, take); });
+        }
+    }
+
+private:
+    struct Group {
+        std::vector<Reading*> shapes;
+        bool is_finished = false;
+    };
+
+    void plan(Item& item) {
+        const Element& e = *item.element;
+        if (type_of(e) == "shapegroup") {
+            item.group = &e;
+            add_group(e);
+        } else if (type_of(e) == "instance") {
+            Properties p(e, context_.objects);
+            item.to_world = p.transform("to_world");
+            const Element* to_world = p.find("to_world", {"transform"});
+            item.place_of_to_world = (to_world ? *to_world : e).place;
+            const std::vector<const Element*> groups = p.nested("shape");
+            p.refuse_rest();
+            if (groups.empty()) p.fail_empty("shape 'instance' has no shapegroup inside, expected one");
+            item.group = groups.front();
+            if (type_of(*item.group) != "shapegroup")
+                throw InputError(e.place, fmt::format("instance of a shape '{}', expected a shapegroup", type_of(*item.group)));
+            add_group(*item.group);
+        } else {
+            readings_.push_back({&e});
+            item.shape = &readings_.back();
+        }
+    }
+
+    void add_group(const Element& e) {
+        const auto [group, is_new] = groups_.try_emplace(&e);
+        if (!is_new) return;
+        Properties p(e, context_.objects);
+        const std::vector<const Element*> shapes = p.nested("shape", std::numeric_limits<std::size_t>::max());
+        p.refuse_rest();
+        if (shapes.empty()) p.fail_empty("shape 'shapegroup' has no <shape> inside, expected at least one");
+        for (const Element* shape : shapes) {
+            if (const std::string& type = type_of(*shape); type == "shapegroup" || type == "instance") {
+                context_.problems().add(
+                    InputError(shape->place, fmt::format("shape '{}' in a shapegroup: groups cannot be nested", type)),
+                    shape->place);
+                continue;
+            }
+            readings_.push_back({shape, true});
+            group->second.shapes.push_back(&readings_.back());
+        }
+    }
+
+    void read(Reading& reading) const {
+        const Context own{context_.document, context_.objects, reading.warnings, reading.mesh_files, reading.textures};
+        reading.shape = read_shape(*reading.element, own);
+        if (reading.in_group && reading.shape.emitter)
+            throw InputError(reading.shape.emitter->place, "emitter in a shapegroup: what emits cannot be instanced");
+        release_spare(reading.shape.shape);
+    }
+
+    void finish(const Reading& reading) {
+        for (const auto& [text, count] : reading.warnings.counts()) context_.warnings.add(text, count);
+        for (const std::string& file : reading.mesh_files)
+            if (known_files_.insert(file).second) context_.mesh_files.push_back(file);
+        for (const auto& [name, range] : reading.textures.attributes) context_.textures.widen(name, range);
+    }
+
+    // Up to the first instance that no longer fits, before there is any.
+    void add_up_instances() {
+        for (const Item& item : items_) {
+            if (!item.group || item.group == item.element) continue;
+            for (const Reading* reading : groups_.at(item.group).shapes) expanded_ += triangle_count(reading->shape.shape);
+            if (expanded_ * bytes_of_triangle <= part_of_memory * physical_memory()) continue;
+            too_many_ = &item;
+            return;
+        }
+    }
+
+    void expand(const Item& item, const Group& group, const std::function<void(ReadShape)>& take) {
+        if (too_many_)
+            throw InputError(too_many_->element->place,
+                             fmt::format("with this instance there are {:.0f} triangles of instances, each of them kept; they need "
+                                         "about {:.1f} GiB, more than half of the machine's {:.1f}",
+                                         expanded_, expanded_ * bytes_of_triangle / 0x1p30, physical_memory() / 0x1p30));
+        for (const Reading* reading : group.shapes) {
+            const ReadShape& shape = reading->shape;
+            std::optional<Shape> placed = transformed(shape.shape, item.to_world);
+            if (!placed)
+                throw InputError(item.place_of_to_world,
+                                 fmt::format("to_world of shape 'instance' makes the {} at {} another shape, which only meshes can "
+                                             "become; expected a uniform scale, rotations and translations",
+                                             type_of(*reading->element), to_string(reading->element->place)));
+            if (!has_finite_vertices(*placed))
+                throw InputError(item.place_of_to_world, "to_world of shape 'instance' moves a shape out of the range of numbers");
+            take({std::move(*placed), shape.bsdf, nullptr, shape.element});
+        }
+    }
+
+    const Context& context_;
+    std::vector<Item> items_;
+    std::deque<Reading> readings_;  // in the order in which hand_out() comes to them
+    std::map<const Element*, Group> groups_;
+    std::set<std::string> known_files_;
+    double expanded_ = 0.0;           // triangles of instances
+    const Item* too_many_ = nullptr;  // the instance with which they do not fit
+};
+
+}  // namespace
+
+void read_shapes(const Element& root, const Context& context, const std::function<void(ReadShape)>& take) {
+    ShapesReader reader(root, context);
+    reader.read();
+    reader.hand_out(take);
+}
+
+}  // namespace neumann::reader

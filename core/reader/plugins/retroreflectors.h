@@ -1,0 +1,11 @@
+// <bsdf type="retroreflector">, which Mitsuba does not know: `reflectance`, and `alpha` where it is rough.
+#pragma once
+
+#include "core/material/bsdf.h"
+#include "core/reader/plugins/context.h"
+
+namespace neumann::reader {
+
+Bsdf read_retroreflector(const Element& e, const Context& context);
+
+}  // namespace neumann::reader

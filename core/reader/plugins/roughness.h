@@ -1,0 +1,20 @@
+// Parameters that rough materials share: `distribution`, `alpha` or `alpha_u` and `alpha_v`, and `sample_visible`.
+#pragma once
+
+#include "core/material/surface_function.h"
+#include "core/reader/plugins/context.h"
+#include "core/reader/xml/properties.h"
+
+namespace neumann::reader {
+
+struct RoughnessParameters {
+    bool ggx;  // else Beckmann
+    SurfaceFunction alpha_u, alpha_v;
+};
+
+// Throws InputError where a constant α is below 10⁻⁴, which Mitsuba takes for 10⁻⁴.
+RoughnessParameters read_roughness(Properties& p, const Context& context);
+// One constant α for all directions.
+RoughnessParameters read_constant_roughness(Properties& p, const Context& context);
+
+}  // namespace neumann::reader

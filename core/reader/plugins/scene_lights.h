@@ -1,0 +1,29 @@
+// <emitter> of the kinds that stand on no shape: `constant` and `envmap`, which surround the scene, and `directional`, `point`,
+// `projector` and `spot`, which have no extent.
+#pragma once
+
+#include "core/emitter/emitters.h"
+#include "core/reader/plugins/context.h"
+
+namespace neumann::reader {
+
+class SceneLights {
+public:
+    explicit SceneLights(const Context& context) : context_(context) {}
+
+    // Throws InputError for one that is wrong, or a second environment. An `area` light is left to its shape.
+    void add(const Element& e);
+
+    std::optional<Environment> take_environment() { return std::move(environment_); }
+    std::vector<DeltaLight> take_delta() { return std::move(delta_); }
+
+private:
+    void set_environment(const Element& e, Environment environment);
+
+    const Context& context_;
+    std::optional<Environment> environment_;
+    Location environment_place_;
+    std::vector<DeltaLight> delta_;
+};
+
+}  // namespace neumann::reader

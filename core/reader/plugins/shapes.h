@@ -1,0 +1,18 @@
+// <shape>: obj, ply, serialized, rectangle, cube, disk, sphere, cylinder. Groups and instances are in read_shapes.h.
+#pragma once
+
+#include "core/geometry/shape.h"
+#include "core/reader/plugins/context.h"
+
+namespace neumann::reader {
+
+struct ReadShape {
+    Shape shape;
+    const Element* bsdf = nullptr;     // null: not named
+    const Element* emitter = nullptr;  // null: it does not emit
+    const Element* element = nullptr;  // it was read from
+};
+
+ReadShape read_shape(const Element& e, const Context& context);
+
+}  // namespace neumann::reader

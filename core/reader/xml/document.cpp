@@ -1,0 +1,278 @@
+#include "core/reader/xml/document.h"
+
+#include "core/reader/xml/definitions.h"
+#include "core/reader/xml/grammar.h"
+#include "core/reader/xml/numbers.h"
+#include "core/reader/xml/source_text.h"
+#include "core/reader/xml/spectra.h"
+#include "core/reader/xml/upgrade.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pugixml.hpp>
+
+namespace neumann::reader {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int max_include_depth = 15;  // as Mitsuba
+constexpr int max_element_depth = 100;
+
+class Loader {
+public:
+    Loader(Document& document, const std::map<std::string, std::string>& definitions, Warnings& warnings, Problems& problems)
+        : document_(document), definitions_(definitions), warnings_(warnings), problems_(problems) {}
+
+    void read_main(const std::string& path, bool optional) {
+        document_.folders.push_back(fs::path(path).parent_path().string());
+        document_.root = read_file(path);
+        if (document_.root.tag != "scene")
+            throw InputError(document_.root.place,
+                             fmt::format("the outermost element is <{}>, expected <scene>", document_.root.tag));
+        if (!optional && !dropped_) problems_.attempt({path, 0, 0}, [&] { definitions_.check_used(path); });
+    }
+
+private:
+    Element read_file(const std::string& path);
+    Element read_element(const SourceText& source, pugi::xml_node node, const std::string& parent_tag, int depth);
+    void read_children(const SourceText& source, pugi::xml_node node, Element& parent, int depth);
+    // What an element says to the reader of the file, such as <include>; else it becomes a child.
+    void place(Element e, Element& parent);
+    void add_default(const Element& e);
+    void add_folder(const Element& e);
+    void include(const Element& e, Element& parent);
+    // Where an element stood that cannot be read, with all that is in it.
+    void drop(pugi::xml_node node, Element& parent, const Location& place);
+    // Runs what may find a problem of the element, which is then broken.
+    template <class F>
+    void attempt(Element& e, F&& f) {
+        if (!problems_.attempt(e.place, f)) e.broken = true;
+    }
+    // Whether it is one that has to be upgraded.
+    static bool is_old(const Attribute& version);
+
+    Document& document_;
+    Definitions definitions_;
+    Warnings& warnings_;
+    Problems& problems_;
+    // Of the file that is being read.
+    struct Reading {
+        std::vector<std::string> files;  // each included by the one before
+        bool is_old = false;
+        // Where it looks for the folder of a <path>, as in Mitsuba: in those of its <path>s, the last first, in the file's own, and
+        // then where the file that includes it looks.
+        std::vector<std::string> search;
+    };
+    Reading reading_;
+    bool dropped_ = false;  // what is not known may have used definitions
+};
+
+Element Loader::read_file(const std::string& path) {
+    const SourceText source(path);
+    document_.files.push_back(path);
+    reading_.files.push_back(path);
+    reading_.search.insert(reading_.search.begin(), fs::path(path).parent_path().string());
+    pugi::xml_document xml;
+    const pugi::xml_parse_result result =
+        xml.load_buffer(source.text().data(), source.text().size(), pugi::parse_default, pugi::encoding_utf8);
+    if (!result)
+        throw InputError(source.place(static_cast<std::size_t>(result.offset)),
+                         fmt::format("broken XML: {}", result.description()));
+    pugi::xml_node root;
+    for (const pugi::xml_node node : xml.children()) {
+        if (node.type() != pugi::node_element) continue;
+        if (root)
+            throw InputError(source.place(static_cast<std::size_t>(node.offset_debug()) - 1),
+                             fmt::format("a second outermost element <{}>, expected the end of the file", node.name()));
+        root = node;
+    }
+    return read_element(source, root, "", 0);
+}
+
+Element Loader::read_element(const SourceText& source, pugi::xml_node node, const std::string& parent_tag, int depth) {
+    const auto offset = static_cast<std::size_t>(node.offset_debug());
+    Element e;
+    e.tag = node.name();
+    e.place = source.place(offset - 1);
+    if (depth > max_element_depth)
+        throw InputError(e.place, fmt::format("elements are nested more than {} deep", max_element_depth));
+    int index = 0;
+    for (const pugi::xml_attribute a : node.attributes())
+        e.attributes.push_back({a.name(), a.value(), source.attribute_place(offset, index++)});
+
+    if (reading_.is_old && !parent_tag.empty()) upgrade_tag(e, warnings_);
+    if (!parent_tag.empty()) check_place(e, parent_tag);
+    if (parent_tag.empty() && e.tag != "scene" && !is_object(e.tag))
+        throw InputError(e.place, fmt::format("the outermost element is <{}>, expected <scene>", e.tag));
+    if (const Attribute* version = parent_tag.empty() ? e.find("version") : nullptr) {
+        reading_.is_old = is_old(*version);
+        // An included file may hold a single object, which then carries the version.
+        if (e.tag != "scene") e.attributes.erase(e.attributes.begin() + (version - e.attributes.data()));
+    }
+    if (parent_tag.empty())
+        check_attributes(e);
+    else
+        attempt(e, [&] { check_attributes(e); });
+    for (Attribute& a : e.attributes) attempt(e, [&] { definitions_.substitute(a); });
+    read_children(source, node, e, depth);
+    if (reading_.is_old) attempt(e, [&] { upgrade_parameters(e, warnings_); });
+    if (e.tag == "spectrum" && !e.broken) attempt(e, [&] { write_out_spectrum(e, document_, problems_); });
+    return e;
+}
+
+void Loader::read_children(const SourceText& source, pugi::xml_node node, Element& parent, int depth) {
+    for (const pugi::xml_node child : node.children()) {
+        if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
+            problems_.add(InputError(parent.place, fmt::format("<{}> contains the text '{}', expected elements only", parent.tag,
+                                                               join(split(child.value())))),
+                          parent.place);
+        if (child.type() != pugi::node_element) continue;
+        std::optional<Element> e =
+            problems_.attempt(parent.place, [&] { return read_element(source, child, parent.tag, depth + 1); });
+        if (e)
+            place(std::move(*e), parent);
+        else
+            drop(child, parent, parent.place);
+    }
+}
+
+void Loader::place(Element e, Element& parent) {
+    if (e.tag == "default") {
+        attempt(e, [&] { add_default(e); });
+        const Attribute* name = e.find("name");
+        if (e.broken) definitions_.lose_default(name ? name->value : "");
+    } else if (e.tag == "path") {
+        attempt(e, [&] { add_folder(e); });
+        document_.lost_folder = document_.lost_folder || e.broken;
+    } else if (e.tag == "include") {
+        const Reading outer = reading_;
+        attempt(e, [&] { include(e, parent); });
+        reading_ = outer;
+        if (e.broken) {
+            document_.lost.others = dropped_ = true;
+            parent.children.push_back(std::move(e));
+        }
+    } else {
+        // A part of a parameter spoils the whole.
+        if (e.broken && !is_object(parent.tag) && parent.tag != "scene") parent.broken = true;
+        parent.children.push_back(std::move(e));
+    }
+}
+
+void Loader::add_default(const Element& e) {
+    if (e.broken) return;
+    const Attribute& name = e.attribute("name");
+    if (name.value.empty()) throw InputError(name.place, "the name of a <default> is empty");
+    definitions_.add_default(name.value, e.attribute("value").value);
+}
+
+void Loader::add_folder(const Element& e) {
+    if (e.broken) return;
+    const Attribute& value = e.attribute("value");
+    std::vector<std::string> tried;
+    for (const std::string& folder : reading_.search) {
+        const std::string path = (fs::path(folder) / value.value).string();
+        std::error_code error;
+        if (fs::is_directory(path, error)) {
+            reading_.search.insert(reading_.search.begin(), path);
+            document_.folders.insert(document_.folders.begin(), path);
+            return;
+        }
+        if (std::find(tried.begin(), tried.end(), path) == tried.end()) tried.push_back(path);
+    }
+    throw InputError(value.place, fmt::format("there is no folder '{}'", fmt::join(tried, "' or '")));
+}
+
+void Loader::drop(pugi::xml_node node, Element& parent, const Location& place) {
+    const auto note_id = [&](const pugi::xml_node& n) {
+        if (const pugi::xml_attribute id = n.attribute("id")) document_.lost.ids.insert(id.value());
+        return false;
+    };
+    note_id(node);
+    node.find_node(note_id);
+    dropped_ = true;
+    parent.broken = parent.broken || (!is_object(parent.tag) && parent.tag != "scene");
+    Element e;  // of no kind
+    e.place = place;
+    e.broken = true;
+    parent.children.push_back(std::move(e));
+}
+
+void Loader::include(const Element& e, Element& parent) {
+    if (e.broken) return;
+    const Attribute& name = e.attribute("filename");
+    const std::string path = document_.find_file(name);
+    const std::vector<std::string>& open = reading_.files;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        std::error_code error;
+        if (!fs::equivalent(open[i], path, error)) continue;
+        std::string cycle;
+        for (std::size_t j = i; j < open.size(); ++j) cycle += open[j] + " includes ";
+        throw InputError(name.place, fmt::format("include cycle: {}{}", cycle, path));
+    }
+    if (open.size() > max_include_depth)
+        throw InputError(name.place, fmt::format("includes are nested more than {} deep", max_include_depth));
+    Element root = read_file(path);
+    if (root.tag == "scene") {
+        for (Element& child : root.children) {
+            // What is broken may be of no known kind; its problem has been told.
+            if (!child.broken) attempt(child, [&] { check_place(child, parent.tag); });
+            parent.children.push_back(std::move(child));
+        }
+    } else {
+        check_place(root, parent.tag);
+        parent.children.push_back(std::move(root));
+    }
+}
+
+bool Loader::is_old(const Attribute& version) {
+    const std::string& text = version.value;
+    int numbers[3] = {0, 0, 0}, count = 0;
+    const char *at = text.data(), *end = at + text.size();
+    while (count < 3) {
+        const auto [next, error] = std::from_chars(at, end, numbers[count]);
+        if (error != std::errc() || numbers[count] < 0) break;
+        at = next;
+        if (++count == 3 || at == end || *at != '.') break;
+        ++at;
+    }
+    if (count == 0 || at != end || text.ends_with('.'))
+        throw InputError(version.place, fmt::format("'{}' is not a version, expected for example 3.0.0", text));
+    if ((numbers[0] == 0 && numbers[1] < 4) || numbers[0] > 3)
+        throw InputError(version.place, fmt::format("scene version {} is not known, expected 0.4 to 3.x", text));
+    return numbers[0] < 2;
+}
+
+}  // namespace
+
+std::string Document::find_file(const Attribute& name) const {
+    std::vector<std::string> places = folders;
+    places.push_back(fs::path(name.place.file).parent_path().string());
+    for (const std::string& folder : places) {
+        const fs::path path = fs::path(folder) / name.value;  // an absolute name stays as it is
+        std::error_code error;
+        if (!name.value.empty() && fs::exists(path, error) && !fs::is_directory(path, error)) return path.string();
+    }
+    std::vector<std::string> shown;
+    for (const std::string& folder : places) {
+        const std::string text = folder.empty() ? "." : folder;
+        if (std::find(shown.begin(), shown.end(), text) == shown.end()) shown.push_back(text);
+    }
+    if (lost_folder) throw Told();
+    throw InputError(name.place, fmt::format("there is no file '{}'; looked in: {}", name.value, join(shown)));
+}
+
+Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
+                       Problems& problems, bool optional) {
+    Document document;
+    Loader(document, definitions, warnings, problems).read_main(path, optional);
+    return document;
+}
+
+}  // namespace neumann::reader

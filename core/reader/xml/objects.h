@@ -1,0 +1,42 @@
+// The objects of a document by their ids.
+#pragma once
+
+#include "core/reader/xml/element.h"
+#include "core/reader/xml/problems.h"
+
+#include <map>
+#include <set>
+
+namespace neumann::reader {
+
+// Ids of what could not be read.
+struct LostIds {
+    std::set<std::string> ids;
+    bool others = false;  // there may be more
+};
+
+class Objects {
+public:
+    // Registers objects at any depth, and aliases. An id that is given twice is a problem.
+    Objects(const Element& root, Problems& problems, LostIds lost = {});
+
+    // The object that <ref id=…> means; throws InputError if there is none.
+    const Element& find(const Attribute& id, const std::string& what = "reference to") const;
+    // What a <ref> means, or null.
+    const Element* known(const Element& reference) const;
+
+    Problems& problems() const { return problems_; }
+
+private:
+    void add(const Element& e);
+    void add(const Attribute& id, const Element& e);
+    struct Entry {
+        const Element* object;
+        Location place;
+    };
+    Problems& problems_;
+    LostIds lost_;
+    std::map<std::string, Entry> entries_;
+};
+
+}  // namespace neumann::reader

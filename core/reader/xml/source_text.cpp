@@ -1,0 +1,45 @@
+#include "core/reader/xml/source_text.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace neumann::reader {
+
+SourceText::SourceText(const std::string& path) : path_(path), line_starts_{0} {
+    const Location file{path, 0, 0};
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) throw InputError(file, "there is no such file");
+    if (std::filesystem::is_directory(path, error)) throw InputError(file, "is a folder, expected a scene file");
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream content;
+    if (stream && stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
+    if (stream.bad() || !stream.is_open()) throw InputError(file, "cannot be read");
+    text_ = content.str();
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+    for (std::size_t i = 0; i < text_.size(); ++i)
+        if (text_[i] == '\n') line_starts_.push_back(i + 1);
+}
+
+Location SourceText::place(std::size_t offset) const {
+    const auto line = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset) - 1;
+    return {path_, static_cast<int>(line - line_starts_.begin()) + 1, static_cast<int>(offset - *line) + 1};
+}
+
+Location SourceText::attribute_place(std::size_t offset, int index) const {
+    constexpr std::string_view blanks = " \t\r\n";
+    std::size_t at = text_.find_first_of(blanks, offset);
+    for (int i = 0;; ++i) {
+        at = text_.find_first_not_of(blanks, at);
+        if (at >= text_.size()) return place(offset);
+        if (i == index) return place(at);
+        const std::size_t quote = text_.find_first_of("\"'", at);
+        if (quote == std::string::npos) return place(offset);
+        at = text_.find(text_[quote], quote + 1);
+        if (at == std::string::npos) return place(offset);
+        ++at;
+    }
+}
+
+}  // namespace neumann::reader

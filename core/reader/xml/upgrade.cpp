@@ -1,0 +1,203 @@
+#include "core/reader/xml/upgrade.h"
+
+#include "core/reader/xml/numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace neumann::reader {
+
+namespace {
+
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+
+// toWorld: to_world; intIOR: int_ior; B: B.
+std::string snake_case(const std::string& name) {
+    std::string result;
+    bool lowering = false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool begins_word = i > 0 && is_lower(name[i - 1]) && is_upper(name[i]);
+        lowering = is_upper(name[i]) && (lowering || begins_word);
+        if (begins_word) result += '_';
+        result += lowering ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
+    }
+    return result;
+}
+
+// A parameter by its name of today, or null.
+const Element* find(const Element& e, const std::string& parameter) {
+    const auto found = std::find_if(e.children.begin(), e.children.end(), [&](const Element& child) {
+        const Attribute* name = child.broken ? nullptr : child.find("name");
+        return name && name->value == parameter;
+    });
+    return found == e.children.end() ? nullptr : &*found;
+}
+
+Element make_operation(const std::string& tag, const Element* x, const Element* y, const Location& place) {
+    Element e{tag, {}, {}, place};
+    for (const auto& [axis, number] : {std::pair{"x", x}, std::pair{"y", y}})
+        if (number) e.attributes.push_back({axis, number->attribute("value").value, number->attribute("value").place});
+    return e;
+}
+
+// As Mitsuba 3 has it, to_uv moves first and scales then.
+void gather_uv_transform(Element& parent, Warnings& warnings) {
+    const auto number = [&](const std::string& name) {
+        const Element* e = find(parent, name);
+        return e && e->tag == "float" ? e : nullptr;
+    };
+    const std::array<const Element*, 4> given = {number("uoffset"), number("voffset"), number("uscale"), number("vscale")};
+    const auto first = std::find_if(given.begin(), given.end(), [](const Element* e) { return e != nullptr; });
+    if (first == given.end()) return;
+    const Element& at = **first;
+    Element transform{"transform", {{"name", "to_uv", at.attribute("name").place}}, {}, at.place};
+    transform.children = {make_operation("translate", given[0], given[1], at.place),
+                          make_operation("scale", given[2], given[3], at.place)};
+    std::vector<Element> others;
+    for (Element& e : parent.children)
+        if (std::find(given.begin(), given.end(), &e) == given.end()) others.push_back(std::move(e));
+    others.push_back(std::move(transform));
+    parent.children = std::move(others);
+    warnings.add("old scene file: uoffset, voffset, uscale and vscale taken as a transform to_uv");
+}
+
+// Of an object; nothing where it is a reference.
+std::string type_or_nothing(const Element& e) {
+    const Attribute* type = e.find("type");
+    return type ? type->value : "";
+}
+
+void rename_type(Element& e, const std::string& type, Warnings& warnings) {
+    for (Attribute& a : e.attributes)
+        if (a.name == "type") {
+            warnings.add(fmt::format("old scene file: {} '{}' taken as '{}'", e.tag, a.value, type));
+            a.value = type;
+        }
+}
+
+// Parameters by their names of today; whether there were any.
+bool drop(Element& e, const std::vector<std::string>& names) {
+    return std::erase_if(e.children, [&](const Element& child) {
+               const Attribute* name = child.find("name");
+               return name && std::find(names.begin(), names.end(), name->value) != names.end();
+           }) > 0;
+}
+
+// Pictures are linear here, and tone mapping is for viewers.
+void upgrade_film(Element& e, Warnings& warnings) {
+    if (type_or_nothing(e) == "ldrfilm") {
+        rename_type(e, "hdrfilm", warnings);
+        drop(e, {"file_format", "pixel_format", "tonemap_method", "gamma", "exposure", "key", "burn"});
+    }
+    drop(e, {"attach_log"});
+    for (Element& child : e.children)
+        for (Attribute& a : child.attributes)
+            if (a.name == "name" && a.value == "high_quality_edges") a.value = "sample_border";
+}
+
+void upgrade_sampler(Element& e, Warnings& warnings) {
+    const std::string type = type_or_nothing(e);
+    if (type != "sobol" && type != "halton" && type != "hammersley") return;
+    rename_type(e, "ldsampler", warnings);
+    drop(e, {"scramble", "dimension"});
+}
+
+// An exponent of 2.2 is taken for the curve of sRGB, which it stands for, and -1 is its name.
+void upgrade_gamma(Element& e, Warnings& warnings) {
+    const Element* given = find(e, "gamma");
+    if (!given || (given->tag != "float" && given->tag != "integer")) return;
+    const Attribute value = given->attribute("value");
+    const double gamma = parse_number(value);
+    if (gamma != 1.0 && gamma != 2.2 && gamma != -1.0)
+        throw InputError(value.place, fmt::format("gamma of texture 'bitmap' is {}, expected 1, 2.2 or -1, which is sRGB", gamma));
+    drop(e, {"gamma"});
+    if (gamma == 1.0) {
+        drop(e, {"raw"});
+        e.children.push_back({"boolean", {{"name", "raw", value.place}, {"value", "true", value.place}}, {}, value.place});
+    }
+    warnings.add(fmt::format("old scene file: gamma {} of a bitmap taken as {}", gamma, gamma == 1.0 ? "raw" : "sRGB"));
+}
+
+// The index of refraction of what is outside, or inside. Metals stand in air, as Mitsuba 3 has it.
+void upgrade_indices(Element& e, Warnings& warnings) {
+    const std::string type = type_or_nothing(e);
+    if (type == "conductor" || type == "roughconductor") {
+        const Element* given = find(e, "ext_eta");
+        if (!given) return;
+        const Attribute value = given->attribute("value");
+        const bool is_air =
+            given->tag == "string" ? value.value == "air" || value.value == "vacuum" : std::abs(parse_number(value) - 1.0) < 1e-3;
+        if (!is_air)
+            throw InputError(value.place,
+                             fmt::format("extEta of bsdf '{}' is '{}', expected 1 or air; eta and k divided by it say the "
+                                         "same",
+                                         type, value.value));
+        drop(e, {"ext_eta"});
+        warnings.add("old scene file: extEta of a metal left out, which is air");
+        return;
+    }
+    if (type != "dielectric" && type != "thindielectric" && type != "roughdielectric" && type != "plastic" &&
+        type != "roughplastic")
+        return;
+    for (Element& child : e.children)
+        for (Attribute& a : child.attributes)
+            if (a.name == "name" && (a.value == "ext_eta" || a.value == "int_eta")) {
+                warnings.add(fmt::format("old scene file: {} of bsdf '{}' taken as {}", a.value == "ext_eta" ? "extEta" : "intEta",
+                                         type, a.value == "ext_eta" ? "ext_ior" : "int_ior"));
+                a.value = a.value == "ext_eta" ? "ext_ior" : "int_ior";
+            }
+}
+
+void upgrade_bitmap(Element& e, Warnings& warnings) {
+    upgrade_gamma(e, warnings);
+    drop(e, {"cache", "max_anisotropy"});
+    for (Element& child : e.children) {
+        if (child.tag != "string" || child.broken || child.attribute("name").value != "filter_type") continue;
+        for (Attribute& a : child.attributes)
+            if (a.name == "value" && (a.value == "ewa" || a.value == "trilinear")) {
+                warnings.add(fmt::format("old scene file: the texture filter '{}' taken as 'bilinear'", a.value));
+                a.value = "bilinear";
+            }
+    }
+}
+
+// Where shading normals and surfaces disagree Mitsuba 3 has no such test.
+void upgrade_integrator(Element& e, Warnings& warnings) {
+    if (drop(e, {"strict_normals"})) warnings.add("old scene file: strictNormals of an integrator left out");
+}
+
+}  // namespace
+
+void upgrade_tag(Element& e, Warnings& warnings) {
+    if (e.tag != "lookAt") return;
+    e.tag = "lookat";
+    warnings.add("old scene file: <lookAt> taken as <lookat>");
+}
+
+void upgrade_parameters(Element& e, Warnings& warnings) {
+    for (Attribute& a : e.attributes) {
+        if (a.name != "name" || e.tag == "default" || snake_case(a.value) == a.value) continue;
+        a.value = snake_case(a.value);
+        warnings.add("old scene file: a name in camelCase taken in snake_case");
+    }
+    if (e.broken) return;
+    if (e.tag == "bsdf") upgrade_indices(e, warnings);
+    if (e.tag == "bsdf" && type_or_nothing(e) == "diffuse")
+        for (Element& child : e.children)
+            for (Attribute& a : child.attributes)
+                if (a.name == "name" && a.value == "diffuse_reflectance") {
+                    a.value = "reflectance";
+                    warnings.add("old scene file: diffuseReflectance of bsdf 'diffuse' taken as reflectance");
+                }
+    gather_uv_transform(e, warnings);
+    if (e.tag == "film") upgrade_film(e, warnings);
+    if (e.tag == "sampler") upgrade_sampler(e, warnings);
+    if (e.tag == "integrator") upgrade_integrator(e, warnings);
+    if (e.tag == "texture" && type_or_nothing(e) == "bitmap") upgrade_bitmap(e, warnings);
+}
+
+}  // namespace neumann::reader
