@@ -1,4 +1,4 @@
-// The manual pages beside the options that the program has and the tables of README.md and of the manual.
+// The manual beside the options that the program has, and README.md.
 #include "tests/commands/render_output.h"
 
 #include <regex>
@@ -67,7 +67,14 @@ protected:
         }
         return found;
     }
-    // The page that README.md names for each command.
+    // The texts of the commands and the other pages.
+    static std::vector<std::filesystem::path> manual() {
+        std::vector<std::filesystem::path> found;
+        for (const auto& entry : std::filesystem::directory_iterator(repository / "apps/manual"))
+            if (entry.path().extension() == ".md" || entry.path().extension() == ".txt") found.push_back(entry.path());
+        return found;
+    }
+    // The text that README.md names for each command.
     static std::map<std::string, std::string> pages_of_readme() {
         std::map<std::string, std::string> found;
         const std::regex row(R"(^\| \[`(\w+)`\]\((apps/manual/[^)]+)\) \|.*)");
@@ -146,33 +153,40 @@ TEST_F(Manual, RoffSaysTheSame) {
     }
 }
 
-TEST_F(Manual, ReadmeHasATableOfAllCommands) {
-    Names described;
-    for (const auto& [command, file] : pages_of_readme()) described.insert(command);
-    EXPECT_EQ(described, commands());
+TEST_F(Manual, ReadmeLeadsToTheTextOfEveryCommand) {
+    std::map<std::string, std::string> expected;
+    for (const std::string& command : commands()) expected[command] = "apps/manual/" + command + ".txt";
+    EXPECT_EQ(pages_of_readme(), expected);
 }
 
-// Of each page that README.md names: the options in its tables are those of its commands.
-TEST_F(Manual, TablesOfOptionsAreComplete) {
-    std::map<std::string, Options> expected;
-    for (const auto& [command, file] : pages_of_readme()) expected[file].merge(options(command));
-    for (const auto& [file, known] : expected) {
-        Options described;
-        const std::regex option("`(-[^ `]+)");
-        for (const std::string& row : rows(repository / file, "| option | meaning |")) {
-            const std::string cell = row.substr(0, row.find('|', 1));
-            for (std::sregex_iterator match(cell.begin(), cell.end(), option), end; match != end; ++match)
-                described.insert((*match)[1]);
-        }
-        EXPECT_EQ(described, known) << file;
+// An option in README.md or anywhere in the manual is one of a command, or of ./test and CMake.
+TEST_F(Manual, OptionsThatAreNamedExist) {
+    Options known{"--help", "--quick", "--build", "--install", "--prefix"};
+    for (const std::string& command : commands()) known.merge(options(command));
+    std::vector<std::filesystem::path> files = manual();
+    files.push_back(repository / "README.md");
+    std::size_t named = 0;
+    for (const std::filesystem::path& file : files) {
+        const std::string text = text_of(file);
+        const std::regex option(R"((^|[^-\w])(--[a-z][\w-]*))");
+        for (std::sregex_iterator match(text.begin(), text.end(), option), end; match != end; ++match, ++named)
+            EXPECT_TRUE(known.contains((*match)[2])) << file << ' ' << (*match)[2];
     }
+    EXPECT_GT(named, 50u);
 }
 
-// What README.md and the manual link to is there.
+// Every page of the manual that belongs to no command is in README.md.
+TEST_F(Manual, ReadmeLeadsToAllPages) {
+    const std::string readme = text_of(repository / "README.md");
+    for (const std::filesystem::path& file : manual())
+        if (file.extension() == ".md")
+            EXPECT_NE(readme.find("](apps/manual/" + file.filename().string() + ")"), std::string::npos) << file;
+}
+
+// What README.md, CONTRIBUTING.md and the manual link to is there.
 TEST_F(Manual, LinksLeadSomewhere) {
-    std::vector<std::filesystem::path> files{repository / "README.md", repository / "CONTRIBUTING.md"};
-    for (const auto& entry : std::filesystem::directory_iterator(repository / "apps" / "manual"))
-        if (entry.path().extension() == ".md") files.push_back(entry.path());
+    std::vector<std::filesystem::path> files = manual();
+    for (const char* name : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) files.push_back(repository / name);
     for (const std::filesystem::path& file : files) {
         const std::string text = text_of(file);
         const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
