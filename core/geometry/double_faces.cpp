@@ -112,8 +112,9 @@ bool DoubleFaces::holds(const Face& f, const Vec3& p) const {
     return std::abs(glm::dot(p - disk.center, disk.normal)) <= rounding_at(p, disk.center);
 }
 
-int DoubleFaces::meet(const Face& f, const Vec3& p, const Vec3& direction, double (&distances)[2]) const {
-    const bool starts_there = holds(f, p);
+int DoubleFaces::meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2]) const {
+    const Vec3& p = start.position;
+    const bool starts_there = start.face == f || holds(f, p);
     if (const Triangle* t = triangle(f)) {
         if (starts_there) return 0;
         const auto [cosine, distance, position, w] = t->meet(p, direction);

@@ -3,6 +3,7 @@
 
 #include "core/geometry/bounds.h"
 #include "core/geometry/face.h"
+#include "core/geometry/ray_start.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle.h"
 
@@ -38,9 +39,8 @@ public:
     bool is_near(const Face& f, const Vec3& p, double distance) const;
     // Whether p lies on the face, or on the plane of a triangle or disc, as far as doubles can tell.
     bool holds(const Face& f, const Vec3& p) const;
-    // Where a ray that starts at p meets the face: up to two distances > 0, ascending; none where it starts. `direction`: unit
-    // length.
-    int meet(const Face& f, const Vec3& p, const Vec3& direction, double (&distances)[2]) const;
+    // Where a ray meets the face: up to two distances > 0, ascending; none where it starts. `direction`: unit length.
+    int meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2]) const;
 
 private:
     const std::vector<Shape>* shapes_;

@@ -129,10 +129,10 @@ void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const Ra
          hit.primitive};
 }
 
-bool Geometry::put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    SurfacePoint found = hit_among_others(origin, direction, hit);
+bool Geometry::put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    SurfacePoint found = hit_among_others(start.position, direction, hit);
     const bool unsure = found.close || neighbours_->may_hide(found, glm::dot(direction, found.normal));
-    if (unsure && !settle(origin, direction, found)) return false;
+    if (unsure && !settle(start, direction, found)) return false;
     p = found;
     return true;
 }
@@ -150,13 +150,13 @@ SurfacePoint Geometry::hit_among_others(const Vec3& origin, const Vec3& directio
 
 void Geometry::look_around(SurfacePoint& p) const { p.close = neighbours_->is_close(p); }
 
-bool Geometry::settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const {
+bool Geometry::settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const {
     const Face own{p.shape, p.primitive};
     double distances[2];
-    if (neighbours_->faces().meet(own, origin, direction, distances) == 0) return false;
-    const auto first = neighbours_->first(neighbours_->around(p), origin, direction);
-    if (first && first->face != own && first->distance < glm::dot(p.position - origin, direction))
-        p = point_on(first->face, origin + direction * first->distance);
+    if (neighbours_->faces().meet(own, start, direction, distances) == 0) return false;
+    const auto first = neighbours_->first(neighbours_->around(p), start, direction);
+    if (first && first->face != own && first->distance < glm::dot(p.position - start.position, direction))
+        p = point_on(first->face, start.position + direction * first->distance);
     return true;
 }
 
@@ -181,24 +181,25 @@ bool cast_near_rest(const Giants& giants, const RayCaster& caster, const Vec3& o
 
 }  // namespace
 
-bool Geometry::meet_giants(const Vec3& origin, const Vec3& direction, double distance, bool found, SurfacePoint& p) const {
+bool Geometry::meet_giants(const RayStart& start, const Vec3& direction, double distance, bool found, SurfacePoint& p) const {
     if (giants_.empty()) return found;
-    const auto first = neighbours_->first(giants_, origin, direction);
-    if (!first || first->distance >= (found ? glm::dot(p.position - origin, direction) : distance)) return found;
-    p = point_on(first->face, origin + direction * first->distance);
-    if (p.close) settle(origin, direction, p);
+    const auto first = neighbours_->first(giants_, start, direction);
+    if (!first || first->distance >= (found ? glm::dot(p.position - start.position, direction) : distance)) return found;
+    p = point_on(first->face, start.position + direction * first->distance);
+    if (p.close) settle(start, direction, p);
     return true;
 }
 
 // Each close hit of Embree's is asked for in double, with all that is close to it, until the next one of Embree's is not close, or
 // lies behind what doubles meet.
-bool Geometry::first_hit_past(const Vec3& start, const Vec3& origin, const Vec3& direction, double distance,
+bool Geometry::first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                               std::vector<Face> faces, SurfacePoint& hit) const {
+    const Vec3 origin = start.position;
     for (;;) {
-        const auto first = neighbours_->first(faces, origin, direction);
+        const auto first = neighbours_->first(faces, start, direction);
         RayCaster::Hit found;
         SurfacePoint p;
-        const bool any = cast_near_rest(neighbours_->giants(), *caster_, start, direction, distance, faces, found);
+        const bool any = cast_near_rest(neighbours_->giants(), *caster_, embree_start, direction, distance, faces, found);
         if (any) p = hit_among_others(origin, direction, found);
         if (first && first->distance <= distance && !(any && glm::dot(p.position - origin, direction) < first->distance)) {
             hit = point_on(first->face, origin + direction * first->distance);
@@ -225,31 +226,33 @@ bool Geometry::first_hit(const Vec3& origin, const Vec3& direction, double dista
 bool Geometry::first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
     if (from.close) return first_hit_in_double(from, direction, hit);
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const Vec3 origin = from.position, start = leave(from, glm::dot(from.normal, direction));
+    const RayStart start = from;  // which `hit` may be
+    const Vec3 embree_start = leave(from, glm::dot(from.normal, direction));
     RayCaster::Hit found;
-    bool is_found = cast_near_rest(neighbours_->giants(), *caster_, start, direction, infinity, {}, found);
-    if (is_found && !put_on_surface(origin, direction, found, hit))
-        is_found = first_hit_past(start, origin, direction, infinity, {}, hit);
-    return meet_giants(origin, direction, infinity, is_found, hit);
+    bool is_found = cast_near_rest(neighbours_->giants(), *caster_, embree_start, direction, infinity, {}, found);
+    if (is_found && !put_on_surface(start, direction, found, hit))
+        is_found = first_hit_past(start, embree_start, direction, infinity, {}, hit);
+    return meet_giants(start, direction, infinity, is_found, hit);
 }
 
 bool Geometry::first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const RayStart start = from;  // which `hit` may be
     const Vec3 origin = from.position;
     const std::vector<Face> faces = neighbours_->around(from);
-    const auto first = neighbours_->first(faces, from, direction);
+    const auto first = neighbours_->first(faces, start, direction);
     RayCaster::Hit found;
     SurfacePoint beyond;
     bool any_beyond = cast_near_rest(neighbours_->giants(), *caster_, origin, direction, infinity, faces, found);
-    if (any_beyond && !put_on_surface(origin, direction, found, beyond))
-        any_beyond = first_hit_past(origin, origin, direction, infinity, faces, beyond);
+    if (any_beyond && !put_on_surface(start, direction, found, beyond))
+        any_beyond = first_hit_past(start, origin, direction, infinity, faces, beyond);
     if (first && !(any_beyond && glm::dot(beyond.position - origin, direction) < first->distance)) {
         hit = point_on(first->face, origin + direction * first->distance);
-        if (hit.close) settle(origin, direction, hit);
+        if (hit.close) settle(start, direction, hit);
     } else if (any_beyond) {
         hit = beyond;
     }
-    return meet_giants(origin, direction, infinity, first || any_beyond, hit);
+    return meet_giants(start, direction, infinity, first || any_beyond, hit);
 }
 
 bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {

@@ -10,6 +10,7 @@
 
 #include "core/geometry/ray.h"
 #include "core/geometry/ray_caster.h"
+#include "core/geometry/ray_start.h"
 #include "core/geometry/shape.h"
 #include "core/geometry/surface_point.h"
 #include "core/geometry/triangle.h"
@@ -83,7 +84,7 @@ public:
             const auto& [x, w] = from(i);
             if (close >> i & 1u)
                 found |= static_cast<std::uint32_t>(first_hit_in_double(x, w, hit(i))) << i;
-            else if (found >> i & 1u && !put_on_surface(x.position, w, hits[i], hit(i)))
+            else if (found >> i & 1u && !put_on_surface(x, w, hits[i], hit(i)))
                 found = (found & ~(1u << i)) | static_cast<std::uint32_t>(first_hit(x, w, hit(i))) << i;
         }
         return found;
@@ -153,37 +154,43 @@ private:
         const Vec3& a = mesh.vertices[t[0]];
         return {mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a};
     }
-    // A hit of Embree's on the double geometry: where the ray from `origin` hits the primitive that Embree named. `origin` may be
-    // p.position. False where other faces are close and the ray passes by the primitive in double: Embree's hit was none, and p is
-    // as it was.
-    bool put_on_surface(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    static const Vec3& position(const Vec3& p) { return p; }
+    template <class Start>
+    static const Vec3& position(const Start& start) {
+        return start.position;
+    }
+    // A hit of Embree's on the double geometry: where the ray from `start`, a point in space or on a surface, hits the primitive
+    // that Embree named. `start` may be p. False where other faces are close and the ray passes by the primitive in double:
+    // Embree's hit was none, and p is as it was.
+    template <class Start>
+    bool put_on_surface(const Start& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
         if (!triangles_[hit.shape].empty()) {
             const Triangle& t = triangles_[hit.shape][hit.primitive];
-            const Triangle::Meeting m = t.meet(origin, direction);
+            const Triangle::Meeting m = t.meet(position(start), direction);
             if (t.is_hit(m) && t.is_clear(m.weights, m.cosine)) {
                 p = {m.position, t.normal(), t.error(), hit.shape, hit.primitive};
                 return true;
             }
         }
-        return put_among_others(origin, direction, hit, p);
+        return put_among_others(start, direction, hit, p);
     }
-    bool put_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    bool put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const;
     void put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint round_point(const Face& face, const RoundPoint& p) const;
     // Sets p.close.
     void look_around(SurfacePoint& p) const;
     // Of what is close to a hit, another face may come first. False where the ray passes by p's own face.
-    bool settle(const Vec3& origin, const Vec3& direction, SurfacePoint& p) const;
-    // Then: the first hit, with these faces in double. Embree's ray starts at `start`. `origin` is not hit.position.
-    bool first_hit_past(const Vec3& start, const Vec3& origin, const Vec3& direction, double distance, std::vector<Face> faces,
-                        SurfacePoint& hit) const;
+    bool settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
+    // Then: the first hit, with these faces in double, and all others by Embree, whose ray starts at `embree_start`.
+    bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
+                        std::vector<Face> faces, SurfacePoint& hit) const;
     SurfacePoint point_on(const Face& face, const Vec3& position) const;
     // The faces around close points, and giants, in double, and all others by Embree.
     bool first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
     bool visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const;
     // A giant may come before what Embree found, which is in p.
-    bool meet_giants(const Vec3& origin, const Vec3& direction, double distance, bool found, SurfacePoint& p) const;
+    bool meet_giants(const RayStart& start, const Vec3& direction, double distance, bool found, SurfacePoint& p) const;
     template <class Ask>
     static std::uint32_t one_by_one(std::size_t n, const Ask& ask) {
         std::uint32_t found = 0;

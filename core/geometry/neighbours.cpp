@@ -152,8 +152,8 @@ void Neighbours::examine(const Face& f) const {
         std::atomic_ref(round_[f.shape]).store(kept ? State::not_clear : State::clear, std::memory_order_release);
 }
 
-bool Neighbours::is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const {
-    const Triangle* own = faces_.triangle({p.shape, p.primitive});
+bool Neighbours::is_behind(const Face& f, const Face& own_face, const Vec3& direction) const {
+    const Triangle* own = faces_.triangle(own_face);
     if (!own || !faces_.triangle(f)) return false;
     const Vec3 n = glm::dot(own->normal(), direction) < 0.0 ? -own->normal() : own->normal();
     const auto corners = faces_.vertices(f);
@@ -162,32 +162,28 @@ bool Neighbours::is_behind(const Face& f, const SurfacePoint& p, const Vec3& dir
     });
 }
 
-std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const Vec3& p, const Vec3& direction) const {
+std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const {
     std::optional<Met> met;
     for (const Face& f : faces) {
+        if (start.face && is_behind(f, *start.face, direction)) continue;
         double distances[2];
-        if (faces_.meet(f, p, direction, distances) > 0 && !(met && met->distance <= distances[0])) met = {f, distances[0]};
+        if (faces_.meet(f, start, direction, distances) > 0 && !(met && met->distance <= distances[0])) met = {f, distances[0]};
     }
     return met;
-}
-
-std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const SurfacePoint& p, const Vec3& direction) const {
-    std::vector<Face> before(faces.begin(), faces.end());
-    std::erase_if(before, [&](const Face& f) { return is_behind(f, p, direction); });
-    return first(before, p.position, direction);
 }
 
 bool Neighbours::any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const {
     const double length = glm::length(y.position - x.position);
     const Vec3 direction = (y.position - x.position) / length;
+    const Face begin{x.shape, x.primitive}, last{y.shape, y.primitive};
     for (const Face& f : faces) {
-        if ((x.close && is_behind(f, x, direction)) || (y.close && is_behind(f, y, -direction))) continue;
+        if (is_behind(f, begin, direction) || is_behind(f, last, -direction)) continue;
         double distances[2];
-        const int n = faces_.meet(f, x.position, direction, distances);
+        const int n = faces_.meet(f, x, direction, distances);
         if (n == 0) continue;
         // Of a face that y lies on, where the ray ends does not count.
-        const int end =
-            !faces_.holds(f, y.position) ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
+        const bool ends_there = f == last || faces_.holds(f, y.position);
+        const int end = !ends_there ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
         for (int i = 0; i < n; ++i)
             if (i != end && distances[i] < length) return true;
     }

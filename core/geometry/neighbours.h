@@ -43,9 +43,8 @@ public:
         Face face;
         double distance;
     };
-    // The first of the faces that a ray meets, from a point in space or from a close point. `direction`: unit length.
-    std::optional<Met> first(std::span<const Face> faces, const Vec3& p, const Vec3& direction) const;
-    std::optional<Met> first(std::span<const Face> faces, const SurfacePoint& p, const Vec3& direction) const;
+    // The first of the faces that a ray meets; none is behind the face that it starts on. `direction`: unit length.
+    std::optional<Met> first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // Whether one of the faces lies strictly between x and y.
     bool any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const;
     const DoubleFaces& faces() const { return faces_; }
@@ -70,8 +69,8 @@ private:
     bool is_clear_round(const Face& f) const;
     // Whether a face of the surroundings of p's own is so near, and `aside` more.
     bool has_near(const SurfacePoint& p, double aside) const;
-    // Whether nothing of f is on the side of the plane of p's triangle that `direction` points to, where rays from p are.
-    bool is_behind(const Face& f, const SurfacePoint& p, const Vec3& direction) const;
+    // Of triangles: whether nothing of f is on the side of own's plane that `direction` points to, where rays from own are.
+    bool is_behind(const Face& f, const Face& own, const Vec3& direction) const;
     // How near to each other faces are that do not touch, and whose points are close.
     double reach(const Face& a, const Face& b) const;
     void append_near(const Vec3& p, double distance, std::vector<Face>& found) const;

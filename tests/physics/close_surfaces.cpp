@@ -279,6 +279,31 @@ TEST(CloseSurfaces, AreMetInOrderAlongTheEdgesOfBoxes) {
     }
 }
 
+// Rays that are reflected back and forth beside the edges of a large room that is turned, where hits lie off their surface by what
+// rounding leaves of a distance of its size: never do they meet the surface that they leave, nor the back of another one.
+TEST(CloseSurfaces, AreNotMetWhereRaysStartBesideAnEdge) {
+    const Mat4 to_world = glm::scale(glm::rotate(Mat4(1.0), 1.1, glm::normalize(Vec3(1, 2, 3))), Vec3(1e6));
+    const Geometry geometry({transformed(make_cube(glm::scale(glm::translate(Mat4(1.0), Vec3(0.5)), Vec3(0.5)), true), to_world)});
+    IndependentSampler sampler(20240229, 0);
+    for (std::uint64_t i = 0; i < 400'000; ++i) {
+        sampler.start(i);
+        // Beside the edge x = y = 0, by 1e-6 to 1e-5 of the room, on the wall x = 0.
+        const double aside = std::pow(10.0, -6.0 + sampler.next());
+        const Vec3 from = Vec3(to_world * glm::dvec4(0.1 + 0.8 * sampler.next(), 0.1 + 0.8 * sampler.next(), sampler.next(), 1.0)),
+                   towards = Vec3(to_world * glm::dvec4(0.0, aside, sampler.next(), 1.0));
+        SurfacePoint p;
+        ASSERT_TRUE(geometry.first_hit(from, glm::normalize(towards - from), 1e9, p));
+        for (int bounce = 0; bounce < 4; ++bounce) {
+            const Vec3 s = glm::normalize(glm::cross(p.normal, Vec3(1, 2, 3))), t = glm::cross(p.normal, s),
+                       local = cosine_hemisphere(sampler.next2()), direction = s * local.x + t * local.y + p.normal * local.z;
+            const Vec3 left = p.normal;
+            ASSERT_TRUE(geometry.first_hit(p, direction, p));
+            ASSERT_LT(glm::dot(p.normal, left), 0.5) << i;
+            ASSERT_LT(glm::dot(p.normal, direction), 0.0) << i;
+        }
+    }
+}
+
 // The ground of a room is a giant, and the walls of a room are none.
 TEST(CloseSurfaces, GiantsAreWhatDwarfsAllElse) {
     const std::vector<Shape> in_room{make_rectangle(glm::scale(Mat4(1.0), Vec3(5.0))), box({0, 0, 0}, {1, 1, 1})};
