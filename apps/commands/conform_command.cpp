@@ -8,7 +8,7 @@
 #include "core/colour/spectrum_to_rgb.h"
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
-#include "operators/pictures/rendered_series.h"
+#include "operators/methods/render.h"
 #include "operators/statistics/conformity.h"
 
 #include <fmt/format.h>
@@ -80,17 +80,20 @@ double mean_y(const Image& xyz) {
 }
 
 // The sum of all bounces that the file asks for, in XYZ.
-std::optional<Estimate> render(const Scene& scene, std::uint64_t samples, std::uint64_t seed, const glm::dmat3& xyz_from_rgb) {
-    PictureSampler::Settings settings;
-    settings.walk.bounces = scene.bounces.value_or(0);
-    settings.walk.rest_probability = scene.bounces ? 0.0 : 1.0;
-    settings.sampler = SamplerKind::independent;
-    settings.seed = seed;
-    settings.replicate_size = 1;
-    settings.colors = xyz_from_rgb;
-    const RenderedSeries series = render_series(scene, settings, {samples, {}, {}}, {interrupted});
+std::optional<Estimate> picture_of(const Scene& scene, std::uint64_t samples, std::uint64_t seed, const glm::dmat3& xyz_from_rgb) {
+    method::Walk walk;
+    walk.sampler = SamplerKind::independent;
+    // Single samples, of which Student's t needs as many as there are.
+    const Goal goal{.samples = samples,
+                    .replicates = static_cast<std::uint32_t>(samples),
+                    .seed = seed,
+                    .colors = xyz_from_rgb,
+                    .only_pictures = scene.bounces.has_value()};
+    const BounceSeries series = render(scene, walk, goal, {.stop = interrupted});
     if (interrupted()) return std::nullopt;
-    return series.moments.result().sum(static_cast<std::size_t>(settings.walk.bounces) + (scene.bounces ? 0 : 1));
+    if (scene.bounces) return series.sum(static_cast<std::size_t>(series.bounces()));
+    if (!series.limit) throw InputError("the series does not end: there is no sum of all bounces");
+    return series.limit();
 }
 
 void write_pictures(const fs::path& folder, const ConformResult& result, const Estimate& picture, const Image& reference,
@@ -123,7 +126,7 @@ std::optional<ConformResult> judge(const ConformScene& scene, const ConformReque
             static_cast<std::uint64_t>(loaded.film.crop_width) * static_cast<std::uint64_t>(loaded.film.crop_height);
         result.samples = std::max<std::uint64_t>(2, request.budget / pixels);
         const Stopwatch watch;
-        const std::optional<Estimate> picture = render(loaded, result.samples, request.seed, to_xyz);
+        const std::optional<Estimate> picture = picture_of(loaded, result.samples, request.seed, to_xyz);
         if (!picture) return std::nullopt;
         result.seconds = watch.seconds();
         result.by_reference = conformity_by_reference(picture->mean, result.samples, reference);

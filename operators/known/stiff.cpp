@@ -2,16 +2,13 @@
 // to 1.01, in which K^i Le = ρ^i, and what is left beyond bounce N is ρ^(N+1)/(1−ρ). From 1 on there is no sum, and none may be
 // given.
 #include "core/geometry/area_sampler.h"
-#include "operators/guide/direction_tables.h"
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
-#include "operators/known/pictures.h"
 #include "operators/known/scene_maker.h"
 #include "operators/known/small_problems.h"
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/traced_system.h"
-#include "operators/pictures/field_pictures.h"
-#include "operators/pictures/missing_paths.h"
+#include "operators/methods/render.h"
 #include "operators/pictures/pilot.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/series_run.h"
@@ -36,58 +33,51 @@ Scene furnace_with_camera(double rho) {
     return maker.make();
 }
 double rest_of(double rho, int bounces) { return std::pow(rho, bounces + 1) / (1.0 - rho); }
-Statistic statistic(const MeanWithError& m) { return {Rgb(m.mean), Rgb(m.standard_error)}; }
+
+// Of 64 replicates.
+Statistic mean_of(const BounceSeries& series, int i) {
+    const MeanWithError m = series.means_of_term(static_cast<std::size_t>(i)).all;
+    return {Rgb(m.mean), Rgb(m.standard_error)};
+}
+Statistic mean_of_rest(const BounceSeries& series) {
+    return {Rgb(series.means_of_rest->all.mean), Rgb(series.means_of_rest->all.standard_error)};
+}
 
 struct Sampling {
-    PathMethod method;
-    const char* name;
+    Method method;
     std::uint32_t samples;  // a pixel, in each of 64 replicates
     int bounces = 8;
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
-constexpr Sampling samplings[] = {{PathMethod::walk, "walk", 16, 8, 0.9},
-                                  {PathMethod::guided, "guided", 32, 8, 0.9},
-                                  {PathMethod::surface, "surface", 16},
-                                  {PathMethod::light, "light", 2048, 2},
-                                  {PathMethod::bidirectional, "bidirectional", 32, 4},
-                                  {PathMethod::classic, "classic", 16},
-                                  {PathMethod::pointwise, "pointwise", 16, 5}};
-
-PictureSampler::Settings settings_of(const Sampling& sampling, const Scene& scene, std::uint64_t seed) {
-    PictureSampler::Settings settings;
-    settings.method = sampling.method;
-    settings.walk.bounces = sampling.bounces;
-    settings.walk.rest_probability = 0.0;
-    if (sampling.method == PathMethod::surface || sampling.method == PathMethod::classic)
-        settings.walk.direct = {.direct = DirectLight::light};
-    if (sampling.method == PathMethod::guided)
-        settings.tables = std::make_shared<const DirectionTables>(
-            scene, GuideSettings{.patches = 100, .rays = 2048, .bounces = sampling.bounces, .seed = seed});
-    settings.seed = seed;
-    settings.replicate_size = sampling.samples;
-    return settings;
+std::vector<Sampling> samplings() {
+    return {{method::Walk{}, 16, 8, 0.9},     {method::Guided{{}, 100, 2048}, 32, 8, 0.9},
+            {method::Surface{}, 16},          {method::Light{}, 2048, 2},
+            {method::Bidirectional{}, 32, 4}, {method::Classic{}, 16},
+            {method::Pointwise{}, 16, 5}};
 }
 
 void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling, double rho) {
     const Scene scene = furnace_with_camera(rho);
-    PictureSampler::Settings settings = settings_of(sampling, scene, seed);
-    const Pictures found = render(scene, settings, batch_count);
+    Goal goal{.bounces = sampling.bounces, .samples = batch_count * sampling.samples, .replicates = batch_count, .seed = seed};
+    const BounceSeries found = render(scene, sampling.method, goal);
     // All paths but those by way of mirrors end after the first reflection.
-    const bool only_direct = paths_of(sampling.method, scene) == Paths::specular;
+    const bool only_direct = found.paths == Paths::specular;
     for (int i = 1; i <= sampling.bounces; ++i)
         if (i <= 2 || i == sampling.bounces)
-            figures.sampled(fmt::format("K^{} Le{}", i, only_direct && i > 1 ? ", not made" : ""),
-                            statistic(found.result.mean_of_term(static_cast<std::size_t>(i))),
+            figures.sampled(fmt::format("K^{} Le{}", i, only_direct && i > 1 ? ", not made" : ""), mean_of(found, i),
                             only_direct && i > 1 ? 0.0 : std::pow(rho, i));
-    figures.near("samples that are no numbers", static_cast<double>(found.tally.non_finite_samples()), 0.0, 0.0);
+    figures.near("samples that are no numbers", static_cast<double>(std::get<PathRecord>(found.record).health->non_finite()), 0.0,
+                 0.0);
     if (sampling.largest_rest < rho) return;
-    settings.walk.rest_probability = 1.0;
-    // A geometric distribution: the standard error is 1.05/√(samples) of it.
-    settings.replicate_size = 512;
-    settings.sampler = SamplerKind::independent;
-    const Pictures rest = render(scene, settings, batch_count);
-    figures.sampled(fmt::format("sum of K^i Le, i > {}", sampling.bounces),
-                    statistic(rest.result.mean_of_term(static_cast<std::size_t>(sampling.bounces) + 1)),
+    // A geometric distribution: the standard error is 1.05/√(samples) of it where every walk goes on.
+    goal.samples = batch_count * 2048;
+    Method independent = sampling.method;
+    std::visit(
+        [](auto& m) {
+            if constexpr (requires { m.sampler; }) m.sampler = SamplerKind::independent;
+        },
+        independent);
+    figures.sampled(fmt::format("sum of K^i Le, i > {}", sampling.bounces), mean_of_rest(render(scene, independent, goal)),
                     rest_of(rho, sampling.bounces));
 }
 
@@ -101,27 +91,25 @@ void by_pilot(Figures& figures, std::uint64_t seed, double rho) {
     figures.near("K^8 Le", pilot.term(8).mean, std::pow(rho, 8), z_limit * pilot.term(8).standard_error + 1e-12);
 }
 
-void by_fields(Figures& figures, std::uint64_t seed, FieldMethod method, double rho) {
-    const Scene scene = furnace_with_camera(rho);
-    FieldSettings settings;
-    settings.method = method;
-    settings.bounces = 8;
-    settings.patching.patches = 200;
-    settings.rays = 16;
-    settings.samples = 8;
-    settings.replicates = batch_count;
-    settings.seed = seed;
-    const std::optional<FieldPictures> found = render_fields(scene, settings);
-    if (!found) return figures.fail("pictures", "interrupted");
-    for (const std::size_t i : {1, 2, 8})
-        figures.sampled(fmt::format("K^{} Le", i), statistic(found->mean_of_term(i)), std::pow(rho, static_cast<double>(i)),
+template <HasFields M>
+Method with_fields(M m) {
+    m.patches = 200;
+    m.directions = batch_count * 16;
+    return m;
+}
+
+void by_fields(Figures& figures, std::uint64_t seed, const Method& method, double rho) {
+    const BounceSeries found = render(furnace_with_camera(rho), method,
+                                      {.bounces = 8, .samples = batch_count * 8, .replicates = batch_count, .seed = seed});
+    for (const int i : {1, 2, 8})
+        figures.sampled(fmt::format("K^{} Le", i), mean_of(found, i), std::pow(rho, i),
                         // Floats hold the pixels.
                         1e-6);
-    figures.said("the rest", found->rest_converges ? "converges" : "does not", rho < 1.0 ? "converges" : "does not");
+    figures.said("the rest", found.rest ? "converges" : "does not", rho < 1.0 ? "converges" : "does not");
     if (rho < 1.0) {
         const double exact = rest_of(rho, 8);
         // Rows of T sum to 1 up to rounding, which 1/(1 − ρ) enlarges.
-        figures.near("sum of K^i Le, i > 8", found->mean_of_rest().mean / exact, 1.0,
+        figures.near("sum of K^i Le, i > 8", found.means_of_rest->all.mean / exact, 1.0,
                      10.0 * closing_error + 1e-6 + 1e-13 / (1.0 - rho));
     }
 }
@@ -299,14 +287,12 @@ Cases stiff_cases() {
     Cases cases;
     for (const double rho : albedos) {
         const auto named = [rho](const char* method) { return fmt::format("stiff/albedo-{:.10g}/{}", rho, method); };
-        for (const Sampling& sampling : samplings)
-            cases.push_back({named(sampling.name), "rho^i, rho^(N+1)/(1 - rho): exact",
+        for (const Sampling& sampling : samplings())
+            cases.push_back({named(name_of(sampling.method)), "rho^i, rho^(N+1)/(1 - rho): exact",
                              [=](Figures& figures, std::uint64_t seed) { by_sampling(figures, seed, sampling, rho); }});
-        for (const auto& [method, name] :
-             {std::pair{FieldMethod::patches, "patches"}, {FieldMethod::matrix, "matrix"}, {FieldMethod::gather, "gather"}})
-            cases.push_back(
-                {named(name), "rho^i, rho^(N+1)/(1 - rho): exact",
-                 [=, method = method](Figures& figures, std::uint64_t seed) { by_fields(figures, seed, method, rho); }});
+        for (const Method& method : {with_fields(method::Patches()), with_fields(method::Matrix()), with_fields(method::Gather())})
+            cases.push_back({named(name_of(method)), "rho^i, rho^(N+1)/(1 - rho): exact",
+                             [=](Figures& figures, std::uint64_t seed) { by_fields(figures, seed, method, rho); }});
         cases.push_back(
             {named("pilot"), "converges below 1", [=](Figures& figures, std::uint64_t seed) { by_pilot(figures, seed, rho); }});
         cases.push_back({named("solvers"), "1/(1 - rho): exact",

@@ -46,6 +46,7 @@ struct FieldRecord {
 struct BounceSeries {
     std::function<PixelEstimate(std::size_t)> term, sum;  // K^i Le, and Σ_{k≤i} K^k Le; 0 … N
     std::optional<PixelEstimate> rest;                    // Σ_{k>N} K^k Le
+    std::function<PixelEstimate()> limit;                 // Σ K^k Le, where there is a rest
     std::function<PictureMeans(std::size_t)> means_of_term, means_of_sum;
     std::optional<PictureMeans> means_of_rest;
     SeriesReport report;

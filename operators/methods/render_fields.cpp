@@ -48,7 +48,10 @@ FieldSettings choose_settings(const M& m, const RenderJob& job) {
     settings.seed = goal.seed;
     settings.rest = !goal.only_pictures;
     if (settings.method == FieldMethod::gather) settings.gather_rays = 16;
-    if (goal.samples) {
+    if (goal.replicates) {
+        settings.samples = share_of_replicate(goal);
+        settings.replicates = *goal.replicates;
+    } else if (goal.samples) {
         while (settings.replicates > 2 && *goal.samples < settings.replicates) settings.replicates /= 2;
         settings.samples = share(*goal.samples, settings.replicates);
     } else if (m.patches || m.directions) {
@@ -86,6 +89,7 @@ FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool give
 template <HasFields M>
 BounceSeries render_by(M m, const RenderJob& job) {
     const Goal& goal = job.goal;
+    if (goal.colors) throw InputError("fields on patches have linear RGB alone");
     const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldMethod::importance;
     if (importance && goal.tail)
         throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
@@ -111,6 +115,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
     if (pictures->rest_converges) {
         series.rest = pictures->rest();
         series.means_of_rest = pictures->means_of_rest();
+        series.limit = [pictures] { return pictures->sum(pictures->bounces() + 1); };
     }
     series.report = report_series(job.scene, *pictures);
     series.convergence = run.convergence;

@@ -21,11 +21,13 @@ namespace {
 constexpr double shortest_sampling = 1e-3;
 
 // Samples a pixel in one replicate: as many as still give several replicates.
-std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Film& film, const PilotOnDemand& pilot, const Split& split) {
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& job, const Split& split) {
+    if (job.goal.replicates) return share_of_replicate(job.goal);
     if (goal.samples) return replicate_size(*goal.samples);
     if (!goal.seconds) return largest_replicate;
+    const Film& film = job.scene.film;
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
-                 seconds = pilot().seconds_per_walk() * std::max(split.lights, split.walks),
+                 seconds = job.pilot().seconds_per_walk() * std::max(split.lights, split.walks),
                  affordable = *goal.seconds / (pixels * seconds);
     return std::bit_floor(
         static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
@@ -80,6 +82,7 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
     if (report.rest_verdict == RestVerdict::measured) {
         out.rest = out.term(result->quantities() - 1);
         out.means_of_rest = result->means_of_term(result->quantities() - 1);
+        out.limit = [sum = out.sum, last = result->quantities() - 1] { return sum(last); };
     }
     out.report = std::move(report);
     out.convergence = series.convergence;
@@ -184,6 +187,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     const Scene& scene = job.scene;
     const Goal& goal = job.goal;
     SamplingSettings settings = sampling_settings(method, scene, job.plan, goal.seed);
+    settings.colors = goal.colors;
     settings.walk.bounces = choose_bounces(job);
 
     SamplingGoal to_reach = sampling_goal(goal);
@@ -196,7 +200,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         // Of the time that was asked for.
         if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
     }
-    settings.replicate_size = choose_replicate_size(to_reach, scene.film, job.pilot, settings.walk.split);
+    settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
     const Paths paths = paths_of(settings.method, scene);

@@ -1,6 +1,6 @@
 // Odd scenes with plain answers.
 #include "core/sampling/warp.h"
-#include "operators/known/pictures.h"
+#include "operators/methods/render.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -49,16 +49,16 @@ TEST(Extremes, WithoutLightOrSurfacesAllIsZero) {
         const Scene scene = maker.make();
         EXPECT_FALSE(scene.warnings.counts().empty());
         for (const DirectLight direct : {DirectLight::mis, DirectLight::light, DirectLight::bsdf}) {
-            PictureSampler::Settings settings;
-            settings.walk = {.bounces = 4, .direct = {direct}};
-            const Pictures pictures = render(scene, settings, 4);
-            for (std::size_t q = 0; q < pictures.result.quantities(); ++q)
-                for (const Estimate& e : {pictures.result.term(q), pictures.result.sum(q)})
+            method::Walk walk;
+            walk.direct = {direct};
+            const BounceSeries pictures = render(scene, walk, {.bounces = 4, .samples = 32});
+            for (std::size_t q = 0; q <= 4; ++q)
+                for (const PixelEstimate& e : {pictures.term(q), pictures.sum(q), *pictures.rest})
                     for (std::size_t i = 0; i < e.mean.pixels.size(); ++i) {
                         EXPECT_TRUE(is_black(e.mean.pixels[i]));
                         EXPECT_TRUE(is_black(e.standard_error.pixels[i]));
                     }
-            EXPECT_EQ(pictures.tally.non_finite_samples(), 0u);
+            EXPECT_EQ(std::get<PathRecord>(pictures.record).health->non_finite(), 0u);
         }
     }
 }

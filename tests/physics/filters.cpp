@@ -1,5 +1,5 @@
 // Pictures through reconstruction filters.
-#include "operators/known/pictures.h"
+#include "operators/methods/render.h"
 #include "operators/pictures/field_pictures.h"
 #include "tests/physics/scene_maker.h"
 
@@ -71,12 +71,8 @@ double splatted(const Named& filter, int column, bool sample_border) {
 TEST(Filters, StepAgainstSplatting) {
     for (const Named& named : filters())
         for (const bool sample_border : {false, true}) {
-            PictureSampler::Settings settings;
-            settings.walk.bounces = 0;
-            settings.walk.rest_probability = 0.0;
-            settings.replicate_size = 256;
-            settings.seed = 5;
-            const Estimate found = render(step(named.filter, sample_border), settings, 64).result.term(0);
+            const Goal goal{.bounces = 0, .samples = 64 * 256, .replicates = 64, .seed = 5, .only_pictures = true};
+            const Estimate found = render(step(named.filter, sample_border), method::Walk(), goal).term(0);
             for (int column = 0; column < width; ++column) {
                 double sum = 0.0, variance = 0.0;
                 for (int row = 0; row < height; ++row) {

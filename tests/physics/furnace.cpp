@@ -1,7 +1,7 @@
 // The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for
 // lights carries exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
 #include "operators/known/enclosures.h"
-#include "operators/known/pictures.h"
+#include "operators/methods/render.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>
@@ -11,68 +11,30 @@
 namespace neumann::physics {
 namespace {
 
-const Rgb colour(0.25, 0.5, 0.75), bright(0.9, 0.99, 0.9999);
-
-Surface furnace(const Rgb& rho) { return {rho, grey(1.0)}; }
-
-TEST(Furnace, EveryWalkCarriesThePowersOfTheAlbedo) {
-    for (const Rgb& rho : {colour, bright})
-        for (const ClosedScene& enclosure : enclosures(furnace(rho))) {
-            SCOPED_TRACE(enclosure.name);
-            const Scene scene = enclosure.maker.make();
-            expect_exact(probe(scene, anywhere(scene), Technique::bsdf, {.samples = 64, .bounces = 40}),
-                         [&](int i) { return power_of(rho, i); });
-        }
-}
-
-TEST(Furnace, EveryProductOfOperatorsIsThePowerOfTheAlbedo) {
-    for (const ClosedScene& enclosure : enclosures(furnace(colour))) {
-        SCOPED_TRACE(enclosure.name);
-        const Scene scene = enclosure.maker.make();
-        expect_exact(probe(scene, anywhere(scene), Technique::pointwise, {.samples = 32, .bounces = 12}),
-                     [](int i) { return power_of(colour, i); });
-    }
-}
+const Rgb colour(0.25, 0.5, 0.75);
 
 TEST(Furnace, EveryPixelIsThePowerOfTheAlbedo) {
-    for (ClosedScene& enclosure : enclosures(furnace(colour))) {
+    for (ClosedScene& enclosure : enclosures({colour, grey(1.0)})) {
         enclosure.maker.parts.camera.fov = 2.0;
         enclosure.maker.parts.camera.near_clip = 1e-6;
         enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
         const Scene scene = enclosure.maker.make();
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol})
-            for (const PathMethod method : {PathMethod::walk, PathMethod::pointwise}) {
-                SCOPED_TRACE(enclosure.name + (sampler == SamplerKind::sobol ? ", Sobol'" : ", independent") +
-                             (method == PathMethod::walk ? ", walk" : ", operators"));
-                PictureSampler::Settings settings;
-                settings.method = method;
-                settings.sampler = sampler;
-                settings.walk = {.bounces = 10, .direct = {DirectLight::bsdf}, .rest_probability = 0.0};
-                settings.seed = fixed_seed;
-                const Pictures pictures = render(scene, settings, 4);
+            for (const Method& method :
+                 {Method(method::Walk{{sampler}, {DirectLight::bsdf}}), Method(method::Pointwise{{sampler}})}) {
+                SCOPED_TRACE(enclosure.name + (sampler == SamplerKind::sobol ? ", Sobol', " : ", independent, ") + name_of(method));
+                const BounceSeries pictures = render(scene, method, {.bounces = 10, .samples = 32, .seed = fixed_seed});
                 for (int i = 0; i <= 10; ++i) {
-                    const Estimate term = pictures.result.term(static_cast<std::size_t>(i));
+                    const Estimate term = pictures.term(static_cast<std::size_t>(i));
                     double error = 0.0, spread = 0.0;
                     for (const Rgb& x : term.mean.pixels) error = std::max(error, max_component(glm::abs(x - power_of(colour, i))));
                     for (const Rgb& x : term.standard_error.pixels) spread = std::max(spread, max_component(x));
                     EXPECT_LE(error, 8.0 * i * std::numeric_limits<double>::epsilon()) << "K^" << i << " Le";
                     EXPECT_EQ(spread, 0.0) << "K^" << i << " Le";
                 }
-                EXPECT_EQ(pictures.tally.non_finite_samples(), 0u);
+                EXPECT_EQ(std::get<PathRecord>(pictures.record).health->non_finite(), 0u);
             }
     }
-}
-
-// 8 enclosures × 9 terms × 2 albedos: 144 comparisons.
-TEST(Furnace, LookingForLightsAsWellChangesNothingOnAverage) {
-    for (const double rho : {0.5, 0.9})
-        for (const ClosedScene& enclosure : enclosures(glowing(rho, 1.0))) {
-            SCOPED_TRACE(enclosure.name);
-            const Scene scene = enclosure.maker.make();
-            std::vector<double> exact;
-            for (int i = 0; i <= 8; ++i) exact.push_back(std::pow(rho, i));
-            expect_matches(probe(scene, anywhere(scene), Technique::mis, {.samples = 1024}), exact);
-        }
 }
 
 TEST(Furnace, WithoutReflectionNothingComesBack) {

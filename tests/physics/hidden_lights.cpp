@@ -1,6 +1,5 @@
 // hide_emitters: what the camera sees of a scene whose lights it sees through.
-#include "operators/known/pictures.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/methods/render.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -45,13 +44,16 @@ void expect_floor(const Estimate& first, const Estimate& second, double toleranc
     EXPECT_NEAR(mean(second.mean).g, rho * radiance * form_factor(), tolerance * rho * radiance * form_factor());
 }
 
-PictureSampler::Settings settings(PathMethod method) {
-    PictureSampler::Settings s;
-    s.method = method;
-    s.walk.bounces = 1;
-    s.walk.rest_probability = 0.0;
-    s.replicate_size = 64;
-    return s;
+BounceSeries rendered(const Scene& scene, const Method& method, std::uint64_t samples = 4096) {
+    return render(scene, method, {.bounces = 1, .samples = samples});
+}
+
+// All fields: 512 samples, 2000 patches, 1024 directions.
+template <HasFields M>
+Method with_fields(M m) {
+    m.patches = 2000;
+    m.directions = 1024;
+    return m;
 }
 
 }  // namespace
@@ -60,36 +62,29 @@ PictureSampler::Settings settings(PathMethod method) {
 // samples of a pixel; pointwise finds the lamp by chance.
 TEST(HiddenLights, WalkSeesTheFloor) {
     for (const bool towards_camera : {false, true}) {
-        const Pictures found = render(lamps(true, towards_camera), settings(PathMethod::walk), 64);
-        expect_floor(found.result.term(0), found.result.term(1), 0.003);
+        const BounceSeries found = rendered(lamps(true, towards_camera), method::Walk());
+        expect_floor(found.term(0), found.term(1), 0.003);
     }
 }
 
 TEST(HiddenLights, PointwiseSeesTheFloor) {
-    const Pictures found = render(lamps(true, true), settings(PathMethod::pointwise), 64);
-    expect_floor(found.result.term(0), found.result.term(1), 0.05);
+    const BounceSeries found = rendered(lamps(true, true), method::Pointwise());
+    expect_floor(found.term(0), found.term(1), 0.05);
 }
 
 TEST(HiddenLights, FieldsSeeTheFloor) {
-    for (const FieldMethod method : {FieldMethod::matrix, FieldMethod::gather, FieldMethod::patches}) {
-        FieldSettings s;
-        s.method = method;
-        s.bounces = 1;
-        s.patching.patches = 2000;
-        s.rays = 256;
-        s.light_samples = 256;
-        s.samples = 64;
-        const FieldPictures found = *render_fields(lamps(true, true), s);
-        expect_floor(found.term(0), found.term(1), method == FieldMethod::patches ? 0.05 : 0.01);
+    for (const Method& method : {with_fields(method::Matrix()), with_fields(method::Gather()), with_fields(method::Patches())}) {
+        const BounceSeries found = rendered(lamps(true, true), method, 256);
+        expect_floor(found.term(0), found.term(1), std::holds_alternative<method::Patches>(method) ? 0.05 : 0.01);
     }
 }
 
 TEST(HiddenLights, NothingIsHiddenWithoutBeingAskedFor) {
-    const Pictures found = render(lamps(false, true), settings(PathMethod::walk), 2);
-    EXPECT_EQ(mean(found.result.term(0).mean), Rgb(radiance));
-    EXPECT_EQ(mean(found.result.term(1).mean), Rgb(0.0));
+    const BounceSeries found = rendered(lamps(false, true), method::Walk(), 128);
+    EXPECT_EQ(mean(found.term(0).mean), Rgb(radiance));
+    EXPECT_EQ(mean(found.term(1).mean), Rgb(0.0));
     // From behind, a lamp is black and covers the floor.
-    EXPECT_EQ(mean(render(lamps(false, false), settings(PathMethod::walk), 2).result.sum(1).mean), Rgb(0.0));
+    EXPECT_EQ(mean(rendered(lamps(false, false), method::Walk(), 128).sum(1).mean), Rgb(0.0));
 }
 
 // The surroundings are not seen, but light the floor: with all of the sky above it, ρ L exactly.
@@ -104,15 +99,9 @@ TEST(HiddenLights, SurroundingsLightWhatIsSeen) {
     for (const bool hide : {false, true}) {
         maker.parts.hide_emitters = hide;
         const Scene scene = maker.make();
-        FieldSettings s;
-        s.bounces = 1;
-        s.samples = 64;
-        const FieldPictures fields = *render_fields(scene, s);
-        const Pictures walked = render(scene, settings(PathMethod::walk), 64);
-        for (int i = 0; i < 2; ++i) {
-            const Estimate pictures[] = {i == 0 ? walked.result.term(0) : walked.result.term(1),
-                                         fields.term(static_cast<std::size_t>(i))};
-            for (const Estimate& e : pictures) {
+        const BounceSeries fields = rendered(scene, method::Matrix(), 256), walked = rendered(scene, method::Walk());
+        for (const std::size_t i : {0, 1}) {
+            for (const PixelEstimate& e : {walked.term(i), fields.term(i)}) {
                 // One of the two pixels is beside the floor.
                 const Rgb sum = e.mean.pixels[0] + e.mean.pixels[1];
                 EXPECT_NEAR(sum.g, i == 1 ? rho * radiance : hide ? 0.0 : radiance, i == 1 ? 0.03 : 0.0) << "bounce " << i;

@@ -1,6 +1,6 @@
 // What may not depend on the choice of units or of the origin. The same random numbers make the same walks, so whole pictures are
 // compared, pixel by pixel.
-#include "operators/known/pictures.h"
+#include "operators/methods/render.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -51,19 +51,17 @@ Scene furnished_room(const Units& units) {
     return maker.make();
 }
 
-Pictures pictures(const Scene& scene, DirectLight direct = DirectLight::mis) {
-    PictureSampler::Settings settings;
-    settings.walk = {.bounces = bounces, .direct = {direct}};
-    settings.seed = fixed_seed;
-    return render(scene, settings, 4);
+BounceSeries pictures(const Scene& scene) {
+    return render(scene, method::Walk(), {.bounces = bounces, .samples = 32, .seed = fixed_seed});
 }
 
 // Pixels × channels of all terms and the rest in which `same` does not hold for the values and their standard errors.
 template <class Same>
-int count_different(const Pictures& a, const Pictures& b, Same same) {
+int count_different(const BounceSeries& a, const BounceSeries& b, Same same) {
     int different = 0;
-    for (std::size_t q = 0; q < a.result.quantities(); ++q) {
-        const Estimate x = a.result.term(q), y = b.result.term(q);
+    for (int q = 0; q <= bounces + 1; ++q) {
+        const auto picture = [q](const BounceSeries& s) { return q <= bounces ? s.term(static_cast<std::size_t>(q)) : *s.rest; };
+        const PixelEstimate x = picture(a), y = picture(b);
         for (std::size_t i = 0; i < x.mean.pixels.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 different += !same(x.mean.pixels[i][c], y.mean.pixels[i][c]) ||
@@ -73,9 +71,9 @@ int count_different(const Pictures& a, const Pictures& b, Same same) {
 }
 
 TEST(Invariance, RadianceTimesAPowerOfTwoGivesTheSameBits) {
-    const Pictures one = pictures(furnished_room({}));
+    const BounceSeries one = pictures(furnished_room({}));
     for (const int k : {-20, 10, 60}) {
-        const Pictures other = pictures(furnished_room({.radiance = std::ldexp(1.0, k)}));
+        const BounceSeries other = pictures(furnished_room({.radiance = std::ldexp(1.0, k)}));
         EXPECT_EQ(count_different(one, other, [k](double x, double y) { return std::ldexp(x, k) == y; }), 0) << "2^" << k;
     }
 }
@@ -83,11 +81,11 @@ TEST(Invariance, RadianceTimesAPowerOfTwoGivesTheSameBits) {
 // Values are sums of 32 products of positive numbers with less than 100 factors each; standard errors are differences of such
 // values.
 TEST(Invariance, RadianceFromVerySmallToVeryLarge) {
-    const Pictures one = pictures(furnished_room({}));
+    const BounceSeries one = pictures(furnished_room({}));
     for (const double factor : {1e-30, 3.0, 1e30}) {
-        const Pictures other = pictures(furnished_room({.radiance = factor}));
+        const BounceSeries other = pictures(furnished_room({.radiance = factor}));
         for (int i = 0; i <= bounces; ++i) {
-            const Estimate x = one.result.term(static_cast<std::size_t>(i)), y = other.result.term(static_cast<std::size_t>(i));
+            const Estimate x = one.term(static_cast<std::size_t>(i)), y = other.term(static_cast<std::size_t>(i));
             double largest = 0.0, largest_of_error = 0.0;
             for (std::size_t p = 0; p < x.mean.pixels.size(); ++p)
                 for (int c = 0; c < 3; ++c) {
@@ -108,11 +106,11 @@ TEST(Invariance, RadianceFromVerySmallToVeryLarge) {
 }
 
 TEST(Invariance, LengthsTimesAPowerOfTwoGiveTheSameBits) {
-    const Pictures one = pictures(furnished_room({}));
+    const BounceSeries one = pictures(furnished_room({}));
     for (const int k : {-20, 1, 20}) {
-        const Pictures other = pictures(furnished_room({.length = std::ldexp(1.0, k)}));
+        const BounceSeries other = pictures(furnished_room({.length = std::ldexp(1.0, k)}));
         EXPECT_EQ(count_different(one, other, [](double x, double y) { return x == y; }), 0) << "2^" << k;
-        EXPECT_EQ(one.tally.rays, other.tally.rays);
+        EXPECT_EQ(one.rays, other.rays);
     }
 }
 
@@ -143,17 +141,17 @@ std::vector<bool> silhouettes(const Scene& scene) {
 TEST(InvarianceSlow, OtherUnitsAndAnotherOriginChangeNothingButRounding) {
     const Scene scene = furnished_room({});
     const std::vector<bool> silhouette = silhouettes(scene);
-    const Pictures one = pictures(scene);
+    const BounceSeries one = pictures(scene);
     for (const Units& units : {Units{.length = 1e-6}, Units{.length = 1e6}, Units{.length = 0.7}, Units{.origin = {1e5, -2e5, 3e4}},
                                Units{.length = 1e-6, .origin = {0.1, -0.2, 0.03}}}) {
-        const Pictures other = pictures(furnished_room(units));
+        const BounceSeries other = pictures(furnished_room(units));
         int exceptions = 0;
         for (std::size_t p = 0; p < silhouette.size(); ++p) {
             if (silhouette[p]) continue;
             bool differs = false;
             for (int i = 0; i <= bounces; ++i) {
-                const Rgb x = one.result.term(static_cast<std::size_t>(i)).mean.pixels[p],
-                          y = other.result.term(static_cast<std::size_t>(i)).mean.pixels[p];
+                const Rgb x = one.term(static_cast<std::size_t>(i)).mean.pixels[p],
+                          y = other.term(static_cast<std::size_t>(i)).mean.pixels[p];
                 for (int c = 0; c < 3; ++c) differs |= std::abs(x[c] - y[c]) > 1e-5 * std::abs(x[c]);
             }
             exceptions += differs;

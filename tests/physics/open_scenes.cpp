@@ -10,8 +10,6 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Technique walks[] = {Technique::mis, Technique::bsdf, Technique::light};
-
 Surface sky(const AreaLight& radiance) { return {std::nullopt, radiance}; }
 
 struct Body {
@@ -86,33 +84,6 @@ TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
             for (std::size_t i = 2; i <= 3; ++i) expect_matches(lit.terms[i], 0.0, "K^" + std::to_string(i) + " Le");
             EXPECT_EQ(lit.rays[2] + lit.rays[3] + lit.rays[4], 0.0);
         }
-}
-
-// Lenv(ω) = 1 + b·ω + (q·ω)²: K^1 Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²]. The sphere that stands for the sky emits by direction
-// alone, so it may be near. 3 normals × 3 ways, and the mean over a cube, where b and the directions of q average out: 12
-// comparisons.
-TEST(OpenScene, ASkyThatVariesLightsByItsMoments) {
-    const double rho = 0.6;
-    const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
-    const AreaLight radiance(
-        [=](const SurfacePoint&, const Vec3& w) { return grey(1.0 - glm::dot(b, w) + std::pow(glm::dot(q, w), 2)); },
-        grey(1.0 + glm::length(b) + glm::dot(q, q)));
-    SceneMaker maker;
-    const std::uint32_t cube = maker.add(make_cube(Mat4(1.0)), matte(rho));
-    maker.add(Sphere{{0, 0, 0}, 4.0, true}, sky(radiance));
-    const Scene scene = maker.make();
-    for (const Technique way : walks) {
-        SCOPED_TRACE(name(way));
-        for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
-            const double exact =
-                rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) + 0.25 * std::pow(glm::dot(q, n), 2));
-            expect_matches(probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
-                                 {.samples = 8192, .bounces = 1}),
-                           std::vector{0.0, exact});
-        }
-        expect_matches(probe(scene, anywhere_on(scene, cube), way, {.samples = 16384, .bounces = 1}),
-                       std::vector{0.0, rho * (1.0 + glm::dot(q, q) / 3.0)});
-    }
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-// Whole pictures, for what can only be seen there.
+// Pictures by a sampler whose settings no method has.
 #pragma once
 
 #include "operators/pictures/picture_sampler.h"
 
-namespace neumann::known {
+namespace neumann::physics {
 
 struct Pictures {
     SeriesMoments::Result result;
@@ -19,4 +19,4 @@ inline Pictures render(const Scene& scene, const PictureSampler::Settings& setti
     return {moments.result(), std::move(tally)};
 }
 
-}  // namespace neumann::known
+}  // namespace neumann::physics

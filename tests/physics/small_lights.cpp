@@ -1,7 +1,7 @@
 // Lights that no ray meets, or that surround the scene alike on all sides: what they bring is known exactly.
 #include "core/sampling/independent_sampler.h"
 #include "core/texture/bitmap.h"
-#include "operators/known/pictures.h"
+#include "operators/methods/render.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -160,13 +160,12 @@ TEST(SmallLights, AnEnvironmentIsSeenDirectly) {
     maker.parts.camera.fov = 1.0;
     maker.parts.film = {4, 2, 0, 0, 4, 2, BoxFilter()};
     const Scene scene = maker.make();
-    for (const PathMethod method : {PathMethod::walk, PathMethod::pointwise}) {
-        const Pictures pictures =
-            render(scene, {.method = method, .walk = {.bounces = 2}, .seed = fixed_seed, .replicate_size = 8}, 2);
+    for (const Method& method : {Method(method::Walk()), Method(method::Pointwise())}) {
+        const BounceSeries pictures = render(scene, method, {.bounces = 2, .samples = 16, .seed = fixed_seed});
         for (int y = 0; y < 2; ++y)
             for (int x = 0; x < 4; ++x) {  // +x is to the left
-                EXPECT_EQ(pictures.result.term(0).mean.at(x, y), x < 2 ? Rgb(1.0, 2.0, 3.0) : Rgb(0.0));
-                EXPECT_EQ(pictures.result.term(1).mean.at(x, y), Rgb(0.0));
+                EXPECT_EQ(pictures.term(0).mean.at(x, y), x < 2 ? Rgb(1.0, 2.0, 3.0) : Rgb(0.0));
+                EXPECT_EQ(pictures.term(1).mean.at(x, y), Rgb(0.0));
             }
     }
 }

@@ -1,6 +1,6 @@
 // What is left out changes no picture: not by a bit where the random numbers are the same, and elsewhere not beyond what chance
 // does.
-#include "operators/known/pictures.h"
+#include "tests/physics/pictures.h"
 #include "core/reader/read_scene.h"
 #include "operators/pictures/field_pictures.h"
 #include "operators/plan/plan.h"
@@ -19,8 +19,8 @@ namespace {
 
 constexpr int bounces = 4;
 
-Pictures rendered(const Scene& scene, const LeftOut& left_out, SamplerKind sampler, double rest, PathMethod method = PathMethod::walk,
-                  std::uint64_t replicates = 4) {
+Pictures rendered(const Scene& scene, const LeftOut& left_out, SamplerKind sampler, double rest,
+                  PathMethod method = PathMethod::walk, std::uint64_t replicates = 4) {
     return render(scene,
                   {.method = method,
                    .walk = {.bounces = bounces, .left_out = left_out, .rest_probability = rest, .give_up = 50},

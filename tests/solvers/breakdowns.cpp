@@ -56,20 +56,6 @@ TEST(Breakdowns, NobodyAnswersADivergentSeries) {
     EXPECT_EQ(find_solver("cg")->solve(problem).why, "I − K is not positive definite: the spectral radius of K is 1 or more");
 }
 
-// Albedo 1 in a closed room: there is no L at all.
-TEST(Breakdowns, NobodyAnswersAlbedoOne) {
-    const DenseChannel K = furnace(1.0);
-    const Vector rho = Vector::Ones(3);
-    Problem problem = problem_of(K, vector({1, 2, 3}));
-    problem.reflectance = &rho;
-    for (const NamedSolver& solver : solvers()) {
-        const SolverResult result = solver.solve(problem);
-        EXPECT_NE(result.verdict, Verdict::converged) << solver.name << ": " << result.why;
-    }
-    EXPECT_EQ(solve_neumann(problem).verdict, Verdict::diverging);
-    EXPECT_EQ(solve_lu(problem).verdict, Verdict::broke_down);
-}
-
 // Period 3: K^i Le is 0.9^i at one unknown in turn and 0 at the others. L = 0.9^k/(1 − 0.729).
 TEST(Breakdowns, PeriodThree) {
     const DenseChannel K = carousel(0.9);

@@ -1,4 +1,4 @@
-// Form factors against closed forms, checked against independent quadrature to 3e-14, and the cube put together of them.
+// Laws of form factors, and the cube put together of them. Closed forms are in operators/known/direct_light.cpp.
 #include "operators/matrix/form_factors.h"
 #include "operators/known/cube.h"
 #include "operators/spectrum/closure.h"
@@ -21,38 +21,9 @@ Parallelogram facing_down(double x0, double x1, double y0, double y1, double z) 
 // In the plane x = 0, towards positive x.
 Parallelogram wall(double y0, double y1, double z0, double z1) { return {{0, y0, z0}, {0, y1 - y0, 0}, {0, 0, z1 - z0}}; }
 
-double form_factor(const Parallelogram& a, const Parallelogram& b) { return exchange_area(a, b) / a.area(); }
-
 bool everywhere(const Vec3&) { return true; }
 
 }  // namespace
-
-TEST(FormFactors, ClosedForms) {
-    constexpr double accuracy = 1e-13;
-    EXPECT_NEAR(form_factor(facing_up(0, 1, 0, 1), facing_down(0, 1, 0, 1, 1)), 0.19982489569838738304, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 1, 0, 1), facing_down(0, 1, 0, 1, 0.5)), 0.41525328357714673537, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 2, 0, 1), facing_down(0, 2, 0, 1, 1)), 0.28587538485071471830, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 1, 0, 1), wall(0, 1, 0, 1)), 0.20004377607540315424, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 1, 0, 1), wall(0, 1, 0, 2)), 0.23285260279536188805, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 2, 0, 1), wall(0, 1, 0, 1)), 0.11642630139768094403, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 0.5, 0, 1), wall(0, 1, 0, 0.25)), 0.1668553949733004266, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0, 1, 0, 2), facing_down(0.5, 2.5, -1, 0.25, 0.7)), 0.08484343910717901, accuracy);
-    EXPECT_NEAR(form_factor(facing_up(0.2, 1, 0, 2), wall(-1, 0.5, 0.1, 1.6)), 0.08502766118381, accuracy);
-}
-
-// Patches of side 1/N, the upper one at height 1 and shifted by (1/2, 1/4): the sum of 16 terms has lost 3e-5 of this at N = 1024
-// in double precision.
-TEST(FormFactors, FarPairsKeepTheirDigits) {
-    const std::pair<int, double> exact[] = {{4, 0.0007149585769442985},
-                                            {16, 2.8178935974220563e-06},
-                                            {64, 1.1013268231504893e-08},
-                                            {256, 4.302200834519142e-11},
-                                            {1024, 1.6805506898931036e-13}};
-    for (const auto& [n, value] : exact) {
-        const double h = 1.0 / n;
-        EXPECT_NEAR(exchange_area(facing_up(0, h, 0, h), facing_down(0.5, 0.5 + h, 0.25, 0.25 + h, 1)), value, 1e-13 * value) << n;
-    }
-}
 
 // Turned and moved, far and near; scaled by 2^k area by 4^k.
 TEST(FormFactors, DoNotDependOnWhereThePairIs) {

@@ -1,57 +1,13 @@
-// Two unknowns, where everything can be written down: near-parallel plates (concentric spheres) and the dome over a disc.
+// Two unknowns, where everything can be written down: near-parallel plates (concentric spheres) and the dome over a disc. Their
+// terms and eigenvalues are in operators/known/two_patches.cpp.
 #include "operators/known/small_problems.h"
 #include "operators/solvers/series_run.h"
 #include "operators/solvers/solvers.h"
-#include "operators/spectrum/spectrum.h"
 
 #include <gtest/gtest.h>
 
 using namespace neumann;
 using namespace neumann::known;
-
-namespace {
-
-void expect_terms(const DenseChannel& K, const Vector& Le, const std::vector<std::array<double, 2>>& expected, double accuracy) {
-    TermSeries series(K, Le);
-    Vector sum = Vector::Zero(2);
-    for (const auto& t : expected) {
-        EXPECT_NEAR(series.term()[0], t[0], accuracy);
-        EXPECT_NEAR(series.term()[1], t[1], accuracy);
-        sum += Vector(series.term());
-        EXPECT_NEAR((series.sum() - sum).lpNorm<Eigen::Infinity>(), 0.0, 1e-15);
-        series.advance();
-    }
-}
-
-}  // namespace
-
-TEST(TwoPatches, DomeFromItsDisc) {
-    const DenseChannel K = dome();
-    expect_terms(K, vector({1, 0}),
-                 {{1, 0}, {0, .25}, {.175, .0625}, {.04375, .059375}, {.0415625, .02578125}, {.018046875, .0168359375}}, 1e-16);
-    expect_terms(K, vector({0, 1}), {{0, 1}, {.7, .25}, {.175, .2375}, {.16625, .103125}, {.0721875, .06734375}}, 1e-16);
-    const Eigenpairs found = leading_eigenpairs(K, 2);
-    ASSERT_TRUE(found.converged);
-    EXPECT_NEAR(found.pairs[0].value.real(), (0.25 + std::sqrt(0.0625 + 0.7)) / 2, 1e-14);
-    EXPECT_NEAR(found.pairs[1].value.real(), (0.25 - std::sqrt(0.0625 + 0.7)) / 2, 1e-14);
-}
-
-TEST(TwoPatches, NearParallelPlates) {
-    const DenseChannel K = plates();
-    expect_terms(K, vector({1, 0}),
-                 {{1, 0},
-                  {0, .88209},
-                  {.793881, .0157982319},
-                  {.01421840871, .7005574376233291},
-                  {.6305016938609962, .02508889984683773},
-                  {.022580009862153957, .5566085813341031},
-                  {.5009477232006928, .02988646059100118}},
-                 1e-15);
-    const Eigenpairs found = leading_eigenpairs(K, 2);
-    ASSERT_TRUE(found.converged);
-    EXPECT_NEAR(found.pairs[0].value.real(), 0.9, 1e-14);
-    EXPECT_NEAR(found.pairs[1].value.real(), -0.88209, 1e-14);
-}
 
 // L by Cramer's rule.
 TEST(TwoPatches, AllSolversSolveThem) {

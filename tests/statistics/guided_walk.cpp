@@ -1,9 +1,9 @@
 // Walks whose directions are drawn by tables of what a surface sees.
 #include "core/reader/read_scene.h"
 #include "operators/known/enclosures.h"
-#include "operators/known/pictures.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/material_laws.h"
+#include "tests/physics/pictures.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

@@ -1,11 +1,11 @@
 // Cameras in odd places, and with nothing to see.
 #include "core/base/error.h"
 #include "operators/known/extreme/groups.h"
-#include "operators/known/pictures.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_system.h"
+#include "operators/methods/render.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,17 +17,15 @@ namespace neumann::known {
 namespace {
 
 // A film of one box-filtered 4 × 4 picture.
-Pictures picture_from(SceneMaker maker, const Mat4& camera, int bounces, std::uint64_t seed, double fov = 1.0) {
+BounceSeries picture_from(SceneMaker maker, const Mat4& camera, int bounces, std::uint64_t seed, double fov = 1.0) {
     maker.parts.camera.to_world = camera;
     maker.parts.camera.fov = fov;
     maker.parts.camera.near_clip = 1e-6;
     maker.parts.film = {4, 4, 0, 0, 4, 4, BoxFilter()};
-    PictureSampler::Settings settings;
-    settings.walk = {.bounces = bounces, .direct = {DirectLight::bsdf}, .rest_probability = 0.0};
-    settings.seed = seed;
-    settings.replicate_size = 64;
-    settings.sampler = SamplerKind::independent;
-    return render(maker.make(), settings, batch_count);
+    method::Walk walk;
+    walk.direct = {DirectLight::bsdf};
+    walk.sampler = SamplerKind::independent;
+    return render(maker.make(), walk, {.bounces = bounces, .samples = batch_count * 64, .replicates = batch_count, .seed = seed});
 }
 
 // No light, no surfaces, and a light that the camera cannot see: zeros with finite statistics, and the light is still in the scene.
@@ -35,10 +33,10 @@ void darkness(Figures& figures, std::uint64_t seed) {
     for (const bool surfaces : {false, true}) {
         SceneMaker maker;
         if (surfaces) maker.add(make_cube(Mat4(1.0), true), matte(0.9));
-        const Pictures pictures = picture_from(maker, Mat4(1.0), 3, seed);
+        const BounceSeries pictures = picture_from(maker, Mat4(1.0), 3, seed);
         double largest = 0.0;
         for (std::size_t i = 0; i <= 3; ++i) {
-            const MeanWithError mean = pictures.result.mean_of_term(i);
+            const MeanWithError mean = pictures.means_of_term(i).all;
             largest = std::max({largest, std::abs(mean.mean), std::abs(mean.standard_error)});
         }
         figures.near(surfaces ? "no light: largest mean or error" : "no surfaces: largest mean or error", largest, 0.0, 0.0);
@@ -46,8 +44,8 @@ void darkness(Figures& figures, std::uint64_t seed) {
     SceneMaker maker;
     maker.add(make_cube(Mat4(1.0), true), matte(0.9));
     maker.add(Sphere{{5, 0, 0}, 1.0, true}, glowing(0.9, 1.0));
-    const Pictures pictures = picture_from(maker, Mat4(1.0), 3, seed);
-    figures.near("light out of reach: K^3 Le in the picture", pictures.result.mean_of_term(3).mean, 0.0, 0.0);
+    const BounceSeries pictures = picture_from(maker, Mat4(1.0), 3, seed);
+    figures.near("light out of reach: K^3 Le in the picture", pictures.means_of_term(3).all.mean, 0.0, 0.0);
     const Scene scene = maker.make();
     const TracedSystem system(scene, {.patches = 300, .rays = 16, .seed = seed});
     const TracedChannel K = system.channel(0);
@@ -64,20 +62,21 @@ void darkness(Figures& figures, std::uint64_t seed) {
 Cases extreme_camera_cases() {
     Cases cases;
     const auto add_furnace = [&](const char* name, const Vec3& where, const char* source, double expected) {
-        cases.push_back(
-            {fmt::format("extreme/camera/{}", name), source, [=](Figures& figures, std::uint64_t seed) {
-                 SceneMaker maker;
-                 maker.add(room({-1, -1, -1}, {1, 1, 1}), glowing(0.5, 1.0));
-                 maker.add(box({0.2, 0.2, 0.2}, {0.6, 0.6, 0.6}), glowing(0.5, 1.0));
-                 const Pictures pictures = picture_from(maker, glm::translate(Mat4(1.0), where), 4, seed);
-                 for (const std::size_t i : {0, 1, 4}) {
-                     const MeanWithError mean = pictures.result.mean_of_term(i);
-                     figures.near(fmt::format("K^{} Le", i), mean.mean, expected * std::pow(0.5, static_cast<double>(i)),
-                                  expected * 8.0 * static_cast<double>(i) * eps);
-                     figures.near(fmt::format("standard error of K^{} Le", i), mean.standard_error, 0.0, 0.0);
-                 }
-                 figures.near("samples that are no numbers", static_cast<double>(pictures.tally.non_finite_samples()), 0, 0);
-             }});
+        cases.push_back({fmt::format("extreme/camera/{}", name), source, [=](Figures& figures, std::uint64_t seed) {
+                             SceneMaker maker;
+                             maker.add(room({-1, -1, -1}, {1, 1, 1}), glowing(0.5, 1.0));
+                             maker.add(box({0.2, 0.2, 0.2}, {0.6, 0.6, 0.6}), glowing(0.5, 1.0));
+                             const BounceSeries pictures = picture_from(maker, glm::translate(Mat4(1.0), where), 4, seed);
+                             for (const std::size_t i : {0, 1, 4}) {
+                                 const MeanWithError mean = pictures.means_of_term(i).all;
+                                 figures.near(fmt::format("K^{} Le", i), mean.mean,
+                                              expected * std::pow(0.5, static_cast<double>(i)),
+                                              expected * 8.0 * static_cast<double>(i) * eps);
+                                 figures.near(fmt::format("standard error of K^{} Le", i), mean.standard_error, 0.0, 0.0);
+                             }
+                             figures.near("samples that are no numbers",
+                                          static_cast<double>(std::get<PathRecord>(pictures.record).health->non_finite()), 0, 0);
+                         }});
     };
     // It looks along +z, away from the floor that it stands on, and from within a box it sees backs, which are black.
     add_furnace("on-a-surface", {0.1, -0.3, -1.0}, "rho^i: exact", 1.0);
@@ -89,9 +88,9 @@ Cases extreme_camera_cases() {
                          SceneMaker maker;
                          maker.add(Sphere{{0, 0, 0}, 1.0, false}, boundary(Dielectric(n), Dielectric(1.0 / n)));
                          maker.parts.lights.environment = ConstantEnvironment(grey(1.0));
-                         const Pictures pictures = picture_from(maker, Mat4(1.0), 2, seed);
+                         const BounceSeries pictures = picture_from(maker, Mat4(1.0), 2, seed);
                          for (const std::size_t i : {1, 2}) {
-                             const MeanWithError mean = pictures.result.mean_of_term(i);
+                             const MeanWithError mean = pictures.means_of_term(i).all;
                              figures.near(fmt::format("K^{} Le", i), mean.mean,
                                           n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)), 4.5 * mean.standard_error);
                          }
