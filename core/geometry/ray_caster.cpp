@@ -1,12 +1,8 @@
 #include "core/geometry/ray_caster.h"
 
 #include "core/base/error.h"
-
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "core/geometry/embree_query.h"
+#include "core/geometry/embree_rounds.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,189 +17,6 @@ namespace {
 std::atomic<std::uint64_t> built = 0;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-Vec3 origin(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
-Vec3 direction(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
-
-// What a query brings along, behind Embree's own part: the faces that it does not look for, in order.
-#if RTC_VERSION_MAJOR >= 4
-using EmbreeContext = RTCRayQueryContext;
-void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
-#else
-using EmbreeContext = RTCIntersectContext;
-void init(EmbreeContext& context) { rtcInitIntersectContext(&context); }
-#endif
-struct Query : EmbreeContext {
-    std::span<const Face> without;
-
-    explicit Query(std::span<const Face> faces = {}) : without(faces) { init(*this); }
-    bool leaves_out(std::uint32_t shape, std::uint32_t primitive) const {
-        return !without.empty() && std::binary_search(without.begin(), without.end(), Face{shape, primitive});
-    }
-};
-
-void filter(const RTCFilterFunctionNArguments* args) {
-    const auto* query = static_cast<const Query*>(args->context);
-    for (unsigned i = 0; i < args->N; ++i)
-        if (args->valid[i] && query->leaves_out(RTCHitN_geomID(args->hit, args->N, i), RTCHitN_primID(args->hit, args->N, i)))
-            args->valid[i] = 0;
-}
-
-struct SphereData {
-    Vec3 center;
-    double radius;
-    RTCBounds bounds;
-
-    // Smallest root in (tnear, tfar), or NaN. The half chord comes from the distance of the centre to the line, which keeps its
-    // digits for rays that start on the sphere.
-    double intersect(const RTCRay& ray) const {
-        const Vec3 d = direction(ray), f = origin(ray) - center;
-        const double a = glm::dot(d, d), middle = -glm::dot(f, d) / a;
-        const Vec3 nearest = f + d * middle;
-        const double discriminant = radius * radius - glm::dot(nearest, nearest);
-        if (!(discriminant >= 0.0)) return std::nan("");
-        const double half = std::sqrt(discriminant / a);
-        for (const double t : {middle - half, middle + half})
-            if (t > ray.tnear && t < ray.tfar) return t;
-        return std::nan("");
-    }
-};
-
-struct DiskData {
-    Vec3 center, normal, dual_u, dual_v;
-    RTCBounds bounds;
-
-    double intersect(const RTCRay& ray) const {
-        const Vec3 d = direction(ray), f = center - origin(ray);
-        const double t = glm::dot(normal, f) / glm::dot(normal, d);
-        if (!(t > ray.tnear && t < ray.tfar)) return std::nan("");
-        const Vec3 p = d * t - f;
-        const double a = glm::dot(p, dual_u), b = glm::dot(p, dual_v);
-        return a * a + b * b <= 1.0 ? t : std::nan("");
-    }
-};
-
-struct CylinderData {
-    Vec3 base, axis;
-    double length, radius;
-    RTCBounds bounds;
-
-    // As the sphere, across the axis; of the two roots those on the cylinder count.
-    double intersect(const RTCRay& ray) const {
-        const Vec3 d = direction(ray), f = origin(ray) - base;
-        const double d_along = glm::dot(d, axis), f_along = glm::dot(f, axis);
-        const Vec3 d_across = d - axis * d_along, f_across = f - axis * f_along;
-        const double a = glm::dot(d_across, d_across), middle = -glm::dot(f_across, d_across) / a;
-        const Vec3 nearest = f_across + d_across * middle;
-        const double discriminant = radius * radius - glm::dot(nearest, nearest);
-        if (!(discriminant >= 0.0)) return std::nan("");
-        const double half = std::sqrt(discriminant / a);
-        for (const double t : {middle - half, middle + half}) {
-            const double along = f_along + t * d_along;
-            if (t > ray.tnear && t < ray.tfar && along >= 0.0 && along <= length) return t;
-        }
-        return std::nan("");
-    }
-};
-
-// The float box around center ± extent, rounded outwards.
-RTCBounds outward_bounds(const Vec3& center, const Vec3& extent) {
-    const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -infinity); };
-    const auto up = [](double x) { return std::nextafter(static_cast<float>(x), infinity); };
-    const Vec3 low = center - extent, high = center + extent;
-    return {down(low.x), down(low.y), down(low.z), 0.0f, up(high.x), up(high.y), up(high.z), 0.0f};
-}
-
-template <class Data>
-void bounds_callback(const RTCBoundsFunctionArguments* args) {
-    *args->bounds_o = static_cast<const Data*>(args->geometryUserPtr)->bounds;
-}
-
-template <class Data>
-void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-    if (static_cast<const Query*>(args->context)->leaves_out(args->geomID, args->primID)) return;
-    const unsigned N = args->N;
-    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, N);
-    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, N);
-    for (unsigned i = 0; i < N; ++i) {
-        if (!args->valid[i]) continue;
-        const double t = static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(rays, N, i));
-        if (std::isnan(t)) continue;
-        RTCRayN_tfar(rays, N, i) = static_cast<float>(t);
-        RTCHitN_geomID(hits, N, i) = args->geomID;
-        RTCHitN_primID(hits, N, i) = args->primID;
-        RTCHitN_instID(hits, N, i, 0) = RTC_INVALID_GEOMETRY_ID;
-    }
-}
-
-template <class Data>
-void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-    if (static_cast<const Query*>(args->context)->leaves_out(args->geomID, args->primID)) return;
-    const unsigned N = args->N;
-    for (unsigned i = 0; i < N; ++i)
-        if (args->valid[i] &&
-            !std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(args->ray, N, i))))
-            RTCRayN_tfar(args->ray, N, i) = -infinity;
-}
-
-#if RTC_VERSION_MAJOR >= 4
-constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
-template <class Arguments>
-void ask(Query& query, RayCaster::Rays kind, Arguments& arguments) {
-    arguments.context = &query;
-    arguments.flags = kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-    if (query.without.empty()) return;
-    arguments.filter = filter;
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
-}
-RTCIntersectArguments to_intersect(Query& query, RayCaster::Rays kind) {
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    ask(query, kind, arguments);
-    return arguments;
-}
-RTCOccludedArguments to_occlude(Query& query, RayCaster::Rays kind) {
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    ask(query, kind, arguments);
-    return arguments;
-}
-void trace(RTCScene scene, RTCRayHit& ray, Query query) {
-    auto arguments = to_intersect(query, RayCaster::Rays::any);
-    rtcIntersect1(scene, &ray, &arguments);
-}
-void trace(RTCScene scene, RTCRay& ray, Query query) {
-    auto arguments = to_occlude(query, RayCaster::Rays::any);
-    rtcOccluded1(scene, &ray, &arguments);
-}
-void trace(const int* valid, RTCScene scene, RTCRayHit8& rays, RayCaster::Rays kind) {
-    Query query;
-    auto arguments = to_intersect(query, kind);
-    rtcIntersect8(valid, scene, &rays, &arguments);
-}
-void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
-    Query query;
-    auto arguments = to_occlude(query, kind);
-    rtcOccluded8(valid, scene, &rays, &arguments);
-}
-#else
-constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
-Query& prepared(Query& query, RayCaster::Rays kind = RayCaster::Rays::any) {
-    if (kind == RayCaster::Rays::alike) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (!query.without.empty()) query.filter = filter;
-    return query;
-}
-void trace(RTCScene scene, RTCRayHit& ray, Query query) { rtcIntersect1(scene, &prepared(query), &ray); }
-void trace(RTCScene scene, RTCRay& ray, Query query) { rtcOccluded1(scene, &prepared(query), &ray); }
-void trace(const int* valid, RTCScene scene, RTCRayHit8& rays, RayCaster::Rays kind) {
-    Query query;
-    rtcIntersect8(valid, scene, &prepared(query, kind), &rays);
-}
-void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
-    Query query;
-    rtcOccluded8(valid, scene, &prepared(query, kind), &rays);
-}
-#endif
 
 void set_ray(RTCRay& ray, const Vec3& org, const Vec3& dir, float tfar) {
     ray.org_x = static_cast<float>(org.x);
@@ -237,9 +50,9 @@ struct Valid {
 struct RayCaster::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::vector<std::unique_ptr<SphereData>> spheres;
-    std::vector<std::unique_ptr<DiskData>> disks;
-    std::vector<std::unique_ptr<CylinderData>> cylinders;
+    std::vector<std::unique_ptr<embree::SphereData>> spheres;
+    std::vector<std::unique_ptr<embree::DiskData>> disks;
+    std::vector<std::unique_ptr<embree::CylinderData>> cylinders;
 
     ~Impl() {
         if (scene) rtcReleaseScene(scene);
@@ -257,9 +70,9 @@ struct RayCaster::Impl {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, 1);
         rtcSetGeometryUserData(geometry, data);
-        rtcSetGeometryBoundsFunction(geometry, bounds_callback<Data>, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, intersect_callback<Data>);
-        rtcSetGeometryOccludedFunction(geometry, occluded_callback<Data>);
+        rtcSetGeometryBoundsFunction(geometry, embree::bounds_callback<Data>, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, embree::intersect_callback<Data>);
+        rtcSetGeometryOccludedFunction(geometry, embree::occluded_callback<Data>);
         attach(geometry, id);
     }
 
@@ -300,7 +113,8 @@ struct RayCaster::Impl {
     void attach_sphere(const Sphere& sphere, std::uint32_t id, const RayCaster& caster) {
         const Vec3 center = caster.to_embree(sphere.center);
         const double radius = sphere.radius * caster.scale_;
-        spheres.push_back(std::make_unique<SphereData>(SphereData{center, radius, outward_bounds(center, Vec3(radius))}));
+        spheres.push_back(
+            std::make_unique<embree::SphereData>(embree::SphereData{center, radius, embree::outward_bounds(center, Vec3(radius))}));
         attach_user(spheres.back().get(), id);
     }
 
@@ -308,16 +122,16 @@ struct RayCaster::Impl {
         const Vec3 center = caster.to_embree(disk.center), u = disk.u * caster.scale_, v = disk.v * caster.scale_;
         const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), gram = uu * vv - uv * uv;
         const Vec3 extent(std::hypot(u.x, v.x), std::hypot(u.y, v.y), std::hypot(u.z, v.z));
-        disks.push_back(std::make_unique<DiskData>(
-            DiskData{center, disk.normal, (u * vv - v * uv) / gram, (v * uu - u * uv) / gram, outward_bounds(center, extent)}));
+        disks.push_back(std::make_unique<embree::DiskData>(embree::DiskData{
+            center, disk.normal, (u * vv - v * uv) / gram, (v * uu - u * uv) / gram, embree::outward_bounds(center, extent)}));
         attach_user(disks.back().get(), id);
     }
 
     void attach_cylinder(const Cylinder& cylinder, std::uint32_t id, const RayCaster& caster) {
-        const RTCBounds bounds = outward_bounds(caster.to_embree(cylinder.center()), cylinder.extent() * caster.scale_);
-        cylinders.push_back(
-            std::make_unique<CylinderData>(CylinderData{caster.to_embree(cylinder.base), cylinder.axis,
-                                                        cylinder.length * caster.scale_, cylinder.radius * caster.scale_, bounds}));
+        const RTCBounds bounds = embree::outward_bounds(caster.to_embree(cylinder.center()), cylinder.extent() * caster.scale_);
+        cylinders.push_back(std::make_unique<embree::CylinderData>(
+            embree::CylinderData{caster.to_embree(cylinder.base), cylinder.axis, cylinder.length * caster.scale_,
+                                 cylinder.radius * caster.scale_, bounds}));
         attach_user(cylinders.back().get(), id);
     }
 };
@@ -328,7 +142,7 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> wit
     if (!impl_->device) throw RunError("Embree could not be started");
     impl_->scene = rtcNewScene(impl_->device);
     // Robust: no ray slips through the edge that two triangles share.
-    rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filters_allowed));
+    rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::filters_allowed));
     for (std::uint32_t id = 0; id < shapes.size(); ++id) {
         const auto begin = std::lower_bound(without.begin(), without.end(), Face{id, 0});
         const std::span<const Face> of_shape(begin, std::lower_bound(begin, without.end(), Face{id + 1, 0}));
@@ -358,7 +172,7 @@ bool RayCaster::intersect(const Vec3& origin, const Vec3& direction, double dist
     set_ray(query.ray, to_embree(origin), direction, static_cast<float>(distance * scale_));
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    trace(impl_->scene, query, Query(without));
+    embree::trace(impl_->scene, query, embree::Query(without));
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     hit = {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / scale_};
     return true;
@@ -370,7 +184,7 @@ bool RayCaster::occluded(const Vec3& from, const Vec3& to, std::span<const Face>
     const Vec3 org = to_embree(from);
     RTCRay ray;
     set_ray(ray, org, to_embree(to) - org, 1.0f);
-    trace(impl_->scene, ray, Query(without));
+    embree::trace(impl_->scene, ray, embree::Query(without));
     return ray.tfar < 0.0f;
 }
 
@@ -393,7 +207,7 @@ std::uint32_t RayCaster::intersect(const Packet& packet, std::span<Hit> hits, Ra
     set_rays(packet, queries.ray);
     std::fill_n(queries.hit.geomID, 8, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(queries.hit.instID[0], 8, RTC_INVALID_GEOMETRY_ID);
-    trace(Valid(packet.size_).lanes, impl_->scene, queries, kind);
+    embree::trace(Valid(packet.size_).lanes, impl_->scene, queries, kind);
     std::uint32_t found = 0;
     for (std::size_t i = 0; i < packet.size_; ++i) {
         if (queries.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -406,7 +220,7 @@ std::uint32_t RayCaster::intersect(const Packet& packet, std::span<Hit> hits, Ra
 std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
     RTCRay8 rays;
     set_rays(packet, rays);
-    trace(Valid(packet.size_).lanes, impl_->scene, rays, kind);
+    embree::trace(Valid(packet.size_).lanes, impl_->scene, rays, kind);
     std::uint32_t found = 0;
     for (std::size_t i = 0; i < packet.size_; ++i) found |= static_cast<std::uint32_t>(rays.tfar[i] < 0.0f) << i;
     return found;

@@ -2,15 +2,16 @@
 
 import tempfile
 from os import PathLike, fspath
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
 
 from . import _neumann, _report
-from ._arguments import definitions, options
+from ._arguments import definitions, options, with_method_options
 from ._bounces import BounceSeries, Memory
 from ._display import as_table
 from ._matrices import STEPS, Matrices, Solutions
+from ._method_options import MethodOptions
 from ._progress import run
 from ._report import HealthWarning, Report, warn
 from ._study import Study
@@ -69,6 +70,7 @@ class Scene:
         """Of any material, for each channel: a bound on ‖R‖ and so on how slowly the series falls."""
         return self._scene.largest_albedo
 
+    @with_method_options
     def render(
         self,
         *,
@@ -78,21 +80,11 @@ class Scene:
         time: Optional[float] = None,
         error: Optional[float] = None,
         memory: Optional[float] = None,
-        method: Optional[str] = None,
-        direct: Optional[str] = None,
-        lights: Optional[str] = None,
-        roulette: Union[str, float, None] = None,
-        split: Union[str, Tuple[int, int], None] = None,
-        sampler: Optional[str] = None,
-        ways: Optional[int] = None,
-        plan: Optional[str] = None,
-        importance: bool = False,
-        patches: Optional[int] = None,
-        directions: Optional[int] = None,
         reference: Optional[Path] = None,
         seed: Optional[int] = None,
         threads: Optional[int] = None,
         quiet: bool = False,
+        **method_options: Unpack[MethodOptions],
     ) -> BounceSeries:
         """Renders the bounces K^i Le, their sums, and the rest: as ``neumann render``, with the same bits for the same seed.
 
@@ -100,17 +92,15 @@ class Scene:
         spp: samples a pixel; time: seconds; error: relative standard error of every bounce. Whichever comes first ends it; without
         any it ends at 2% error or after 20 seconds, with error alone after ten minutes. memory: GiB that may be taken, half of the machine's
         without it.
-        method: walk (the default), guided, surface, light, bidirectional, classic, pointwise; or matrix, gather, patches.
-        direct, lights, roulette, split: how a walk finds lights, which of them, how it ends, where it branches: (64, 1).
-        sampler: sobol or independent. ways: of bidirectional, the bounce of which every way is shown. plan: auto or full.
-        importance: of patches, K*^i We in place of K^i Le. patches, directions: of matrix, gather, patches and guided.
         reference: the folder of an earlier render, for true errors in ``convergence``. seed; threads: all without it.
         quiet: neither progress nor warnings.
 
         Raises InputError for a wrong argument, with the command's own words, and RunError. What the command prints as a warning is a
         NeumannWarning, and what is sick a HealthWarning.
+
+        The other keywords are the options of the methods:
         """
-        job = _neumann.render(self._scene, options(locals()))
+        job = _neumann.render(self._scene, options({**locals(), **method_options}))
         series: BounceSeries = run(job, quiet, lambda made: BounceSeries(Memory(made), self.path))
         if not quiet:
             warn(series.warnings)

@@ -1,0 +1,102 @@
+// The two versions of Embree's interface that neumann is built with, as one: a query, the faces that it does not look for, and the
+// calls that trace it.
+#pragma once
+
+#include "core/geometry/face.h"
+#include "core/geometry/ray_caster.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <span>
+
+namespace neumann::embree {
+
+// What a query brings along, behind Embree's own part: the faces that it does not look for, in order.
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+inline void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
+#else
+using EmbreeContext = RTCIntersectContext;
+inline void init(EmbreeContext& context) { rtcInitIntersectContext(&context); }
+#endif
+struct Query : EmbreeContext {
+    std::span<const Face> without;
+
+    explicit Query(std::span<const Face> faces = {}) : without(faces) { init(*this); }
+    bool leaves_out(std::uint32_t shape, std::uint32_t primitive) const {
+        return !without.empty() && std::binary_search(without.begin(), without.end(), Face{shape, primitive});
+    }
+};
+
+inline void filter(const RTCFilterFunctionNArguments* args) {
+    const auto* query = static_cast<const Query*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i)
+        if (args->valid[i] && query->leaves_out(RTCHitN_geomID(args->hit, args->N, i), RTCHitN_primID(args->hit, args->N, i)))
+            args->valid[i] = 0;
+}
+
+#if RTC_VERSION_MAJOR >= 4
+constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+template <class Arguments>
+inline void ask(Query& query, RayCaster::Rays kind, Arguments& arguments) {
+    arguments.context = &query;
+    arguments.flags = kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    if (query.without.empty()) return;
+    arguments.filter = filter;
+    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+}
+inline RTCIntersectArguments to_intersect(Query& query, RayCaster::Rays kind) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    ask(query, kind, arguments);
+    return arguments;
+}
+inline RTCOccludedArguments to_occlude(Query& query, RayCaster::Rays kind) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    ask(query, kind, arguments);
+    return arguments;
+}
+inline void trace(RTCScene scene, RTCRayHit& ray, Query query) {
+    auto arguments = to_intersect(query, RayCaster::Rays::any);
+    rtcIntersect1(scene, &ray, &arguments);
+}
+inline void trace(RTCScene scene, RTCRay& ray, Query query) {
+    auto arguments = to_occlude(query, RayCaster::Rays::any);
+    rtcOccluded1(scene, &ray, &arguments);
+}
+inline void trace(const int* valid, RTCScene scene, RTCRayHit8& rays, RayCaster::Rays kind) {
+    Query query;
+    auto arguments = to_intersect(query, kind);
+    rtcIntersect8(valid, scene, &rays, &arguments);
+}
+inline void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
+    Query query;
+    auto arguments = to_occlude(query, kind);
+    rtcOccluded8(valid, scene, &rays, &arguments);
+}
+#else
+constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+inline Query& prepared(Query& query, RayCaster::Rays kind = RayCaster::Rays::any) {
+    if (kind == RayCaster::Rays::alike) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    if (!query.without.empty()) query.filter = filter;
+    return query;
+}
+inline void trace(RTCScene scene, RTCRayHit& ray, Query query) { rtcIntersect1(scene, &prepared(query), &ray); }
+inline void trace(RTCScene scene, RTCRay& ray, Query query) { rtcOccluded1(scene, &prepared(query), &ray); }
+inline void trace(const int* valid, RTCScene scene, RTCRayHit8& rays, RayCaster::Rays kind) {
+    Query query;
+    rtcIntersect8(valid, scene, &prepared(query, kind), &rays);
+}
+inline void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Rays kind) {
+    Query query;
+    rtcOccluded8(valid, scene, &prepared(query, kind), &rays);
+}
+#endif
+
+}  // namespace neumann::embree
