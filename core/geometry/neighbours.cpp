@@ -175,14 +175,15 @@ std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, co
 bool Neighbours::any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const {
     const double length = glm::length(y.position - x.position);
     const Vec3 direction = (y.position - x.position) / length;
-    const Face begin{x.shape, x.primitive}, last{y.shape, y.primitive};
+    const RayStart start = x, end_point = y;
     for (const Face& f : faces) {
-        if (is_behind(f, begin, direction) || is_behind(f, last, -direction)) continue;
+        if ((start.face && is_behind(f, *start.face, direction)) || (end_point.face && is_behind(f, *end_point.face, -direction)))
+            continue;
         double distances[2];
-        const int n = faces_.meet(f, x, direction, distances);
+        const int n = faces_.meet(f, start, direction, distances);
         if (n == 0) continue;
         // Of a face that y lies on, where the ray ends does not count.
-        const bool ends_there = f == last || faces_.holds(f, y.position);
+        const bool ends_there = end_point.face == f || faces_.holds(f, y.position);
         const int end = !ends_there ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
         for (int i = 0; i < n; ++i)
             if (i != end && distances[i] < length) return true;

@@ -11,7 +11,9 @@ namespace neumann {
 
 struct RayStart {
     RayStart(const Vec3& p) : position(p) {}
-    RayStart(const SurfacePoint& p) : position(p.position), face(Face{p.shape, p.primitive}) {}
+    RayStart(const SurfacePoint& p) : position(p.position) {
+        if (!p.is_infinite()) face = Face{p.shape, p.primitive};
+    }
 
     Vec3 position;
     std::optional<Face> face = {};
