@@ -1,6 +1,5 @@
 """Keywords as the options of the command, which checks them and says what is wrong."""
 
-import functools
 import inspect
 from os import PathLike, fspath
 from typing import Any, Callable, Dict, List, TypeVar
@@ -26,7 +25,7 @@ def options(keywords: Dict[str, Any]) -> List[str]:
     """bounces=6, direct="light" as -n6 --direct=light. None and False are left out, and what is no option."""
     result = []
     for name, value in keywords.items():
-        if value is None or value is False or name in ("self", "quiet", "method_options"):
+        if value is None or value is False or name in ("self", "quiet", "of_method"):
             continue
         option = "--" + name.replace("_", "-")
         if value is True:
@@ -42,24 +41,22 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def with_method_options(function: _Function) -> _Function:
-    """Its keywords ``**method_options`` by name: in help(), for completion, and against misspellings."""
+    """Names its ``**of_method`` in its signature and its help."""
     own = inspect.signature(function)
     keywords = [p for p in own.parameters.values() if p.kind is not p.VAR_KEYWORD]
     for name, annotation in MethodOptions.__annotations__.items():
         keywords.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation))
-    signature = own.replace(parameters=keywords)
+    function.__signature__ = own.replace(parameters=keywords)  # type: ignore[attr-defined]
+    function.__doc__ = (function.__doc__ or "") + "\n".join(f"        {name}: {text}" for name, text in HELP.items())
+    return function
 
-    @functools.wraps(function)
-    def call(*arguments: Any, **given: Any) -> Any:
-        try:
-            signature.bind(*arguments, **given)
-        except TypeError as error:
-            raise TypeError(f"{function.__name__}() {error}") from None
-        return function(*arguments, **given)
 
-    call.__signature__ = signature  # type: ignore[attr-defined]
-    call.__doc__ = (function.__doc__ or "") + "\n".join(f"        {name}: {text}" for name, text in HELP.items())
-    return call  # type: ignore[return-value]
+def method_options(given: MethodOptions) -> Dict[str, Any]:
+    """In the order of the table. Raises TypeError for a name that is not in it, as Python does for its own keywords."""
+    for name in given:
+        if name not in HELP:
+            raise TypeError(f"render() got an unexpected keyword argument '{name}'")
+    return {name: given[name] for name in HELP if name in given}  # type: ignore[literal-required]
 
 
 def definitions(overrides: Dict[str, Any]) -> Dict[str, str]:

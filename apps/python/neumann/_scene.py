@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
 import numpy as np
 
 from . import _neumann, _report
-from ._arguments import definitions, options, with_method_options
+from ._arguments import definitions, method_options, options, with_method_options
 from ._bounces import BounceSeries, Memory
 from ._display import as_table
 from ._matrices import STEPS, Matrices, Solutions
@@ -84,7 +84,7 @@ class Scene:
         seed: Optional[int] = None,
         threads: Optional[int] = None,
         quiet: bool = False,
-        **method_options: Unpack[MethodOptions],
+        **of_method: Unpack[MethodOptions],
     ) -> BounceSeries:
         """Renders the bounces K^i Le, their sums, and the rest: as ``neumann render``, with the same bits for the same seed.
 
@@ -100,7 +100,7 @@ class Scene:
 
         The other keywords are the options of the methods:
         """
-        job = _neumann.render(self._scene, options({**locals(), **method_options}))
+        job = _neumann.render(self._scene, options({**locals(), **method_options(of_method)}))
         series: BounceSeries = run(job, quiet, lambda made: BounceSeries(Memory(made), self.path))
         if not quiet:
             warn(series.warnings)
