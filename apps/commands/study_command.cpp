@@ -9,16 +9,33 @@
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/bounces.h"
+#include "operators/study/reference_choice.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 namespace neumann {
 
 namespace {
+
+// Throws InputError where one is unknown, given twice, or there is none.
+std::vector<StudyMethod> study_methods(const StudyRequest& request) {
+    std::vector<StudyMethod> methods;
+    for (const std::string& name : request.methods) {
+        if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
+            throw InputError(fmt::format("--methods: '{}' is given twice", name));
+        try {
+            methods.push_back({name, studied_method(name)});
+        } catch (const InputError& e) {
+            throw InputError(fmt::format("--methods {}", e.what()));
+        }
+    }
+    return methods;
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -122,7 +139,8 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         data.plan = study_plan(journal.plan, !request.samples.empty());
     } else {
         status("short runs that measure how fast the methods are", 0.0);
-        auto plan = plan_study(request, methods, scene, pilot, data.bounces);
+        auto plan = plan_study({request.budgets, request.samples, request.reference_samples}, methods, data.bounces, request.seed,
+                               scene, pilot, interrupted);
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);
     }
@@ -131,7 +149,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         choice = journal.plan.at("choice");
         if (request.reference.empty()) request.reference = journal.plan.at("reference").at("method");
     } else if (request.reference.empty()) {
-        auto chosen = choose_reference(scene, pilot, data.bounces);
+        auto chosen = choose_reference(scene, pilot, data.bounces, interrupted);
         if (!chosen) return nothing_done();
         request.reference = chosen->method;
         choice = chosen->why;

@@ -8,7 +8,6 @@
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
 #include "operators/methods/method_options.h"
-#include "operators/study/reference_choice.h"
 
 #include <fmt/format.h>
 #define XXH_INLINE_ALL
@@ -27,10 +26,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* values_prefix = "values:";
-// Of each method that is tried: 4 samples a pixel, and twice as many until it has cast so many rays.
-constexpr int first_trial = 2;
-constexpr std::uint64_t trial_rays = 500'000;
-
 std::optional<fs::path> cache_folder() {
     const char* cache = std::getenv("XDG_CACHE_HOME");
     if (cache && *cache == '/') return fs::path(cache) / "neumann";
@@ -141,34 +136,7 @@ StudyMethod making_method(const StudyRequest& request) {
     return method;
 }
 
-// variance_times_rays(), with a seed that is that of no run and not that of the reference.
-std::optional<std::vector<double>> try_method(const char* name, const Scene& scene, const Pilot& pilot, int bounces) {
-    for (int level = first_trial;; ++level) {
-        const auto run = run_method({name, read_method(name)}, sampling_effort(level), bounces,
-                                    study_seed(0, reference_method, 0, 1), scene, pilot);
-        if (!run) return std::nullopt;
-        if (run->rays >= trial_rays || level == largest_effort) return variance_times_rays(*run);
-    }
-}
-
-std::string in_words(double ratio) { return std::isinf(ratio) ? "∞" : fmt::format("{:.2g}", ratio); }
-
 }  // namespace
-
-std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces) {
-    if (scene.hide_emitters) return ReferenceChoice{"walk", "bidirectional cannot hide emitters, as the scene asks for"};
-    if (scene.emitters.has_delta_lights() && has_specular(scene.materials))
-        return ReferenceChoice{"bidirectional", "walk does not find what mirrors and glass throw on from a light without extent"};
-    const auto walk = try_method("walk", scene, pilot, bounces);
-    if (!walk) return std::nullopt;
-    const auto bidirectional = try_method("bidirectional", scene, pilot, bounces);
-    if (!bidirectional) return std::nullopt;
-    const VarianceRatio ratio = variance_ratio(*walk, *bidirectional);
-    return ReferenceChoice{
-        ratio.takes_first() ? "walk" : "bidirectional",
-        fmt::format("in a trial walk had {} (bounce {}) to {} (bounce {}) times the variance of bidirectional for as many rays",
-                    in_words(ratio.least), ratio.least_bounce, in_words(ratio.most), ratio.most_bounce)};
-}
 
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces) {
     if (request.reference.empty()) return std::nullopt;
@@ -202,7 +170,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
 
     const Stopwatch watch;
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
-    const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot);
+    const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot, interrupted);
     if (!run) return std::nullopt;
     StudyReference made;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->term(i));

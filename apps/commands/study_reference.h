@@ -2,7 +2,8 @@
 // kept for later studies in $XDG_CACHE_HOME/neumann, or ~/.cache/neumann.
 #pragma once
 
-#include "apps/commands/study_plan.h"
+#include "apps/commands/study_command.h"
+#include "operators/study/study_plan.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,13 +18,6 @@ struct StudyReference {
     bool exact = false, from_cache = false;
     double seconds = 0.0;  // that it took
 };
-
-// What makes the reference where nothing was asked for, the same for the same scene and bounces, and why.
-struct ReferenceChoice {
-    std::string method, why;
-};
-// By short runs of all methods that make the paths of this scene; nothing where it was interrupted.
-std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces);
 
 // The answer or the pictures that were given; nothing where a method is to make them. Throws InputError where it is none of these,
 // or of another size.

@@ -6,7 +6,7 @@
 // the first one is behind by max ρ, the second one by 1 / min ρ.
 #pragma once
 
-#include "operators/methods/bounce_series.h"
+#include "operators/study/study_method.h"
 
 #include <span>
 #include <vector>
@@ -27,5 +27,12 @@ struct VarianceRatio {
 
 // Of variance_times_rays() of both, of as many bounces, at least one. Equal where both are infinite.
 VarianceRatio variance_ratio(std::span<const double> first, std::span<const double> second);
+
+// What makes a reference where nothing was asked for, the same for the same scene and bounces, and why.
+struct ReferenceChoice {
+    std::string method, why;
+};
+// By short runs of all methods that make the paths of this scene; nothing where it was stopped.
+std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces, const Stop& stop);
 
 }  // namespace neumann

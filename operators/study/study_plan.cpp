@@ -1,10 +1,4 @@
-#include "apps/commands/study_plan.h"
-
-#include "apps/commands/interrupt.h"
-#include "core/base/error.h"
-#include "operators/methods/method_options.h"
-
-#include <fmt/format.h>
+#include "operators/study/study_plan.h"
 
 #include <algorithm>
 #include <bit>
@@ -40,11 +34,11 @@ struct Measurement {
 
 // Until the seconds are `enough`. What fields set up grows with their patches.
 std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
-                                   const Pilot& pilot) {
+                                   const Pilot& pilot, const Stop& stop) {
     Measurement result{{}, 0.0, has_fields(method.method)};
     auto& [seconds, setup, fields] = result;
     do {
-        const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot);
+        const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot, stop);
         if (!run) return std::nullopt;
         setup = fields ? 0.0 : run->setup_seconds;
         seconds.push_back(run->seconds - setup);
@@ -54,79 +48,36 @@ std::optional<Measurement> measure(const StudyMethod& method, double enough, int
 
 }  // namespace
 
-Method studied_method(const std::string& word) {
-    const Method method = read_method(word);
-    const auto* both = std::get_if<method::Bidirectional>(&method);
-    const auto* patches = std::get_if<method::Patches>(&method);
-    if ((both && both->ways) || (patches && patches->importance))
-        throw InputError(
-            fmt::format("{}: ways and importance have no place in a study, which compares pictures of radiance", word));
-    return method;
-}
-
-std::vector<StudyMethod> study_methods(const StudyRequest& request) {
-    std::vector<StudyMethod> methods;
-    for (const std::string& name : request.methods) {
-        if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
-            throw InputError(fmt::format("--methods: '{}' is given twice", name));
-        try {
-            methods.push_back({name, studied_method(name)});
-        } catch (const InputError& e) {
-            throw InputError(fmt::format("--methods {}", e.what()));
-        }
-    }
-    return methods;
-}
-
-std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
-                                       const Scene& scene, const Pilot& pilot) {
-    try {
-        Goal goal;
-        goal.bounces = bounces;
-        goal.samples = effort.samples;
-        goal.seed = seed;
-        goal.only_pictures = true;
-        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {interrupted}, pilot);
-        if (series.outcome == Outcome::interrupted) return std::nullopt;
-        return series;
-    } catch (const InputError& e) {
-        throw InputError(fmt::format("{}: {}", method.name, e.what()));
-    } catch (const RunError& e) {
-        if (interrupted()) return std::nullopt;
-        throw RunError(fmt::format("{}: {}", method.name, e.what()));
-    }
-}
-
-std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vector<StudyMethod>& methods, const Scene& scene,
-                                    const Pilot& pilot, int bounces) {
+std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vector<StudyMethod>& methods, int bounces,
+                                    std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Stop& stop) {
     StudyPlan plan;
-    plan.budgets_are_samples = !request.samples.empty();
+    plan.budgets_are_samples = !wanted.samples.empty();
     std::uint64_t most_samples = 0;
     if (plan.budgets_are_samples) {
-        plan.budgets.assign(request.samples.begin(), request.samples.end());
+        plan.budgets.assign(wanted.samples.begin(), wanted.samples.end());
         for (const StudyMethod& method : methods) {
             std::vector<Effort>& efforts = plan.efforts.emplace_back();
-            for (const std::uint64_t n : request.samples)
+            for (const std::uint64_t n : wanted.samples)
                 efforts.push_back(has_fields(method.method) ? field_effort_of_samples(n) : Effort{n});
-            if (!run_method(method, effort_of(method, 0), bounces, request.seed, scene, pilot)) return std::nullopt;
+            if (!run_method(method, effort_of(method, 0), bounces, seed, scene, pilot, stop)) return std::nullopt;
         }
-        most_samples = request.samples.back();
+        most_samples = wanted.samples.back();
     } else {
         const double largest =
-            request.budgets.empty() ? std::ldexp(least_default_budget, default_budgets - 1) : request.budgets.back();
+            wanted.seconds.empty() ? std::ldexp(least_default_budget, default_budgets - 1) : wanted.seconds.back();
         std::vector<Measurement> measured;
         double least = least_default_budget;
         for (const StudyMethod& method : methods) {
             const bool fields = has_fields(method.method);
             const double part = part_of_budget * largest;
             auto run = measure(method, std::max(shortest_measurement, fields ? part : std::min(part, longest_measurement)), bounces,
-                               request.seed, scene, pilot);
+                               seed, scene, pilot, stop);
             if (!run) return std::nullopt;
             const double first = run->seconds.front();
             least = std::max(least, fields ? first : run->setup + 4.0 * first);
             measured.push_back(std::move(*run));
         }
-        plan.budgets = request.budgets;
+        plan.budgets = wanted.seconds;
         if (plan.budgets.empty())
             for (int b = 0; b < default_budgets; ++b) plan.budgets.push_back(std::ldexp(least, b));
         for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -135,19 +86,19 @@ std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vect
             for (const double budget : plan.budgets) {
                 levels.push_back(measured[m].level(budget));
                 if (!measured[m].fields || patches_given || levels.back() == 0.0) continue;
-                const auto run = run_method(methods[m], field_effort(levels.back()), bounces, request.seed, scene, pilot);
+                const auto run = run_method(methods[m], field_effort(levels.back()), bounces, seed, scene, pilot, stop);
                 if (!run) return std::nullopt;
                 levels.back() = corrected_level(levels.back(), run->seconds, budget);
             }
             plan.efforts.push_back(measured[m].fields ? field_efforts(levels, patches_given) : sampling_efforts(levels));
         }
         const StudyMethod walk{"walk", method::Walk{}};
-        const auto measured_walk = measure(walk, shortest_measurement, bounces, request.seed, scene, pilot);
+        const auto measured_walk = measure(walk, shortest_measurement, bounces, seed, scene, pilot, stop);
         if (!measured_walk) return std::nullopt;
         most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;
     }
     plan.reference_samples =
-        request.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
+        wanted.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
     return plan;
 }
 

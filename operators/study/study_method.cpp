@@ -1,0 +1,39 @@
+#include "operators/study/study_method.h"
+
+#include "core/base/error.h"
+#include "operators/methods/method_options.h"
+
+#include <fmt/format.h>
+
+namespace neumann {
+
+Method studied_method(const std::string& word) {
+    const Method method = read_method(word);
+    const auto* both = std::get_if<method::Bidirectional>(&method);
+    const auto* patches = std::get_if<method::Patches>(&method);
+    if ((both && both->ways) || (patches && patches->importance))
+        throw InputError(
+            fmt::format("{}: ways and importance have no place in a study, which compares pictures of radiance", word));
+    return method;
+}
+
+std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
+                                       const Scene& scene, const Pilot& pilot, const Stop& stop) {
+    try {
+        Goal goal;
+        goal.bounces = bounces;
+        goal.samples = effort.samples;
+        goal.seed = seed;
+        goal.only_pictures = true;
+        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {stop}, pilot);
+        if (series.outcome == Outcome::interrupted) return std::nullopt;
+        return series;
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", method.name, e.what()));
+    } catch (const RunError& e) {
+        if (stop()) return std::nullopt;
+        throw RunError(fmt::format("{}: {}", method.name, e.what()));
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,25 @@
+// A method of a study, and a single run of it.
+#pragma once
+
+#include "operators/methods/render.h"
+#include "operators/study/effort.h"
+
+#include <functional>
+#include <string>
+
+namespace neumann {
+
+struct StudyMethod {
+    std::string name;  // as given
+    Method method;
+};
+
+// A method as read_method() reads it. Throws InputError where it is unknown, or has no place in a study.
+Method studied_method(const std::string& word);
+
+// Nothing where it was stopped (Watch::stop). Errors name the method.
+using Stop = std::function<bool()>;
+std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
+                                       const Scene& scene, const Pilot& pilot, const Stop& stop);
+
+}  // namespace neumann
