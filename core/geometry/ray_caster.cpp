@@ -25,7 +25,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 Vec3 origin(const RTCRay& ray) { return {ray.org_x, ray.org_y, ray.org_z}; }
 Vec3 direction(const RTCRay& ray) { return {ray.dir_x, ray.dir_y, ray.dir_z}; }
 
-// What a query brings along, behind Embree's own part: the faces that it does not look for, in order.
+// The query context, with Embree's part first: the faces to skip, sorted.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
@@ -54,8 +54,8 @@ struct SphereData {
     double radius;
     RTCBounds bounds;
 
-    // Smallest root in (tnear, tfar), or NaN. The half chord comes from the distance of the centre to the line, which keeps its
-    // digits for rays that start on the sphere.
+    // Smallest root in (tnear, tfar), or NaN. The half chord is computed from the distance of the centre to the line, which stays
+    // accurate for rays that start on the sphere.
     double intersect(const RTCRay& ray) const {
         const Vec3 d = direction(ray), f = origin(ray) - center;
         const double a = glm::dot(d, d), middle = -glm::dot(f, d) / a;
@@ -88,7 +88,7 @@ struct CylinderData {
     double length, radius;
     RTCBounds bounds;
 
-    // As the sphere, across the axis; of the two roots those on the cylinder count.
+    // As for the sphere, perpendicular to the axis; only roots between the two ends count.
     double intersect(const RTCRay& ray) const {
         const Vec3 d = direction(ray), f = origin(ray) - base;
         const double d_along = glm::dot(d, axis), f_along = glm::dot(f, axis);
@@ -224,7 +224,7 @@ void copy(const float (&from)[N], float* to) {
     std::copy(from, from + N, to);
 }
 
-// Which of 8 places are taken by n rays.
+// Embree's mask of valid rays: n of 8 lanes are used.
 struct Valid {
     explicit Valid(std::size_t n) {
         for (std::size_t i = 0; i < 8; ++i) lanes[i] = i < n ? -1 : 0;
@@ -279,7 +279,7 @@ struct RayCaster::Impl {
             rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                        triangle_size, mesh.triangles.size());
         } else {
-            // The numbers of the others stay.
+            // Removed triangles keep their number, so that the others' numbers do not change.
             auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
                 geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangle_size, mesh.triangles.size()));
             std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
@@ -327,7 +327,7 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> wit
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) throw RunError("Embree could not be started");
     impl_->scene = rtcNewScene(impl_->device);
-    // Robust: no ray slips through the edge that two triangles share.
+    // In robust mode no ray passes between two triangles that share an edge.
     rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filters_allowed));
     for (std::uint32_t id = 0; id < shapes.size(); ++id) {
         const auto begin = std::lower_bound(without.begin(), without.end(), Face{id, 0});
@@ -414,7 +414,7 @@ std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
 
 void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) const {
     const Vec3 at = to_embree(p);
-    // Boxes of floats around what was rounded to float, and p rounded likewise.
+    // The radius covers the rounding of the boxes and of p to float.
     const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_);
     RTCPointQuery query{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z), 0.0f,
                         std::nextafter(static_cast<float>(radius), infinity)};

@@ -13,14 +13,14 @@ constexpr double tolerance = 1e-4;
 Vec3 point(const Mat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
 Vec3 vector(const Mat4& m, const Vec3& v) { return Vec3(m * glm::dvec4(v, 0.0)); }
 
-// The linear part over the largest of its numbers, whose products are representable.
+// The linear part divided by its largest entry, so that products neither overflow nor underflow.
 glm::dmat3 scaled_to_one(const Mat4& m) {
     const glm::dmat3 linear(m);
     return linear / max_component({max_component(glm::abs(linear[0])), max_component(glm::abs(linear[1])),
                                    max_component(glm::abs(linear[2]))});
 }
 
-// Up to a positive factor: of a mirroring map too, normals stay on their side.
+// The map of normals, up to a positive factor, so that normals stay on their side also if the map mirrors.
 glm::dmat3 map_of_normals(const Mat4& m) { return glm::transpose(glm::inverse(scaled_to_one(m))); }
 
 }  // namespace
