@@ -1,4 +1,4 @@
-// Points on all surfaces, uniform by area.
+// Samples points on all surfaces, uniformly by area.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -9,7 +9,7 @@ class AreaSampler {
 public:
     explicit AreaSampler(const Geometry& geometry);
 
-    // pdf 1/area() per area. The scene must have surfaces.
+    // The pdf is 1/area() per area. The scene must have surfaces.
     SurfacePoint sample(double choice, const Vec2& uv) const;
     double area() const { return cumulative_.empty() ? 0.0 : cumulative_.back(); }
 

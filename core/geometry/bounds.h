@@ -1,4 +1,4 @@
-// A box around something, along the axes.
+// An axis-aligned bounding box.
 #pragma once
 
 #include "core/base/vec.h"
@@ -20,7 +20,7 @@ struct Bounds {
     }
     bool is_empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
     Vec3 center() const { return 0.5 * (low + high); }
-    // Of the sphere around it.
+    // Radius of the sphere around the box.
     double radius() const { return 0.5 * glm::length(high - low); }
     Bounds grown(double by) const { return {low - by, high + by}; }
     friend Bounds intersection(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }

@@ -8,12 +8,12 @@ namespace neumann {
 
 namespace {
 
-// A convex polygon, of a triangle of which half-spaces are cut off.
+// A convex polygon: a triangle clipped by half-spaces.
 class Polygon {
 public:
     explicit Polygon(const std::array<Vec3, 3>& corners) : size_(3) { std::copy(corners.begin(), corners.end(), corners_.begin()); }
 
-    // Keeps dot(n, x − from) ≤ most.
+    // Keeps the part with dot(n, x − from) ≤ most.
     void cut(const Vec3& n, const Vec3& from, double most) {
         std::array<Vec3, capacity> kept;
         std::size_t size = 0;
@@ -37,14 +37,14 @@ public:
     std::span<const Vec3> corners() const { return {corners_.data(), size_}; }
 
 private:
-    // A cut adds one corner at most, and there are up to 6 of a box and 2 of a disc. Rounding may leave a convex polygon a little
-    // less so, which costs two corners a cut more at most.
+    // A cut adds at most one corner, and there are up to 6 cuts for a box and 2 for a disc. After rounding the polygon may not be
+    // quite convex, which adds at most two more corners per cut.
     static constexpr std::size_t capacity = 3 + 3 * 8;
     std::array<Vec3, capacity> corners_;
     std::size_t size_;
 };
 
-// Around the circle in which a plane at distance h from the centre of a sphere meets it, as far as they are within `distance`.
+// Bounds of the part of a plane that is within `distance` of the sphere, around the circle where they intersect.
 std::optional<Bounds> around_circle(const Sphere& sphere, const Vec3& on_plane, const Vec3& normal, double distance) {
     const double h = glm::dot(sphere.center - on_plane, normal);
     const double least = std::max(std::abs(h) - distance, 0.0), most = sphere.radius + distance;
@@ -99,7 +99,7 @@ std::optional<CloseRegion> region_of_triangle(const DoubleFaces& faces, const Fa
     }
     if (polygon.corners().empty()) return std::nullopt;
     CloseRegion region;
-    Vec3 largest(0.0);  // of the weights of the three corners
+    Vec3 largest(0.0);  // largest weight of each vertex over the polygon's corners
     for (const Vec3& p : polygon.corners()) {
         region.bounds.add(p);
         const Vec2 w = t.weights(p);

@@ -1,4 +1,4 @@
-// Where a face is close to another one.
+// The region of a face that is close to another face.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -10,13 +10,13 @@ namespace neumann {
 
 struct CloseRegion {
     Bounds bounds;
-    // Of a triangle: points at least this far from all edges, as a barycentric weight, are outside the region, and so are those
-    // outside this polygon of weights of the second and third vertex.
+    // For a triangle: points whose barycentric weights are all at least `clear` are outside the region, and so are points outside
+    // the polygon, which is given by the weights of the second and third vertex.
     double clear;
     std::vector<Vec2> weights;
 };
 
-// The part of face a that is nearer than `distance` to b, or something larger around it; empty where no part is.
+// A region of face a that contains all points closer than `distance` to b; nothing if there are none.
 std::optional<CloseRegion> close_region(const DoubleFaces& faces, const Face& a, const Face& b, double distance);
 
 }  // namespace neumann

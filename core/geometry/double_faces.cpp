@@ -12,12 +12,12 @@ namespace {
 
 double rounding_at(const Vec3& p, const Vec3& other) { return double_rounding(p, largest_component(other)); }
 
-// How far beside its rim a ray from p meets a face: where two share an edge, it is to meet at least one of them.
+// How far outside its rim a ray from p still hits a face: if two faces share an edge, the ray must hit at least one of them.
 double rim_rounding(const Vec3& p, const Vec3& face, double distance) {
     return 4.0 * double_rounding(p, largest_component(face) + distance);
 }
 
-// p − base, along the axis and across it.
+// Components of p − base along the axis and perpendicular to it.
 struct Cylindrical {
     double along;
     Vec3 across;

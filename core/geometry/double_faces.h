@@ -1,4 +1,4 @@
-// Faces in double, for the few rays and points whose surroundings are finer than Embree's floats.
+// Intersection in double precision, for the few rays and points where Embree's floats are too coarse.
 #pragma once
 
 #include "core/geometry/bounds.h"
@@ -14,32 +14,33 @@ namespace neumann {
 
 class DoubleFaces {
 public:
-    // Of Geometry, whose arrays outlive this: the triangles and the errors of round shapes, by shape.
+    // Geometry's arrays, which must outlive this object: triangles, and errors of round shapes, by shape.
     DoubleFaces(const std::vector<Shape>& shapes, std::span<const std::vector<Triangle>> triangles, std::span<const double> errors)
         : shapes_(&shapes), triangles_(triangles), errors_(errors) {}
 
     const std::vector<Shape>& shapes() const { return *shapes_; }
-    // Null where the face is no triangle.
+    // Null if the face is not a triangle.
     const Triangle* triangle(const Face& f) const {
         const auto& of_shape = triangles_[f.shape];
         return of_shape.empty() ? nullptr : &of_shape[f.primitive];
     }
     std::array<Vec3, 3> vertices(const Face& f) const;
-    // How far rounding to float moves it, and a hit on it.
+    // How far rounding to float moves the face, and a hit on it.
     double error(const Face& f) const {
         const Triangle* t = triangle(f);
         return t ? t->error() : errors_[f.shape];
     }
     Bounds bounds(const Face& f) const;
-    // Of the sphere around its box.
+    // Diameter of the sphere around the face's bounding box.
     double size(const Face& f) const { return 2.0 * bounds(f).radius(); }
     std::vector<Face> all() const;
 
-    // Whether p is at most `distance` from the face, or a little more beside its corners.
+    // Whether p is at most `distance` from the face; near corners the limit is a little larger.
     bool is_near(const Face& f, const Vec3& p, double distance) const;
     // Whether p lies on the face, or on the plane of a triangle or disc, as far as doubles can tell.
     bool holds(const Face& f, const Vec3& p) const;
-    // Where a ray meets the face: up to two distances > 0, ascending; none where it starts. `direction`: unit length.
+    // Finds the distances > 0 at which a ray hits the face: up to two, ascending, without the start itself. Returns their number.
+    // `direction`: unit length.
     int meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2]) const;
 
 private:

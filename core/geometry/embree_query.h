@@ -16,7 +16,7 @@
 
 namespace neumann::embree {
 
-// What a query brings along, behind Embree's own part: the faces that it does not look for, in order.
+// The query context, with Embree's part first: the faces to skip, sorted.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 inline void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }

@@ -20,8 +20,8 @@ struct SphereData {
     double radius;
     RTCBounds bounds;
 
-    // Smallest root in (tnear, tfar), or NaN. The half chord comes from the distance of the centre to the line, which keeps its
-    // digits for rays that start on the sphere.
+    // Smallest root in (tnear, tfar), or NaN. The half chord is computed from the distance of the centre to the line, which keeps
+    // its digits for rays that start on the sphere.
     double intersect(const RTCRay& ray) const {
         const Vec3 d = direction(ray), f = origin(ray) - center;
         const double a = glm::dot(d, d), middle = -glm::dot(f, d) / a;

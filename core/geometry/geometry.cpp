@@ -81,7 +81,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
     const Giants giants = find_giants(*shapes_);
     giants_ = giants.faces;
 
-    // What Embree sees is about as large as 1.
+    // Embree's coordinates are scaled to about unit size.
     const Bounds& seen = giants.rest.is_empty() ? bounds : giants.rest;
     double scale = 1.0;
     if (!seen.is_empty()) {
@@ -92,7 +92,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
     caster_ = std::make_unique<RayCaster>(*shapes_, giants_, seen.is_empty() ? Vec3(0.0) : seen.center(), scale);
     triangles_.resize(shapes_->size());
     error_.resize(shapes_->size());
-    // Far from the origin doubles are coarser than the floats of what is small there.
+    // Far from the origin, doubles may be coarser than the floats of a small scene relative to its centre.
     const double least_error = seen.is_empty() ? 0.0 : 4.0 * double_rounding(seen.low, largest_component(seen.high));
     const auto error = [&](const Face& face, double size) {
         const bool is_giant = std::binary_search(giants_.begin(), giants_.end(), face);
@@ -169,7 +169,7 @@ SurfacePoint Geometry::point_on(const Face& face, const Vec3& position) const {
 
 namespace {
 
-// Embree is asked where the ray is near what it holds.
+// Traces with Embree the part of the ray that is near the faces that it holds.
 bool cast_near_rest(const Giants& giants, const RayCaster& caster, const Vec3& origin, const Vec3& direction, double distance,
                     std::span<const Face> without, RayCaster::Hit& hit) {
     const auto part = giants.near_rest(origin, direction, distance);
@@ -190,8 +190,8 @@ bool Geometry::meet_giants(const RayStart& start, const Vec3& direction, double 
     return true;
 }
 
-// Each close hit of Embree's is asked for in double, with all that is close to it, until the next one of Embree's is not close, or
-// lies behind what doubles meet.
+// Recomputes each close hit of Embree in double, with all faces close to it, until the next hit of Embree is not close, or lies
+// behind a hit found in double.
 bool Geometry::first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                               std::vector<Face> faces, SurfacePoint& hit) const {
     const Vec3 origin = start.position;

@@ -1,11 +1,11 @@
-// Where things are: the shapes of a scene, and the two questions that light transport asks of them, tr(p, ω) and V(x, y).
-// Nothing here knows what surfaces are made of.
+// The shapes of a scene, and the two functions of them that light transport needs: ray tracing tr(p, ω) and visibility V(x, y).
+// Materials are not known here.
 //
-// Embree sees the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything outside stays
-// in scene units and double. Embree tells which primitive is hit, by a ray that leaves a surface from a point moved along its
-// normal by the rounding error of floats; where the hit is, the ray from the point itself tells, in double. So scale and place of
-// the scene do not matter. Where surfaces are nearer to each other than floats tell, all of it is done in double (Neighbours), and
-// so is what would make floats coarse for all else (Giants).
+// Embree holds the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything else is in
+// scene units and double. Embree only finds which primitive is hit, with a ray whose origin is offset along the normal by the
+// rounding error of floats. The hit point is then computed in double, with the ray from the original point. The scale and position
+// of the scene therefore do not matter. Where surfaces are closer to each other than floats can resolve, everything is done in
+// double (Neighbours), and so are faces so large that they would make floats coarse for all others (Giants).
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -30,8 +30,8 @@ struct RoundPoint;
 
 class Geometry {
 public:
-    // Degenerate triangles, and other shapes without extent, are left out and counted. Throws InputError where a coordinate
-    // is not finite or an index is out of range.
+    // Degenerate triangles, and other shapes without extent, are left out and counted. Throws InputError if a coordinate is not
+    // finite or an index is out of range.
     explicit Geometry(std::vector<Shape> shapes);
     Geometry(Geometry&&) noexcept;
     ~Geometry();
@@ -40,15 +40,16 @@ public:
     std::shared_ptr<const std::vector<Shape>> shared_shapes() const { return shapes_; }
     std::size_t degenerate_count() const { return degenerate_count_; }
 
-    // tr(p, ω) from a point in space, up to `distance`; ω unit length. False where nothing is hit; `hit` is then left as it was.
+    // tr(p, ω) from a point in space, up to `distance`; ω has unit length. Returns false and leaves `hit` unchanged if nothing is
+    // hit.
     bool first_hit(const Vec3& origin, const Vec3& direction, double distance, SurfacePoint& hit) const;
     // tr(p, ω) from a surface: the first surface point seen from p along ω, on the side of p that ω points to. `hit` may be `from`.
     bool first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
-    // V(x, y): nothing stands between two surface points.
+    // V(x, y): whether two surface points see each other.
     bool visible(const SurfacePoint& x, const SurfacePoint& y) const;
 
-    // The same for up to RayCaster::packet_size rays or pairs; bit i answers for the i-th. `from(i)`, `pair(i)` and `hit(i)` give
-    // references to the point and direction of departure, to the two points, and to where a hit goes.
+    // The same for up to RayCaster::packet_size rays or pairs; bit i of the result is for the i-th. `from(i)` returns references to
+    // the start and the direction, `pair(i)` to the two points, and `hit(i)` to the variable for the hit.
     template <class HitAt>
     std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
         if (!giants_.empty())
@@ -113,10 +114,11 @@ public:
         return seen;
     }
 
-    // Where a ray starts that leaves p to the side of its normal (side > 0) or to the other: clear of the hit's rounding error.
+    // The origin of a ray that leaves p on the side of its normal (side > 0) or on the other: offset by the hit's rounding error.
     static Vec3 leave(const SurfacePoint& p, double side) { return p.position + p.normal * std::copysign(p.error, side); }
 
-    // Uniform by area: number of primitives of a shape, their areas, and the point at (u, v) ∈ [0,1)² of a primitive.
+    // For sampling uniformly by area: number of primitives of a shape, their areas, and the point at (u, v) ∈ [0,1)² of a
+    // primitive.
     std::uint32_t primitive_count(std::uint32_t shape) const;
     double area(std::uint32_t shape, std::uint32_t primitive) const;
     double area(std::uint32_t shape) const;
@@ -129,7 +131,7 @@ public:
         return p;
     }
 
-    // A point near the plane of a triangle as one on the triangle.
+    // Moves a point near the plane of a triangle onto the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         const Triangle& t = triangles_[shape][primitive];
         SurfacePoint p{t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
@@ -139,12 +141,12 @@ public:
     // The inverse of point() on a sphere or a disc: the (u, v) of a point there.
     Vec2 round_coordinates(std::uint32_t shape, const Vec3& position) const;
 
-    // The sphere around the bounding box, scene units; radius 0 for a scene without surfaces.
+    // The sphere around the bounding box, in scene units; radius 0 if the scene has no surfaces.
     Vec3 center() const { return center_; }
     double radius() const { return radius_; }
 
     const RayCaster& caster() const { return *caster_; }
-    // The faces that the caster does not hold, in order.
+    // The faces that Embree does not hold (giants.h), in order.
     const std::vector<Face>& giants() const { return giants_; }
 
 private:
@@ -159,9 +161,9 @@ private:
     static const Vec3& position(const Start& start) {
         return start.position;
     }
-    // A hit of Embree's on the double geometry: where the ray from `start`, a point in space or on a surface, hits the primitive
-    // that Embree named. `start` may be p. False where other faces are close and the ray passes by the primitive in double:
-    // Embree's hit was none, and p is as it was.
+    // Computes the hit in double: the point p where the ray from `start`, a point in space or on a surface, hits the primitive that
+    // Embree found. `start` may be p. Returns false and leaves p unchanged if other faces are close and, in double, the ray misses
+    // the primitive.
     template <class Start>
     bool put_on_surface(const Start& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
         if (!triangles_[hit.shape].empty()) {
@@ -180,16 +182,16 @@ private:
     SurfacePoint round_point(const Face& face, const RoundPoint& p) const;
     // Sets p.close.
     void look_around(SurfacePoint& p) const;
-    // Of what is close to a hit, another face may come first. False where the ray passes by p's own face.
+    // A face close to the hit p may be hit first; then moves p to it. Returns false if the ray misses p's own face.
     bool settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
-    // Then: the first hit, with these faces in double, and all others by Embree, whose ray starts at `embree_start`.
+    // After that: the first hit, with the close faces in double and all others by Embree, whose ray starts at `embree_start`.
     bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                         std::vector<Face> faces, SurfacePoint& hit) const;
     SurfacePoint point_on(const Face& face, const Vec3& position) const;
-    // The faces around close points, and giants, in double, and all others by Embree.
+    // Intersects the faces around close points, and giants, in double, and all others with Embree.
     bool first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
     bool visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const;
-    // A giant may come before what Embree found, which is in p.
+    // Tests whether a giant is hit before p, which Embree found.
     bool meet_giants(const RayStart& start, const Vec3& direction, double distance, bool found, SurfacePoint& p) const;
     template <class Ask>
     static std::uint32_t one_by_one(std::size_t n, const Ask& ask) {
@@ -204,7 +206,7 @@ private:
     Vec3 center_{0.0};
     double radius_ = 0.0;
     std::unique_ptr<RayCaster> caster_;
-    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty where the shape is no mesh
+    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty if the shape is not a mesh
     std::vector<double> error_;                     // by shape: spheres, discs and cylinders
     std::vector<Face> giants_;
     std::unique_ptr<Neighbours> neighbours_;

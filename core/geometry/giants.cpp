@@ -9,16 +9,16 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t most_giants = 16;
-// So much larger than all else together a giant is,
+// A giant is at least this many times as large as all other faces together,
 constexpr double larger = 16.0;
-// and no more than this, or doubles cannot tell what lies on it,
+// and at most this many times: beyond that, doubles cannot resolve what lies on it.
 constexpr double largest_ratio = 0x1p27;
-// and so much longer than thin are faces of a scene of few that are giants all of them.
+// In a scene of few faces, all of them are giants if they are this many times as long as wide.
 constexpr double longer = 256.0;
 
 struct Sized {
     Face face;
-    double size;  // of the longest edge, or of the box around a round face
+    double size;  // length of the longest edge, or size of the box around a round face
     Bounds bounds;
 };
 
@@ -75,7 +75,7 @@ Giants find_giants(const std::vector<Shape>& shapes) {
     if (count == 0) return result;
 
     std::sort(largest.begin(), largest.end(), is_larger);
-    // The most of them that dwarf the rest.
+    // The largest number of giants that dwarf the rest.
     std::size_t giants = largest.size();
     const auto dwarf = [&] {
         const double rest = 2.0 * result.rest.radius();

@@ -1,5 +1,5 @@
-// Faces that dwarf everything else, such as a ground of kilometres around a room. If Embree's floats had to hold them, the
-// coordinates of all else, and the distance at which rays leave a surface, would be as coarse as they are large: so rays meet them
+// Faces that dwarf everything else, such as a ground of kilometres around a room. If Embree held them, the float coordinates of all
+// other faces, and the offset of ray origins, would be coarse in proportion to their size. Rays are therefore intersected with them
 // one by one, in double.
 #pragma once
 
@@ -14,17 +14,17 @@ namespace neumann {
 
 struct Giants {
     std::vector<Face> faces;  // in order; a few, or none
-    Bounds rest;              // of all others; empty where there are none
+    Bounds rest;              // bounds of all other faces; empty if there are none
 
-    // From where to where a ray, up to `distance`, is near the rest, where alone floats are asked; nothing where it is not. All of
-    // it where there are no giants. `direction`: unit length.
+    // The part of a ray, up to `distance`, that is near the rest; only this part is traced with Embree. Nothing if the ray does not
+    // come near. The whole ray if there are no giants. `direction`: unit length.
     struct Part {
         double begin, end;
     };
     std::optional<Part> near_rest(const Vec3& origin, const Vec3& direction, double distance) const;
 };
 
-// What has no extent is left out.
+// Shapes without extent are left out.
 Giants find_giants(const std::vector<Shape>& shapes);
 
 }  // namespace neumann

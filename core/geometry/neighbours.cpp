@@ -15,7 +15,7 @@ namespace {
 namespace index = boost::geometry::index;
 
 constexpr std::size_t largest_asked_one_by_one = 16;
-// Regions that reach no further from the edges than this are not kept one by one.
+// Regions that reach at most this far from the edges (as a barycentric weight) are not stored individually.
 constexpr double along_edges = 1.0 / 64.0;
 constexpr double reach_in_errors = 64.0;
 
@@ -25,8 +25,8 @@ bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-// Of two triangles that share a corner: whether b continues a beyond one of its edges, without a sharp bend. Then a ray may start
-// beside a, or end on either of them, and be on the right side of both.
+// For two triangles that share a corner: whether b continues a beyond one of its edges without a sharp bend. Then a displaced ray
+// that starts beside a, or ends on either of them, is still on the right side of both.
 bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
     constexpr double bend = 0.5, rounding = 1e-12;
     const Triangle &t = *faces.triangle(a), &other = *faces.triangle(b);
@@ -54,13 +54,13 @@ Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const Ray
     large_.shrink_to_fit();
 }
 
-// Not further than to the next but one triangle of a fine mesh.
+// In a fine mesh, the reach extends at most to the next triangle but one.
 double Neighbours::reach(const Face& a, const Face& b) const {
     const double errors = faces_.error(a) + faces_.error(b);
     return std::max(errors, std::min(reach_in_errors * errors, 0.125 * std::min(faces_.size(a), faces_.size(b))));
 }
 
-// All that come so near, or within their reach of a face whose error is not larger than distance / reach_in_errors.
+// Appends all faces closer to p than `distance`, or within their reach of a face whose error is at most distance / reach_in_errors.
 void Neighbours::append_near(const Vec3& p, double distance, std::vector<Face>& found) const {
     found.insert(found.end(), large_.begin(), large_.end());
     if (error_of_rest_ > 0.0) caster_->near(p, distance + reach_in_errors * error_of_rest_, found);
@@ -73,7 +73,7 @@ std::vector<Face> Neighbours::around(const SurfacePoint& p) const {
     std::vector<Face> found;
     append_near(p.position, reach_in_errors * p.error, found);
     std::erase_if(found, [&](const Face& f) {
-        // At first without a look at their sizes.
+        // First a test that ignores the faces' sizes.
         const double most = reach_in_errors * (p.error + faces_.error(f));
         return f != own && !(faces_.is_near(f, p.position, most) && faces_.is_near(f, p.position, reach(own, f)));
     });
@@ -145,7 +145,7 @@ void Neighbours::examine(const Face& f) const {
     }
     const Triangle::Cells* kept =
         boxes.empty() ? nullptr : &surroundings_.emplace(f, Surroundings{cells, Boxes(boxes)}).first->second.cells;
-    // Upwards, and above 0: points on an edge are looked at.
+    // Rounded up, and above 0, so that points on an edge are never clear.
     if (const Triangle* t = faces_.triangle(f))
         t->set_clear(std::nextafter(static_cast<float>(clear), 1.0f), kept);
     else
@@ -182,7 +182,7 @@ bool Neighbours::any_between(std::span<const Face> faces, const SurfacePoint& x,
         double distances[2];
         const int n = faces_.meet(f, start, direction, distances);
         if (n == 0) continue;
-        // Of a face that y lies on, where the ray ends does not count.
+        // If y lies on the face, a hit at the end of the ray does not count.
         const bool ends_there = end_point.face == f || faces_.holds(f, y.position);
         const int end = !ends_there ? -1 : n == 2 && std::abs(distances[1] - length) < std::abs(distances[0] - length);
         for (int i = 0; i < n; ++i)

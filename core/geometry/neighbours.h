@@ -1,11 +1,12 @@
-// What is closer together than Embree's floats can tell, asked in double: creases, thin gaps, surfaces that touch.
+// Faces that are closer together than Embree's floats can resolve (creases, thin gaps, surfaces that touch) are intersected in
+// double.
 //
-// Embree sees faces moved by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A point is
-// *close* where another face is nearer than both errors: there a ray could start behind that face, or end on the wrong one of the
-// two. It is close, too, where a face that does not touch its own is nearer than 64 times that: below and beside it a ray sees what
-// the point does not. Which parts of a face are close is found out when it is first hit, and kept; these parts are strips along
-// edges, as a rule, a millionth of the scene wide. The rays of close points meet the faces around them in double, and Embree is
-// asked for all others.
+// Embree holds faces that are displaced by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A
+// point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong
+// one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
+// origin sees past it what the point does not see. Which parts of a face are close is computed when the face is first hit, and
+// cached; usually these are strips along edges, a millionth of the scene wide. Rays of close points are intersected with the faces
+// around them in double, and with all others by Embree.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -28,22 +29,22 @@ namespace neumann {
 
 class Neighbours {
 public:
-    // The caster does not hold the giants.
+    // `caster` must not contain the giants.
     Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster);
 
     // Whether p, on its face, is close to another one.
     bool is_close(const SurfacePoint& p) const;
-    // Whether Embree's ray, which begins up to the rounding of a place beside the real one, may have met p's face in place of
-    // another one. `cosine`: of the ray with p's normal.
+    // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one. `cosine`: of the
+    // ray with p's normal.
     bool may_hide(const SurfacePoint& p, double cosine) const;
-    // The faces within rounding of p, with its own, in order.
+    // The faces within rounding of p, including its own, in order.
     std::vector<Face> around(const SurfacePoint& p) const;
 
     struct Met {
         Face face;
         double distance;
     };
-    // The first of the faces that a ray meets; none is behind the face that it starts on. `direction`: unit length.
+    // The first of the faces that a ray hits, without those behind the face that it starts on. `direction`: unit length.
     std::optional<Met> first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // Whether one of the faces lies strictly between x and y.
     bool any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const;
@@ -55,11 +56,11 @@ private:
     using Box = boost::geometry::model::box<Corner>;
     struct Other {
         Face face;
-        double near;  // close where it is so near
+        double near;  // points closer to the face than this are close
     };
     using Boxes = boost::geometry::index::rtree<std::pair<Box, Other>, boost::geometry::index::linear<16>>;
 
-    // What is close to the middle of a face is in the boxes and, of a triangle, for a first look, in the cells.
+    // The faces close to the interior of a face, in boxes; for a triangle, the cells allow a quick first test.
     struct Surroundings {
         Triangle::Cells cells;
         Boxes boxes;
@@ -67,21 +68,21 @@ private:
     void examine(const Face& f) const;
     // Whether the state of a round face is `clear`.
     bool is_clear_round(const Face& f) const;
-    // Whether a face of the surroundings of p's own is so near, and `aside` more.
+    // Whether a face in the surroundings of p's face is within its `near` distance plus `aside`.
     bool has_near(const SurfacePoint& p, double aside) const;
-    // Of triangles: whether nothing of f is on the side of own's plane that `direction` points to, where rays from own are.
+    // For triangles: whether f lies entirely on the other side of the plane of `own` than `direction`.
     bool is_behind(const Face& f, const Face& own, const Vec3& direction) const;
-    // How near to each other faces are that do not touch, and whose points are close.
+    // The distance below which two faces that do not touch have close points.
     double reach(const Face& a, const Face& b) const;
     void append_near(const Vec3& p, double distance, std::vector<Face>& found) const;
 
     DoubleFaces faces_;
     Giants giants_;
     const RayCaster* caster_;
-    std::vector<Face> large_;   // asked one by one, so that the others are found in small spheres
-    double error_of_rest_ = 0;  // the largest of them
-    double largest_error_ = 0;  // of all faces: how far beside the real one a ray may begin
-    // Of round faces, by shape; of triangles, Triangle::is_clear() tells.
+    std::vector<Face> large_;   // tested one by one, so that small search spheres suffice for the others
+    double error_of_rest_ = 0;  // the largest error of the others
+    double largest_error_ = 0;  // the largest error of all faces: how far an origin of a ray may be displaced
+    // State of round faces, by shape. For triangles see Triangle::is_clear().
     enum class State : std::uint8_t { unknown, clear, not_clear };
     mutable std::vector<State> round_;
     mutable oneapi::tbb::concurrent_map<Face, Surroundings> surroundings_;

@@ -37,7 +37,7 @@ void copy(const float (&from)[N], float* to) {
     std::copy(from, from + N, to);
 }
 
-// Which of 8 places are taken by n rays.
+// Embree's mask of valid rays: n of 8 lanes are used.
 struct Valid {
     explicit Valid(std::size_t n) {
         for (std::size_t i = 0; i < 8; ++i) lanes[i] = i < n ? -1 : 0;
@@ -92,7 +92,7 @@ struct RayCaster::Impl {
             rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                                        triangle_size, mesh.triangles.size());
         } else {
-            // The numbers of the others stay.
+            // Removed triangles keep their number, so that the others' numbers do not change.
             auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
                 geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangle_size, mesh.triangles.size()));
             std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
@@ -141,7 +141,7 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> wit
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) throw RunError("Embree could not be started");
     impl_->scene = rtcNewScene(impl_->device);
-    // Robust: no ray slips through the edge that two triangles share.
+    // In robust mode no ray passes between two triangles that share an edge.
     rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::filters_allowed));
     for (std::uint32_t id = 0; id < shapes.size(); ++id) {
         const auto begin = std::lower_bound(without.begin(), without.end(), Face{id, 0});
@@ -228,7 +228,7 @@ std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
 
 void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) const {
     const Vec3 at = to_embree(p);
-    // Boxes of floats around what was rounded to float, and p rounded likewise.
+    // The radius covers the rounding of the boxes and of p to float.
     const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_);
     RTCPointQuery query{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z), 0.0f,
                         std::nextafter(static_cast<float>(radius), infinity)};

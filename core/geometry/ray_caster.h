@@ -1,5 +1,5 @@
-// The one place that knows Embree (3.13 or 4): closest hits and occlusion among the shapes, in floats and in coordinates of about
-// unit size. Spheres, discs and cylinders are intersected in double, so they are as exact as the ray.
+// The only user of Embree (3.13 or 4): closest hits and occlusion, in floats and in coordinates of about unit size. Spheres, discs
+// and cylinders are intersected in double, so they are as exact as the ray.
 #pragma once
 
 #include "core/geometry/face.h"
@@ -17,9 +17,8 @@ namespace neumann {
 
 class RayCaster {
 public:
-    // Coordinates are moved by −center and multiplied by scale before Embree sees them. Triangles without extent must have been
-    // taken out; other shapes without extent are left out here, and so are the faces `without`, which are in order. The shapes have
-    // to outlive the caster.
+    // Coordinates are moved by −center and multiplied by `scale` for Embree. Triangles without extent must have been removed; other
+    // shapes without extent, and the faces `without` (sorted), are left out. The shapes must outlive the caster.
     RayCaster(const std::vector<Shape>& shapes, std::span<const Face> without, const Vec3& center, double scale);
     ~RayCaster();
 
@@ -33,22 +32,22 @@ public:
     // Whether anything lies strictly between two points.
     bool occluded(const Vec3& from, const Vec3& to) const;
 
-    // The same for up to 8 rays at once, which is faster: bit i of the answer belongs to ray i. Rays that are alike, such as those
-    // of one pixel, stay together through the whole scene.
+    // The same for up to 8 rays at once, which is faster; bit i of the result is for ray i. Rays::alike is for coherent rays, such
+    // as those of one pixel.
     static constexpr std::size_t packet_size = 8;
     enum class Rays { alike, any };
     class Packet;
     std::uint32_t intersect(const Packet& rays, std::span<Hit> hits, Rays kind) const;
     std::uint32_t occluded(const Packet& rays, Rays kind) const;
 
-    // The same without some faces, which are in order.
+    // The same without some faces, which are sorted.
     bool intersect(const Vec3& origin, const Vec3& direction, double distance, std::span<const Face> without, Hit& hit) const;
     bool occluded(const Vec3& from, const Vec3& to, std::span<const Face> without) const;
 
-    // Appends the faces that come nearer to p than this, and some others.
+    // Appends all faces closer to p than `distance`, and possibly others.
     void near(const Vec3& p, double distance, std::vector<Face>& found) const;
 
-    // For benchmarks that cast the same rays without anything around them.
+    // For benchmarks that call Embree directly.
     RTCSceneTy* embree_scene() const;
     Vec3 to_embree(const Vec3& p) const { return (p - center_) * scale_; }
     double scale() const { return scale_; }
@@ -61,7 +60,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Rays as Embree wants them.
+// A packet of rays in Embree's layout.
 class RayCaster::Packet {
 public:
     explicit Packet(const RayCaster& caster) : center_(caster.center_), scale_(caster.scale_) {}
@@ -87,9 +86,9 @@ private:
     float origin_[3][packet_size]{}, direction_[3][packet_size]{}, length_[packet_size]{};
 };
 
-// Which Embree is linked, such as "Embree 3.13.5".
+// The version of Embree, such as "Embree 3.13.5".
 const char* embree_version();
-// How many trees this program has built so far.
+// Number of acceleration structures that this program has built so far.
 std::uint64_t trees_built();
 
 }  // namespace neumann

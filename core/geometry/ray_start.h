@@ -1,5 +1,5 @@
-// Where a ray starts: anywhere in space, or on a face, which a flat one does not meet again and a round one not there, whatever
-// rounding has made of the point.
+// The start of a ray: a point in space or a point on a face. A ray that starts on a flat face does not hit it again, and one that
+// starts on a round face does not hit it there, however the point was rounded.
 #pragma once
 
 #include "core/geometry/face.h"

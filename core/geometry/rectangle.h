@@ -1,4 +1,4 @@
-// Two triangles of a mesh that are a rectangle.
+// Finds rectangles made of two triangles of a mesh.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -12,7 +12,8 @@ struct Rectangle {
     Vec3 corner, a, b;
 };
 
-// That of the triangles `first` and first + 1, to rounding: the first one has s + t ≤ 1. None where they are no rectangle.
+// The rectangle of triangles `first` and first + 1, up to rounding; triangle `first` has s + t ≤ 1. Nothing if they do not form
+// one.
 std::optional<Rectangle> rectangle_of(const TriangleMesh& mesh, std::size_t first);
 
 }  // namespace neumann

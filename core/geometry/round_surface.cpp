@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-// What f makes of the sphere, disc or cylinder.
+// Calls f with the sphere, disc or cylinder.
 template <class F>
 auto visit_round(const Shape& shape, const F& f) {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return f(*sphere);
@@ -18,8 +18,8 @@ auto visit_round(const Shape& shape, const F& f) {
     return f(std::get<Disk>(shape));
 }
 
-// n, or a unit vector beside it, so that w meets a surface with this normal from before (sign −1) or from behind (1). A tangent in
-// floats may pass by in double, where n is perpendicular to it but for rounding.
+// Returns n, or a unit vector next to it, such that the sign of dot(w, n) is `sign`: −1 for a hit from the front, 1 from the back.
+// A ray that hits tangentially in floats may miss in double; n is then perpendicular to it up to rounding.
 Vec3 met_by(const Vec3& w, double sign, const Vec3& n) {
     constexpr double least = 1e-9;
     const double cosine = sign * glm::dot(n, w);
@@ -31,7 +31,7 @@ RoundPoint put(const Sphere& s, const Vec3& position, double) {
     return {s.center + n * s.radius, s.flip_normals ? -n : n};
 }
 
-// `distance` is Embree's float answer; the exact root beside it is found again in double.
+// `distance` is Embree's result in float; the root next to it is computed in double.
 RoundPoint hit(const Sphere& s, const Vec3& origin, const Vec3& direction, double distance, double error) {
     const Vec3 f = origin - s.center;
     const double middle = -glm::dot(f, direction);
@@ -90,7 +90,7 @@ RoundPoint put(const Cylinder& c, const Vec3& position, double error) {
     return put(c, along, position - c.base - c.axis * along, error);
 }
 
-// As of a sphere, across the axis.
+// As for a sphere, perpendicular to the axis.
 RoundPoint hit(const Cylinder& c, const Vec3& origin, const Vec3& direction, double distance, double error) {
     const Vec3 f = origin - c.base;
     const double d_along = glm::dot(direction, c.axis), f_along = glm::dot(f, c.axis);

@@ -1,5 +1,5 @@
-// Points on spheres, discs and cylinders, in double. `error`: of the shape; points keep clear of rims by it, as hits of triangles
-// do of edges, so that rounding cannot push them past what meets the rim.
+// Points on spheres, discs and cylinders, in double. `error`: rounding error of the shape. Points keep this distance from rims, as
+// hits on triangles do from edges, so that rounding cannot move them past a surface that touches the rim.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -10,11 +10,11 @@ struct RoundPoint {
     Vec3 position, normal;  // scene units; unit length
 };
 
-// Where a ray hits of which Embree says, in floats, that it does so at `distance`.
+// The exact hit of a ray for which Embree found a hit at `distance`, in floats.
 RoundPoint hit_round(const Shape& shape, const Vec3& origin, const Vec3& direction, double distance, double error);
-// Of a point beside it.
+// The point on the shape next to a given position.
 RoundPoint put_on_round(const Shape& shape, const Vec3& position, double error);
-// Uniform by area: the point at (u, v) ∈ [0,1)², and the (u, v) of a point.
+// Uniform sampling by area: the point at (u, v) ∈ [0,1)², and its inverse, the (u, v) of a point.
 RoundPoint sample_round(const Shape& shape, const Vec2& uv, double error);
 Vec2 round_coordinates(const Shape& shape, const Vec3& position);
 double round_area(const Shape& shape);

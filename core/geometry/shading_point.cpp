@@ -30,12 +30,12 @@ Vec3 shading_normal(const Round&, const SurfacePoint& p) {
     return p.normal;
 }
 
-// The part of dp_du across the normal; zero or not finite where there is no such direction.
+// The component of dp_du perpendicular to the normal; zero or not finite if undefined.
 Vec3 across(const Vec3& normal, const Vec3& dp_du) { return dp_du - normal * glm::dot(normal, dp_du); }
 
 struct OnTriangle {
     Vec3 e1, e2;                      // edges, from the first vertex
-    Vec2 d1{1.0, 0.0}, d2{0.0, 1.0};  // what u and v change by along them
+    Vec2 d1{1.0, 0.0}, d2{0.0, 1.0};  // changes of (u, v) along the edges
 
     OnTriangle(const TriangleMesh& mesh, std::uint32_t triangle) {
         const auto& t = mesh.triangles[triangle];
@@ -94,7 +94,7 @@ Vec3 along_u(const Disk& disk, const SurfacePoint& p) {
     const Vec2 outwards = OnDisk(disk, p).outwards();
     return disk.u * outwards.x + disk.v * outwards.y;
 }
-// Mitsuba leaves 2π r out, which makes its bump maps on discs depend on their size.
+// dp_dv of a disc. Mitsuba omits the factor 2π r, so its bump maps on discs depend on their size.
 Vec3 along_v(const Disk& disk, const SurfacePoint& p) {
     const OnDisk at(disk, p);
     const Vec2 outwards = at.outwards();

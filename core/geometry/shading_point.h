@@ -1,5 +1,5 @@
-// A surface point as materials and lights see it: with the frame that interpolated normals give, and with texture coordinates for
-// those who ask.
+// A surface point with its shading frame (from interpolated normals) and, on demand, texture coordinates. Materials and lights use
+// it.
 #pragma once
 
 #include "core/base/frame.h"
@@ -9,14 +9,14 @@
 namespace neumann {
 
 struct ShadingPoint : SurfacePoint {
-    const Shape* on = nullptr;         // that it lies on; null where nobody asks for coordinates
-    Frame frame{Vec3(0.0, 0.0, 1.0)};  // z: the shading normal; x: along dp_du where there are coordinates
+    const Shape* on = nullptr;         // the shape it lies on; null if coordinates are not needed
+    Frame frame{Vec3(0.0, 0.0, 1.0)};  // z: the shading normal; x: along dp_du if there are coordinates
 };
 
-// On the front side. `p` lies on `shape`, which has to outlive the result.
+// The shading point on the front side. `p` lies on `shape`, which must outlive the result.
 ShadingPoint shading_point(const Shape& shape, const SurfacePoint& p);
 
-// One of which nothing is known but its texture coordinates.
+// A shading point that has texture coordinates only.
 ShadingPoint point_with_coordinates(const Vec2& uv);
 
 // As Mitsuba's: of a sphere, u around its axis and v from pole to pole; of a disc, u from the centre to the rim and v around it; of
@@ -24,7 +24,7 @@ ShadingPoint point_with_coordinates(const Vec2& uv);
 // Computed when asked for: few materials do, and on round shapes it costs as much as a bounce.
 Vec2 texture_coordinates(const ShadingPoint& p);
 
-// How the position changes with u and v, in scene units; x and y of the frame where the coordinates do not tell.
+// Partial derivatives of the position by u and v, in scene units; x and y of the frame if they are undefined.
 struct Tangents {
     Vec3 dp_du, dp_dv;
 };
@@ -33,7 +33,7 @@ Tangents tangents(const ShadingPoint& p);
 // The weights of a triangle's vertices at p.
 Vec3 vertex_weights(const TriangleMesh& mesh, const SurfacePoint& p);
 
-// The shading normal differs from the geometric one.
+// Whether shading normals of the shape may differ from geometric ones.
 bool has_smooth_normals(const Shape& shape);
 
 }  // namespace neumann

@@ -11,7 +11,7 @@ namespace {
 Vec3 transform_point(const Mat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
 Vec3 transform_vector(const Mat4& m, const Vec3& v) { return Vec3(m * glm::dvec4(v, 0.0)); }
 
-// A mirroring transform turns the winding round, but not the side that Mitsuba's own shapes face.
+// A mirroring transform reverses the winding, but Mitsuba's own shapes still face the same side.
 void orient(TriangleMesh& mesh, const Mat4& to_world, bool flip_normals) {
     if ((glm::determinant(glm::dmat3(to_world)) < 0.0) == flip_normals) return;
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -65,7 +65,7 @@ TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals) {
 }
 
 TriangleMesh make_cube(const Mat4& to_world, bool flip_normals) {
-    // Where a face has (u, v) = (0, 0), and its edges along u and v, so that v × u points outwards.
+    // The corner with (u, v) = (0, 0), and the edges along u and v; v × u points outwards.
     struct Face {
         Vec3 corner, u, v;
     };

@@ -1,4 +1,4 @@
-// The shapes: triangle meshes, and spheres, discs and cylinders that are exact rather than tessellated. Scene units, double.
+// The shapes: triangle meshes, and exact (not tessellated) spheres, discs and cylinders. Scene units, double.
 #pragma once
 
 #include "core/base/frame.h"
@@ -12,8 +12,7 @@
 
 namespace neumann {
 
-// Colours that a file gives to the vertices or to the triangles of a mesh ("vertex_color", "face_color"). Float, as files have
-// them.
+// Colours that a file assigns to the vertices or triangles of a mesh ("vertex_color", "face_color"). Float, as in files.
 struct MeshAttribute {
     std::string name;
     bool of_triangles = false;
@@ -37,7 +36,7 @@ struct Sphere {
     Vec3 center{0.0};
     double radius = 1.0;
     bool flip_normals = false;
-    // Where its own axes are, for texture coordinates: u runs around n, from s to t, and v from n to −n.
+    // Its axes, for texture coordinates: u runs around n, from s to t, and v from n to −n.
     Frame axes = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
 };
 
@@ -55,14 +54,14 @@ struct Cylinder {
     Frame axes = Frame(axis);  // for texture coordinates: u runs around the axis, from s to t
 
     bool has_extent() const { return radius > 0.0 && length > 0.0; }
-    // Half the size of the box around it.
+    // Half the size of the bounding box.
     Vec3 extent() const { return glm::abs(axis) * (0.5 * length) + radius * glm::sqrt(glm::max(1.0 - axis * axis, 0.0)); }
     Vec3 center() const { return base + axis * (0.5 * length); }
 };
 
 using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder>;
 
-// A mesh has one if it has triangles: those without area have to be taken out before.
+// For a mesh: whether it has triangles. Triangles without area must have been removed before.
 bool has_extent(const Shape& shape);
 Bounds bounds_of(const Shape& shape);
 

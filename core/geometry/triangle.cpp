@@ -11,7 +11,7 @@ static_assert(sizeof(Triangle) == 128);
 namespace {
 
 struct Across {
-    Vec3 product;  // of two edges: along the normal, as long as twice the area
+    Vec3 product;  // cross product of two edges: along the normal, with twice the area as its length
     double longest;
 };
 
@@ -19,7 +19,7 @@ Across across(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 first = b - a, second = c - a, third = c - b, product = glm::cross(first, second);
     const double lengths[] = {glm::length(first), glm::length(second), glm::length(third)};
     const double longest = std::max({lengths[0], lengths[1], lengths[2]});
-    // Of a thin triangle, two long edges are nearly parallel.
+    // In a thin triangle, two long edges are nearly parallel.
     constexpr double thin = 1.0 / 256.0;
     if (glm::length(product) >= thin * longest * longest || longest == lengths[2]) return {product, longest};
     return {longest == lengths[0] ? glm::cross(third, -second) : glm::cross(first, third), longest};
@@ -52,7 +52,7 @@ Vec3 Triangle::at_edge(double u, double v, const Edges& edges) const {
 
 Vec3 Triangle::near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const {
     const double u = m.weights.x, v = m.weights.y;
-    // Near an edge doubles may find the hit a little outside; along a grazing ray, anywhere.
+    // In double, the hit may be a little outside near an edge, and anywhere for a grazing ray.
     if (std::min({u, v, 1.0 - u - v}) >= -rounding_ && m.distance > 0.0 && rounding_ < 1.0f) return at_edge(u, v, edges);
     return at(embree_u, embree_v, edges);
 }

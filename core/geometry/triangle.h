@@ -1,4 +1,4 @@
-// A triangle as hits and samples on it need it. Scene units.
+// The data of a triangle that hits and samples need. Scene units.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,10 +10,10 @@
 
 namespace neumann {
 
-// Of two lines of a cache: a hit reads nearly all of it.
+// Two cache lines large, because a hit reads nearly all of it.
 class alignas(64) Triangle {
 public:
-    // What the mesh knows and hits seldom need: from the first vertex to the second and to the third.
+    // Edges from the first vertex to the second and to the third. They come from the mesh, because hits seldom need them.
     struct Edges {
         Vec3 first, second;
     };
@@ -21,12 +21,12 @@ public:
     // `error`: how far rounding to float moves a hit. The triangle must have an area.
     Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error);
 
-    // The point with barycentric weights u of the second vertex and v of the third, or beside it where doubles cannot tell it from
-    // an edge.
+    // The point with barycentric weights u of the second vertex and v of the third, moved inwards if it is too close to an edge for
+    // doubles.
     Vec3 at(double u, double v, const Edges& edges) const {
         return is_inside({u, v}) ? vertex_ + edges.first * u + edges.second * v : at_edge(u, v, edges);
     }
-    // The point of the triangle's plane nearest to p, or one beside it likewise. `edges()` is called only then.
+    // The point of the triangle's plane nearest to p, moved in the same way if necessary; only then `edges()` is called.
     template <class EdgesOf>
     Vec3 at(const Vec3& p, const EdgesOf& edges) const {
         const Vec2 w = weights(p);
@@ -42,7 +42,7 @@ public:
     double error() const { return error_; }
     static double area(const Vec3& a, const Vec3& b, const Vec3& c);
 
-    // Where a ray meets the triangle's plane, in double.
+    // The intersection of a ray with the triangle's plane, in double.
     struct Meeting {
         double cosine;  // of the ray with the normal
         double distance;
@@ -54,17 +54,17 @@ public:
         const Vec3 position = origin + direction * distance;
         return {cosine, distance, position, weights(position)};
     }
-    // Whether that is where a ray hits of which Embree says that it hits the triangle. Otherwise the hit is near(…).
+    // Whether this intersection is the hit of a ray for which Embree found the triangle. Otherwise use near(…).
     bool is_hit(const Meeting& m) const { return is_inside(m.weights) && m.distance > 0.0 && rounding_ < 1.0f; }
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
-    // Where no other surface is within rounding, as far as a first look tells: so far from the edges, as a barycentric weight, but
-    // for some cells. Neighbours finds it out when it is first asked for, and keeps the cells.
+    // Cells in which another surface may be within rounding. Outside of them, points whose barycentric weights are all large enough
+    // are clear. Neighbours computes this when it is first needed, and keeps the cells.
     using Cells = WeightCells<64>;
-    static constexpr float unknown = 2.0f;  // no point is so far from the edges
-    static constexpr double grazing = 0.1;  // rays with a smaller cosine are looked at where there are cells
-    // With the cosine of a ray that hits there: so far from the ray, which is to be on the same side of an edge where Embree's ray
-    // begins beside it.
+    static constexpr float unknown = 2.0f;  // larger than any barycentric weight
+    static constexpr double grazing = 0.1;  // rays with a smaller cosine are never clear if there are cells
+    // `cosine`: of the ray that hits there. The distance to the edges must also cover the displacement of Embree's ray, which grows
+    // for grazing rays.
     bool is_clear(const Vec2& w, double cosine = 1.0) const {
         if (std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < clear()) return false;
         const Cells* cells = std::atomic_ref(not_clear_).load(std::memory_order_relaxed);
@@ -80,14 +80,15 @@ private:
     bool is_inside(const Vec2& w) const { return std::min({w.x, w.y, 1.0 - w.x - w.y}) >= margin_; }
     Vec3 at_edge(double u, double v, const Edges& edges) const;
 
-    // A scene has millions of these: what the mesh tells is not kept.
+    // A scene has millions of these, so data of the mesh is not duplicated.
     Vec3 vertex_, normal_;
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
     double error_;
     mutable const Cells* not_clear_ = nullptr;
-    float rounding_;  // of Embree's hits, as a barycentric weight; 1 where the triangle is too thin to have a hit in double
-    float margin_;    // hits keep this barycentric distance from the edges, so that doubles tell on which side they are of a wall
-                      // that meets the triangle there; 0 where the triangle is too thin for that
+    float
+        rounding_;  // rounding of Embree's hits, as a barycentric weight; 1 if the triangle is too thin to compute a hit in double
+    float margin_;  // hits keep this barycentric distance from the edges, so that doubles resolve on which side of an adjacent wall
+                    // they are; 0 if the triangle is too thin for that
     mutable float clear_ = unknown;
 };
 

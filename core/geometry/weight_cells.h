@@ -1,4 +1,4 @@
-// Cells of a triangle, by the barycentric weights of its second and third vertex: a quick look that tells most points to be clear.
+// A grid over the barycentric weights of a triangle's second and third vertex: a quick test that finds most points to be clear.
 #pragma once
 
 #include "core/base/vec.h"
@@ -13,7 +13,7 @@ namespace neumann {
 template <int count>
 class WeightCells {
 public:
-    // All cells that a convex polygon touches, and what rounding may make of it.
+    // Marks all cells that a convex polygon touches, up to rounding.
     void mark(std::span<const Vec2> polygon) {
         for (int row = 0; row < count; ++row) {
             const double low = row - rounding, high = row + 1.0 + rounding;

@@ -1,9 +1,9 @@
-// R*, the reflection of what comes from the light: it carries power where R carries radiance,
+// R*, the adjoint of reflection, for paths from lights: it transports power where R transports radiance,
 //
 //     power along ωo per projected area = fs(ωi → ωo) |cosθo| · power along ωi,
 //
-// with geometric cosines. fs is asked from ωo's side, so it need not be reciprocal; where shading normals differ from geometric
-// ones, R has |ωi·ns| for |ωi·ng|, and so must R* (Veach 1997, 5.3).
+// with geometric cosines. fs is evaluated from ωo's side, so it need not be reciprocal. If shading normals differ from geometric
+// ones, R has |ωi·ns| in place of |ωi·ng|, and so must R* (Veach 1997, 5.3).
 #pragma once
 
 #include "core/material/materials.h"
@@ -15,21 +15,21 @@
 
 namespace neumann {
 
-// fs(ωi → ωo) |ωi·ns| / |ωi·ng|, that is R's kernel against the geometric projected solid angle of ωi.
+// fs(ωi → ωo) |ωi·ns| / |ωi·ng|: the kernel of R with respect to the geometric projected solid angle of ωi.
 inline Rgb geometric_bsdf(const SurfaceSide& side_of_wo, const Vec3& wo, const Vec3& wi) {
     const ShadingPoint& p = side_of_wo.p;
     const Vec3 local = p.frame.to_local(wi);
     return eval(*side_of_wo.bsdf, p, p.frame.to_local(wo), local) * std::abs(local.z / glm::dot(p.normal, wi));
 }
 
-// The density with which R draws ωi for what leaves x along ωo, per solid angle.
+// The pdf, per solid angle, with which R samples ωi for radiance that leaves x along ωo.
 inline double camera_pdf(const Materials& materials, const SurfacePoint& x, const Vec3& wo, const Vec3& wi) {
     const SurfaceSide side = materials.side(x, wo);
     return side.bsdf ? pdf(*side.bsdf, side.p, side.p.frame.to_local(wo), side.p.frame.to_local(wi)) : 0.0;
 }
 
-// A direction for what has arrived from ωi, as if it had come from there along the camera's side: materials draw one for the other.
-// Those that are not reciprocal may leave out directions that count, so every other time they are asked for all.
+// Samples ωo for power that arrives from ωi, by BSDF sampling with the two directions exchanged. A BSDF that is not reciprocal
+// might never sample some of the directions needed, so with probability 1/2 the direction is cosine-distributed instead.
 class AdjointReflection {
 public:
     struct Sample {
@@ -38,7 +38,7 @@ public:
         double pdf = 0.0;  // per solid angle, or delta_pdf
     };
 
-    // `side`: of ωi.
+    // `side`: the side on which ωi is.
     static Sample sample(const Materials& materials, const SurfaceSide& side, const Vec3& wi, Vec2 u) {
         const Frame& frame = side.p.frame;
         const bool lawful = is_lawful(*side.bsdf);
@@ -64,7 +64,7 @@ public:
         return result;
     }
 
-    // The density with which sample() finds ωo, but for directions that are the only ones.
+    // The pdf of sample(), per solid angle, without delta lobes.
     static double pdf(const SurfaceSide& side, const Vec3& wi, const Vec3& wo) {
         const Vec3 local = side.p.frame.to_local(wo);
         const double drawn = neumann::pdf(*side.bsdf, side.p, side.p.frame.to_local(wi), local);
@@ -75,8 +75,9 @@ public:
     }
 
 private:
-    // For the sampled weight of the only direction: of radiance along ωo, which is `a` as it was asked. Radiance keeps
-    // L/n² while its beam changes from dω(b) to dω(a), about the normal m of the mirror or boundary that the directions tell.
+    // The factor between the weight of a delta lobe for R* and that for radiance. `a` is ωi, for which the BSDF was sampled, and
+    // `b` the sampled direction. L/n² is conserved while the beam changes from dω(b) to dω(a) about the normal m of the mirror or
+    // boundary, which follows from the two directions.
     static double only_direction(const Vec3& normal, const Vec3& a, const Vec3& b, double eta) {
         double beam = std::abs(glm::dot(normal, b) / glm::dot(normal, a));
         if (eta != 1.0) {
@@ -87,7 +88,7 @@ private:
     }
 };
 
-// The density with which R* draws ωo for what has arrived at x from ωi.
+// The pdf, per solid angle, with which R* samples ωo for power that arrives at x from ωi.
 inline double light_pdf(const Materials& materials, const SurfacePoint& x, const Vec3& wi, const Vec3& wo) {
     const SurfaceSide side = materials.side(x, wi);
     return side.bsdf ? AdjointReflection::pdf(side, wi, wo) : 0.0;

@@ -1,11 +1,11 @@
-// Bidirectional path tracing: a path from the camera and one from a light, and every vertex of the one joined to every vertex of
-// the other (Veach and Guibas 1994; Lafortune and Willems 1993). Way (s, t) has s vertices from the light and t from the camera, of
-// which the first is on the lens, and makes paths of bounce s + t − 2:
+// Bidirectional path tracing: a subpath from the camera and one from a light, with every vertex of one connected to every vertex of
+// the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way, has s vertices from the light
+// and t from the camera, the first of which is on the lens, and makes paths of bounce s + t − 2:
 //
-//     (0, t)  the camera's path hits a light        (1, t)  its last vertex asks for light
-//     (s, 1)  the camera looks at a light vertex    (s, t)  two vertices are joined
+//     (0, t)  the camera subpath hits a light            (1, t)  its last vertex samples the lights
+//     (s, 1)  a light vertex is connected to the lens    (s, t)  two vertices are connected
 //
-// The weights of all ways to make a path add up to 1 (path_weights.h). Bounce 0 is made by (0, 2) alone.
+// The MIS weights of all ways to make a path add up to 1 (path_weights.h). Bounce 0 is made by (0, 2) alone.
 #pragma once
 
 #include "core/base/hot.h"
@@ -19,9 +19,9 @@ namespace neumann {
 
 struct BidirectionalWork {
     LightWalkers light;
-    std::vector<std::vector<LightVertex>> light_path;  // vertices 1 …, one path for each walker
+    std::vector<std::vector<LightVertex>> light_path;  // one path for each walker: its vertices 1, 2, …
     std::vector<CameraEdge> camera_edges;
-    std::vector<double> camera_weights;  // of these
+    std::vector<double> camera_weights;  // weights of camera_edges
     Together<CameraWalker> camera;
     struct Edge {
         std::uint32_t walker;
@@ -32,10 +32,10 @@ struct BidirectionalWork {
 
 class Bidirectional {
 public:
-    // Of `settings`, direct.direct and left_out do not count. The rest is of the ways (0, t) and (1, t) alone. The weights stay
-    // those of one question and one walk where a split makes several: they add up to 1 however often each way is averaged.
-    // `pixels`: camera samples a pixel go with as many paths from the light, which all pixels share, so that so many see each
-    // vertex.
+    // direct.direct and left_out of `settings` are ignored. The rest (bounces > N) is sampled with ways (0, t) and (1, t) alone.
+    // With splitting, the MIS weights are still those of one light sample and one walk; they add up to 1 anyway, because each way
+    // is averaged. `pixels`: number of pixels. There are as many light paths as camera paths in the whole picture, so each light
+    // vertex can be seen by that many pixels.
     Bidirectional(const Scene& scene, const WalkSettings& settings, double pixels)
         : scene_(&scene),
           settings_(settings),
@@ -43,9 +43,9 @@ public:
           emission_(scene.geometry, scene.emitters),
           lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
 
-    // A path for each ray, `camera` and `light` draw its halves. `found(i, Found)` is told what the i-th brings to its own pixel,
-    // `splatted(i, position, Found)` what its light half brings to a place on the film, times pixels. `rays`: N + 2 entries.
-    // Returns the walks that were given up.
+    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found) for
+    // contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light subpath at a
+    // position on the film, times the number of pixels. `rays` has N + 2 entries. Returns the number of walks given up.
     template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
                                     std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,
@@ -137,7 +137,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
         for (int bounce = 1; ending.reach(bounce, walkers, samplers, given_up); ++bounce) {
             const bool rest = ending.in_rest(bounce), splits = bounce == 1;
 
-            // R: the edges to the light's half; T: which of them are there.
+            // R: the edges to the light subpath; T: which of them are visible.
             const int questions = lights_.empty() ? 0 : !splits ? 1 : copy == 0 ? split.lights : 0;
             work.edges.clear();
             walkers.keep_if([&](CameraWalker& z, std::uint32_t i) {
@@ -171,7 +171,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                     if (seen) found(i, edge.found);
                 });
 
-            // R: a direction for the next vertex.
+            // R: sample a direction for the next vertex.
             walkers.keep_if([&](CameraWalker& z, std::uint32_t i) {
                 const SurfaceSide side = materials.side(z.x, z.wo);
                 const Frame& frame = side.p.frame;

@@ -1,4 +1,4 @@
-// What vertices of paths from the light bring to the film: each asks the camera whether it is seen.
+// Connects vertices of paths from lights to the lens, and adds their contributions to the film.
 #pragma once
 
 #include "operators/bidirectional/light_walk.h"
@@ -8,13 +8,13 @@
 
 namespace neumann {
 
-// One vertex as the camera sees it, before it is known whether anything stands in between.
+// The connection of a vertex to the lens, before its visibility is known.
 struct CameraEdge {
     std::uint32_t walker = 0;
-    Rgb value{0.0};     // radiance times pixels; black where there is no edge
+    Rgb value{0.0};     // radiance times number of pixels; black if there is no edge
     Vec2 position;      // on the film
-    SurfacePoint lens;  // the place on it, facing along w
-    Vec3 w;             // from the vertex to there
+    SurfacePoint lens;  // the point on the lens, facing along w
+    Vec3 w;             // from the vertex to that point
     double pixels_per_area = 0.0;
 };
 
@@ -23,7 +23,7 @@ Vec2 place_on_lens(const Scene& scene, Sampler& sampler) {
     return scene.camera.has_lens() ? sampler.next2() : Vec2(0.5);
 }
 
-// The edge from x by way of that place on the lens, if x is in the picture; its value is still black.
+// The edge from x through a point on the lens, if x is in the picture; its value is not set yet.
 inline std::optional<CameraEdge> edge_to_lens(const Scene& scene, std::uint32_t walker, const SurfacePoint& x, const Vec2& lens) {
     const auto seen = scene.camera.see(x.position, lens);
     if (!seen || !scene.film.holds(seen->position)) return std::nullopt;
@@ -36,7 +36,7 @@ inline std::optional<CameraEdge> edge_to_lens(const Scene& scene, std::uint32_t 
     return edge;
 }
 
-// From a vertex, by its reflection.
+// The edge from a vertex that reflects.
 template <class Sampler>
 CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalker& v, Sampler& sampler) {
     auto edge = edge_to_lens(scene, walker, v.x, place_on_lens(scene, sampler));
@@ -47,20 +47,20 @@ CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalk
     return *edge;
 }
 
-// The same from a place on a light, whose own direction does not matter then.
+// The edge from a point on a light; the sampled direction of emission is not used.
 template <class Sampler>
 CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emission& e, Sampler& sampler) {
     const Vec2 lens = place_on_lens(scene, sampler);
     if (e.from.is_infinite()) return {};
     auto edge = edge_to_lens(scene, walker, e.from, lens);
     if (!edge) return {};
-    // The place alone was drawn with the density of the edge times π.
+    // The density of the point alone is e.density times π.
     edge->value = scene.emitters.emitted(e.from, edge->w) *
                   (std::abs(glm::dot(e.from.normal, edge->w)) * edge->pixels_per_area / (e.density * pi));
     return *edge;
 }
 
-// T: which of them the camera sees; `splatted(k)` is told of the k-th. They are all at vertex j.
+// T: casts the visibility rays of the edges, which are all from vertex j, and calls splatted(k) for those that are visible.
 template <class Transport, class OnSplat, class Observer>
 void splat_what_is_seen(const Transport& T, const LightWalkers& walkers, const std::vector<CameraEdge>& edges, int j,
                         const OnSplat& splatted, const Observer& observer) {

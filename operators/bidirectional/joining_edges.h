@@ -1,5 +1,5 @@
-// The edges that join a vertex of the camera's half to the light's: what they bring unless something stands in between, and the
-// weight of their way.
+// The edges that connect a vertex of the camera subpath to the light subpath: their contribution if they are visible, and their MIS
+// weight.
 #pragma once
 
 #include "operators/bidirectional/light_walk.h"
@@ -7,18 +7,18 @@
 
 namespace neumann {
 
-// What a way (s, t) has found; t = bounce + 2 − s.
+// A contribution of way (s, t), t = bounce + 2 − s.
 struct Found {
     int bounce = 0, s = 0;
-    Rgb value{0.0};  // by itself
+    Rgb value{0.0};  // without the MIS weight
     double weight = 0.0;
 };
 
-// A path from the camera on its way.
+// The state of a camera subpath.
 struct CameraWalker : PathEnd {
     static constexpr bool from_light = false;
-    Vec3 wo;    // towards the vertex before
-    Vec3 from;  // that vertex
+    Vec3 wo;    // towards the previous vertex
+    Vec3 from;  // position of the previous vertex
     PathWeights weights;
 };
 
@@ -27,7 +27,7 @@ struct JoiningEdge {
     Found found;
 };
 
-// (1, t): z asks for light. `rest`: the ways with more vertices from the light are not made.
+// (1, t): z samples the lights. `rest`: the bounce is beyond N, where ways with s ≥ 2 are not used.
 inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emission, const LightSampler& lights, Heuristic h,
                                  const CameraWalker& z, const SurfaceSide& side, int bounce, bool rest, const Vec2& u) {
     const LightSample light = lights.sample(z.x.position, u);
@@ -48,7 +48,8 @@ inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emis
     return {light.point, {bounce, 1, value, weight}};
 }
 
-// (s, t), s ≥ 2: z, which has reflected `bounce` times with this edge, is joined to the light's vertex y.
+// (s, t), s ≥ 2: z is connected to the light vertex y; `bounce` counts the reflections of the camera subpath, the one at z
+// included.
 inline JoiningEdge edge_to_vertex(const Scene& scene, Heuristic h, const CameraWalker& z, const SurfaceSide& side,
                                   const LightVertex& y, int bounce, int s) {
     const Vec3 d = y.x.position - z.x.position;
@@ -64,7 +65,7 @@ inline JoiningEdge edge_to_vertex(const Scene& scene, Heuristic h, const CameraW
     if (is_black(g)) return {};
     const double cosine_y = std::abs(glm::dot(y.x.normal, w)), cosine_z = std::abs(glm::dot(z.x.normal, w));
     const Rgb value = z.beta * f * g * y.beta * (std::abs(wi.z) * cosine_y / distance2);
-    // From the camera to y, and from the light to z, each with the way back beyond.
+    // Densities from the camera to y and from the light to z, and those of the reverse directions at both.
     const double to_y = pdf(*side.bsdf, side.p, wo, wi) * cosine_y / distance2;
     const double to_z = light_pdf(scene.materials, y.x, y.wi, -w) * cosine_z / distance2;
     const double back_y = pdf(*at_y.bsdf, at_y.p, at_y.p.frame.to_local(-w), at_y.p.frame.to_local(y.wi));

@@ -1,5 +1,5 @@
-// Source shooting joined to the camera: every vertex of a path from the light is looked at by the camera. What cannot be made so is
-// what the camera sees by way of a mirror or through glass, and what surrounds the scene.
+// Light tracing: every vertex of a path from a light is connected to the camera. It cannot make what the camera sees in a mirror or
+// through glass, nor the environment that the camera sees directly.
 #pragma once
 
 #include "core/base/hot.h"
@@ -14,8 +14,9 @@ struct LightTracingWork {
     std::vector<CameraEdge> edges;
 };
 
-// A path for each sampler. `splatted(path, position, quantity, value)`: radiance times pixels at a place on the film, of bounces
-// 0 … N and the rest N + 1. `rays`: N + 2 entries, added to. Returns the walks that were given up.
+// Traces a path for each sampler and calls splatted(path, position, quantity, value) with radiance times the number of pixels at a
+// position on the film, for bounces 0 … N and the rest N + 1. `rays` has N + 2 entries and is added to. Returns the number of walks
+// given up.
 template <class Transport, class Sampler, class OnSplat, class Observer = NoObserver>
 NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
                                       const LightSampler& lights, const Ending& ending, std::span<Sampler> samplers,

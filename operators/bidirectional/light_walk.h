@@ -1,5 +1,5 @@
-// The walk of K*: power sets out from the lights and is reflected on its way (source shooting). Its j-th vertex has j − 1
-// reflections behind it, so what it throws on towards the camera is a sample of bounce j:
+// The random walk of K*: particles start at the lights with their power and are reflected. Before the j-th vertex there are j − 1
+// reflections, so what it reflects towards the camera is a sample of bounce j:
 //
 //     ⟨We, K^j Le⟩ = ⟨K*^j We, Le⟩ = E[ β_j fs(ω_j → camera) We ],   β_j = Le cosθ / pdf Π fs cosθ / pdf
 #pragma once
@@ -23,17 +23,17 @@ namespace neumann {
 // A vertex of a path from the light.
 struct LightVertex {
     SurfacePoint x;
-    Vec3 wi;   // to where the light came from
+    Vec3 wi;   // towards the previous vertex
     Rgb beta;  // the power that arrives
     PathWeights weights;
 };
 
-// A path on its way.
+// The state of a path from a light.
 struct LightWalker : PathEnd {
     static constexpr bool from_light = true;
-    Vec3 wi;  // to where the light came from
+    Vec3 wi;  // towards the previous vertex
     PathWeights weights;
-    SurfacePoint from;          // where the edge began
+    SurfacePoint from;          // the previous vertex
     double first_weight = 0.0;  // largest channel of β at the light
     Emission emission;
 
@@ -41,7 +41,7 @@ struct LightWalker : PathEnd {
 };
 using LightWalkers = Together<LightWalker>;
 
-// The weights at the first vertex that the light meets, which may have been asked for from there.
+// The MIS weights at the first vertex after the light, which could also have sampled the light itself.
 inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, const LightWalker& w, double distance2,
                                     double cosine) {
     const Emission& e = w.emission;
@@ -51,9 +51,9 @@ inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, con
     return {.last = counted(h, asked / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
 }
 
-// Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, where they are wanted.
-// `visit(j)` is told when all that are alive are at vertex j, of which vertex 0 is on the light. Returns those that were given up.
-// `rays(j, n)` counts.
+// Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, if these are needed.
+// Calls visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to count n rays. Returns the
+// number of paths given up.
 template <class Transport, class Sampler, class Visit, class CountRays, class Observer>
 std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
                                const Ending& ending, std::optional<Heuristic> weights, std::span<Sampler> samplers,
@@ -73,7 +73,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
     walkers.keep_if([&](const LightWalker& w, std::uint32_t) { return !is_black(w.beta); });
 
     for (int j = 1; ending.reach(j, walkers, samplers, given_up); ++j) {
-        // T*: where the power arrives.
+        // T*: find the surfaces where the power arrives.
         rays(j, walkers.alive.size());
         walkers.follow(T, j - 1, observer, [&](LightWalker& w, std::uint32_t) {
             if (w.x.is_infinite()) return false;
@@ -90,7 +90,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
         visit(j);
         if (ending.is_last(j)) break;
 
-        // R*: where it goes on.
+        // R*: sample the next directions.
         walkers.keep_if([&](LightWalker& w, std::uint32_t i) {
             const SurfaceSide side = scene.materials.side(w.x, w.wi);
             const Vec2 u = samplers[i].next2();

@@ -1,12 +1,12 @@
-// Weights of multiple importance sampling among all the ways (s, t) to make one path: s vertices from the light, t from the camera.
-// Each way has a density p_s of making it, as a product over the vertices per area, and its weight is
+// Weights of multiple importance sampling for all ways (s, t) to make one path: s vertices from the light, t from the camera. A way
+// makes the path with density p_s, a product of densities per area over the vertices, and its weight is
 //
 //     h(p_s) / Σ_k h(p_k),   h(p) = p (balance heuristic) or p² (power heuristic).
 //
-// The sum is split at the edge that joins the two halves, and each half is carried along its walk (van Antwerpen, Improving SIMD
-// Efficiency for Parallel Monte Carlo Light Transport on the GPU, 2011; Georgiev et al., Light Transport Simulation with Vertex
-// Connection and Merging, 2012). Where the joining edge ends in the last vertex, that vertex may have been made from the other
-// side, and so may the ones before it:
+// The sum is split at the connecting edge, and each subpath updates its part of the sum as it is traced (van Antwerpen, Improving
+// SIMD Efficiency for Parallel Monte Carlo Light Transport on the GPU, 2011; Georgiev et al., Light Transport Simulation with
+// Vertex Connection and Merging, 2012). The last vertex of a subpath could also have been sampled from the other end, and so could
+// the vertices before it:
 //
 //     Σ_{k<s} h(p_k / p_s) = h(p of the last vertex, from the other side) · (last + h(p of the one before, from the last) · before)
 #pragma once
@@ -15,33 +15,34 @@
 
 namespace neumann {
 
-// A ratio of densities as the heuristic counts it.
+// h of a ratio of densities.
 inline double counted(Heuristic kind, double ratio) { return kind == Heuristic::power ? ratio * ratio : ratio; }
 
-// The sums of one half, at its last vertex. A direction's density is per solid angle, as long as it is not known where it ends; the
-// other half's density of the last vertex is per area.
+// The partial sums of one subpath, at its last vertex. Densities of directions are per solid angle until the next vertex is known;
+// the density of the last vertex from the other subpath is per area.
 struct PathWeights {
-    double last = 0.0;    // of joining at the last vertex
-    double before = 0.0;  // of all edges before it
+    double last = 0.0;    // term of the connection at the last vertex
+    double before = 0.0;  // sum over connections at earlier edges
 
-    // Drawing a direction with density `pdf`; `cosine` of its angle, and `reverse_pdf` of drawing the one before from it.
+    // Update after a direction was sampled with `pdf`; `cosine`: of its angle; `reverse_pdf`: of sampling the previous direction
+    // from it.
     void leave(Heuristic kind, double cosine, double pdf, double reverse_pdf) {
         before = counted(kind, cosine / pdf) * (before * counted(kind, reverse_pdf) + last);
         last = counted(kind, 1.0 / pdf);
     }
-    // In a mirror or through glass, to which no edge can be joined.
+    // Update after a delta lobe (mirror, glass), where no connection is possible.
     void leave_by_the_only_direction(Heuristic kind, double cosine) {
         before *= counted(kind, cosine);
         last = 0.0;
     }
-    // Meeting the next vertex.
+    // Update at the next vertex.
     void arrive(Heuristic kind, double distance_squared, double cosine) {
         last *= counted(kind, distance_squared / cosine);
         before /= counted(kind, cosine);
     }
 
-    // Σ h(p_k / p_s) of this half. `density`: of the last vertex, from the other half, per area; `reverse_pdf`: of the direction
-    // towards the one before, drawn at the last vertex.
+    // Σ h(p_k / p_s) of this subpath. `density`: of the last vertex, sampled from the other subpath, per area; `reverse_pdf`: of
+    // the direction from the last vertex to the previous one, per solid angle.
     double sum(Heuristic kind, double density, double reverse_pdf) const {
         return counted(kind, density) * (last + before * counted(kind, reverse_pdf));
     }

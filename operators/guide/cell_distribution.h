@@ -1,6 +1,6 @@
-// A density on the unit square, constant in each of k × k cells. Rows are chosen by u.y and the cells of a row by u.x, so that
-// stratified numbers give stratified places. Probabilities are 2^16ths: they add up to 1 exactly, and a uniform density is uniform
-// exactly.
+// A density on the unit square, constant in each of k × k cells. u.y chooses the row and u.x the cell in the row, so stratified
+// numbers give stratified points. Probabilities are multiples of 2^-16: they add up to 1 exactly, and a uniform density is exactly
+// uniform.
 #pragma once
 
 #include "operators/patches/direction_cells.h"
@@ -21,8 +21,8 @@ public:
 
     // Uniform.
     CellDistribution() : CellDistribution(uniform()) {}
-    // Weights as DirectionCells numbers the cells: none more than some hundred times as large as another, for what is smaller than
-    // a 2^16th would become impossible.
+    // `weights` in the order of DirectionCells. They should not differ by more than a factor of some hundred, because probabilities
+    // below 2^-16 are rounded to 0.
     explicit CellDistribution(const Weights& weights) {
         std::array<double, k> rows;
         for (std::uint32_t row = 0; row < k; ++row) {
@@ -46,7 +46,7 @@ public:
 
 private:
     static constexpr double parts = 65536.0;
-    using Starts = std::array<std::uint16_t, k>;  // of consecutive intervals, in 2^16ths
+    using Starts = std::array<std::uint16_t, k>;  // starts of consecutive intervals, in units of 2^-16
 
     static constexpr Weights uniform() {
         Weights weights{};

@@ -13,14 +13,14 @@ namespace neumann {
 
 namespace {
 
-// Other random numbers than walks of the same seed, and than each other.
+// Independent of the random numbers of walks with the same seed, and of each other.
 constexpr std::uint64_t field_stream = 0x6775696465206bull, table_stream = 0x67756964652074ull;
 
-// Terms of the series that are looked at; further ones come from everywhere alike.
+// Number of terms of the series used; later ones are nearly isotropic.
 constexpr int most_terms = 16;
 
-// Before space is there, and when its unknowns are known: fields on the patches and on coarser ones, what is made of them, T, and
-// the tables.
+// Checks the memory for the fields (also on coarser patches), work space, T and the tables. Called before the patch space exists,
+// and again when the number of unknowns is known.
 void check_memory(const GuideSettings& settings, double unknowns, double facets) {
     check_patch_memory(settings.patches, settings.rays,
                        300.0 + unknowns * (32.0 + 15.0 * (most_terms + 2.0) + 4.0 * DirectionTables::most_tables) +
@@ -36,7 +36,7 @@ PatchSpace make_space(const Scene& scene, const GuideSettings& settings) {
     return space;
 }
 
-// w of each unknown, for each number of bounces; at the end those of PatchSpace::nothing(), which are 0.
+// w of each unknown, for each number of bounces still wanted. The last entries are for PatchSpace::nothing() and are 0.
 class Attraction {
 public:
     Attraction(const FieldStack& field, int terms, std::size_t tables)

@@ -1,12 +1,12 @@
-// Where indirect light comes from: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2), with
-// the fields on patches in place of photons. For each facet and number of bounces that a walk is still for, a density of the next
-// direction over a grid of cells, a mixture of the cosine's and of what the facet's rays see:
+// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2), with fields
+// on patches in place of photons. For each facet and each number of bounces still wanted there is a density of the next direction
+// on a grid of cells, a mixture of the cosine density and of what the facet's rays see:
 //
-//     pdf(ω) = cosθ/π (α + (1 − α) w / mean w),     w² = Σ_k (K^k Le)² / m_k,   k = 1 … bounces that are still wanted
+//     pdf(ω) = cosθ/π (α + (1 − α) w / mean w),     w² = Σ_k (K^k Le)² / m_k,   k = 1 … number of bounces still wanted
 //
-// m_k is the mean of K^k Le over the scene. For one bounce alone the best density is proportional to K^k Le; for a sum of variances
-// it is the root of the sum of squares, of which 1/m_k is between the errors relative to each bounce (1/m_k²) and the absolute ones
-// (1). Le is not among them, because walks find it by light sampling. Any density above 0 leaves walks unbiased.
+// m_k is the mean of K^k Le over the scene. The best density for a single bounce is proportional to K^k Le; for a sum of variances
+// it is the root of the sum of squares. The factor 1/m_k is a compromise between relative errors of each bounce (1/m_k²) and
+// absolute errors (1). Le is left out, because walks find it by light sampling. Any density above 0 leaves walks unbiased.
 #pragma once
 
 #include "core/base/memory.h"
@@ -22,26 +22,25 @@
 namespace neumann {
 
 struct GuideSettings {
-    std::size_t patches = 2000;        // about as many
-    std::uint32_t rays = 2048;         // of a facet, that tell what it sees; a power of two, of at least CellDistribution::cells
-    std::uint32_t field_rays = 64;     // of a facet, for the fields; a power of two
+    std::size_t patches = 2000;        // approximate number
+    std::uint32_t rays = 2048;         // per facet, to fill its tables; a power of two, at least CellDistribution::cells
+    std::uint32_t field_rays = 64;     // per facet, for the fields; a power of two
     double share_of_material = 0.4;    // α, above 0
-    int bounces = 8;                   // N: the last that is wanted
-    std::uint64_t seed = 0;            // the tables use other random numbers than walks of the same seed
-    double memory = default_memory();  // bytes that may be taken, about
+    int bounces = 8;                   // N: the last bounce wanted
+    std::uint64_t seed = 0;            // the tables' random numbers are independent of those of walks with the same seed
+    double memory = default_memory();  // approximate limit in bytes
 };
 
 class DirectionTables {
 public:
-    // Tables for 1, 2, … bounces that are still wanted; the last is for more, too.
+    // There are tables for 1, 2, … bounces still wanted; the last one is also used for more.
     static constexpr int most_tables = 2;
 
-    // The scene is kept by reference. Throws InputError as scene_patches() does, and where more is asked for than
-    // memory holds.
+    // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in memory.
     DirectionTables(const Scene& scene, const GuideSettings& settings);
 
-    // For the side of p on which `wo` is; `wanted` ≥ 1: bounces after the one that is sampled. Directions are in Frame(normal) of
-    // the normal on that side. Null where nothing is known.
+    // The table for the side of p on which `wo` is. `wanted` ≥ 1: number of bounces after the one that is sampled. Directions are
+    // in Frame(normal), with the normal of that side. Null if there is no table.
     const CellDistribution* at(const SurfacePoint& p, const Vec3& wo, int wanted) const {
         const std::uint32_t facet = raster_.facet(p, glm::dot(p.normal, wo) > 0.0);
         if (facet == space_.facets().size()) return nullptr;

@@ -7,7 +7,7 @@ namespace neumann {
 
 namespace {
 
-// Cells of a patch, on average over a chart: patches at edges are smaller.
+// Raster cells per patch, on average over a chart: patches at edges are smaller.
 constexpr double cells_per_patch = 16.0;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Which facets a point is about on, in a few operations: a raster over each plane chart, whose cells know what is at their middles.
-// Near the edges of patches the answer is a neighbour's, so this is for those to whom any answer of the place does.
+// A fast approximate lookup of the facet at a point: a raster over each plane chart, whose cells store the facets at their centres.
+// Near the edges of patches it may return a neighbouring facet, which is good enough for guiding.
 #pragma once
 
 #include "operators/patches/patch_space.h"
@@ -13,10 +13,10 @@ namespace neumann {
 
 class FacetRaster {
 public:
-    // The space is kept by reference.
+    // Keeps a reference to the space.
     explicit FacetRaster(const PatchSpace& space);
 
-    // On the front or on the back; facets().size() where there is none.
+    // The facet on the front or on the back; facets().size() if there is none.
     std::uint32_t facet(const SurfacePoint& p, bool front) const {
         const Patches& patches = space_->patches();
         const Grid& grid = grids_[patches.chart_of(p)];
@@ -27,9 +27,9 @@ public:
     }
 
 private:
-    // A rectangle around a plane chart; none for round shapes.
+    // A rectangle around a plane chart. It has no cells for round shapes.
     struct Grid {
-        Vec3 corner, across{0.0}, down{0.0};  // of cells: one more along each is the next cell
+        Vec3 corner, across{0.0}, down{0.0};  // cell coordinates of p are the dot products of p − corner with across and down
         std::uint32_t columns = 0, rows = 0;
         std::size_t first = 0;
     };
@@ -38,8 +38,8 @@ private:
     }
 
     const PatchSpace* space_;
-    std::vector<Grid> grids_;                          // of each chart
-    std::vector<std::array<std::uint32_t, 2>> sides_;  // of each cell: facets of the front and of the back
+    std::vector<Grid> grids_;                          // one per chart
+    std::vector<std::array<std::uint32_t, 2>> sides_;  // for each cell, the facets of the front and of the back
 };
 
 }  // namespace neumann

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t camera_stream = 0x63616d657261ull;
 
-// Calls add(pixel, unknown, weight) for every camera ray in their order; the weights of a pixel are `samples` on average.
+// Calls add(pixel, unknown, weight) for every camera ray in order; the weights of a pixel sum to `samples` on average.
 template <class Add>
 void look_through(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed, const Add& add) {
     constexpr std::uint32_t packet = RayCaster::packet_size;

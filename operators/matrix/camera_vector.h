@@ -1,4 +1,4 @@
-// Where the series of importance begins: We, what the camera makes of the radiance that leaves surfaces.
+// We, the importance that the camera emits: the first term of the series of importance.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -9,13 +9,13 @@
 
 namespace neumann {
 
-// The mean over each patch and cell of directions of We, m⁻²·sr⁻¹: ⟨We, f⟩ is the mean over the pixels of the picture of f, as
-// `samples` camera rays a pixel, a power of two, tell. What they see is counted, so it is the same on any number of threads.
+// The mean of We over each patch and cell of directions, m⁻²·sr⁻¹, estimated with `samples` camera rays per pixel (a power of two):
+// ⟨We, f⟩ is the mean over pixels of the picture of f. Hits are counted, so the result is the same on any number of threads.
 template <int C>
 ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, std::uint32_t samples, std::uint64_t seed);
 
-// The camera as a matrix: a row for each pixel, row 0 of the picture first, a column for each unknown, so that the picture of a
-// field f on patches, as it is there, is the matrix times f. Of as many camera rays; rows sum to the part of them that meets an
+// The camera as a matrix, with a row for each pixel (scanline order) and a column for each unknown: the picture of the piecewise
+// constant field f is the matrix times f. Each row has `samples` camera rays, and its sum is the fraction of them that hit an
 // unknown.
 Eigen::SparseMatrix<double, Eigen::RowMajor> camera_matrix(const Scene& scene, const PatchSpace& space, std::uint32_t samples,
                                                            std::uint64_t seed);

@@ -6,7 +6,7 @@ namespace neumann {
 
 namespace {
 
-// Cells of the square of directions along each axis, and a cell's place on a curve through all of them (Morton's).
+// The square of directions has 2^log2_cells cells along each axis, which are sorted along a Morton curve.
 constexpr std::uint32_t log2_cells = 3;
 
 std::uint32_t place_on_curve(const Vec2& u) {

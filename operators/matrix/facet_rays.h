@@ -1,4 +1,4 @@
-// The rays of a facet: they start all over it, stratified, in directions stratified by projected solid angle.
+// The rays of a facet: their origins are stratified over its area, and their directions by projected solid angle.
 #pragma once
 
 #include "core/sampling/sobol_sampler.h"
@@ -10,15 +10,15 @@
 
 namespace neumann {
 
-// Where a ray of a facet starts and whereto: on the patch, and on the square of cosine_hemisphere().
+// Origin of a ray on the patch, and its direction on the square of cosine_hemisphere().
 struct FacetRay {
     Vec2 point, direction;
 };
-// All of a facet, as many as there are points; neighbours in direction follow each other, which Embree answers faster.
+// All rays of a facet, one for each Sobol' point, ordered so that neighbours have similar directions: Embree is faster then.
 std::vector<FacetRay> facet_rays(const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number);
 
-// Casts them, and tells each in turn: f(u, unknown), u the direction's place on its square, and the unknown that it sees,
-// PatchSpace::nothing() where there is none.
+// Casts the rays and calls f(u, unknown) for each in order: u is the direction on its square, `unknown` is what it sees, or
+// PatchSpace::nothing().
 template <class F>
 void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number, const F& f) {
     struct Departure {
@@ -36,7 +36,7 @@ void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::u
         const std::size_t n = std::min(packet, rays.size() - begin);
         for (std::size_t i = 0; i < n; ++i) {
             from[i].x = space.patches().point(facet.patch, rays[begin + i].point);
-            if (from[i].x.normal != normal) {  // on a plane patch it stays
+            if (from[i].x.normal != normal) {  // constant on a plane patch
                 normal = from[i].x.normal;
                 frame = PatchSpace::frame(facet, from[i].x);
             }

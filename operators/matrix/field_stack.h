@@ -1,5 +1,5 @@
-// All terms of a series on a patch space, unknown by unknown: so that a pixel reads all bounces of what it sees at once. Floats,
-// for pictures only.
+// All terms of a series on a patch space, stored unknown by unknown, so that a pixel reads all bounces from one place. Floats, for
+// pictures only.
 #pragma once
 
 #include "operators/matrix/patch_field.h"
@@ -11,7 +11,7 @@ namespace neumann {
 
 class FieldStack {
 public:
-    // Bounces 0 … N and the rest, quantity N + 1, zero until they are set.
+    // The quantities are bounces 0 … N and, as N + 1, the rest; they are zero until set.
     FieldStack(const PatchSpace& space, int bounces)
         : space_(&space), stride_(3 * (static_cast<std::size_t>(bounces) + 2)), values_(stride_ * (space.size() + 1)) {}
 
@@ -30,7 +30,7 @@ public:
         }
     }
 
-    // All unknowns of a facet get their mean.
+    // Replaces the values of a facet's unknowns by their mean.
     void average_over_directions() {
         const auto stride = static_cast<Eigen::Index>(stride_);
         for (const Facet& facet : space_->facets()) {

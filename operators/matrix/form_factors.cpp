@@ -38,7 +38,7 @@ const GaussRule& gauss(int n) {
     return rules[n];
 }
 
-// Points a side for full double precision, from the ellipse in which the integrand is analytic.
+// Gauss points per dimension for full double precision, from the ellipse in which the integrand is analytic.
 int points_needed(const Parallelogram& a, const Parallelogram& b) {
     const auto reach = [](const Parallelogram& p) { return 0.5 * std::max(glm::length(p.u + p.v), glm::length(p.u - p.v)); };
     const auto half_edge = [](const Parallelogram& p) { return 0.5 * std::max(glm::length(p.u), glm::length(p.v)); };
@@ -84,7 +84,7 @@ Interval range(const Parallelogram& p, const Vec3& origin, const Vec3& axis) {
     return {std::min(start, end), std::max(start, end)};
 }
 
-// Two rectangles in coordinates in which their closed form is written.
+// Two rectangles in the coordinates of their closed form.
 struct Pair {
     bool parallel;
     Interval ax, ay, bx,

@@ -33,7 +33,7 @@ std::vector<Parallelogram> cells(const Parallelogram& face, int nu, int nv);
 // std::invalid_argument where a patch crosses the other's plane, has no area, or where a near pair has no closed form.
 double exchange_area(const Parallelogram& a, const Parallelogram& b);
 
-// The same for many pairs: on grids of equal cells most pairs are alike, and each kind is integrated once.
+// Exchange areas of many pairs, cached: on grids of equal cells most pairs are congruent, and each kind is integrated once.
 class ExchangeAreas {
 public:
     double operator()(const Parallelogram& a, const Parallelogram& b);
@@ -48,7 +48,7 @@ struct FormFactors {
     Vector area;
 };
 
-// Not renormalised: rows sum to 1 as far as the integrals are right and the patches enclose their room.
+// Not renormalised: rows sum to 1, up to the accuracy of the integrals, if the patches enclose their room.
 FormFactors form_factors(const std::vector<Parallelogram>& patches);
 
 }  // namespace neumann

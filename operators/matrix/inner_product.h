@@ -1,4 +1,4 @@
-// ⟨f, g⟩ = ∫∫ f g n² |cos θ| dω dA, in which T and R have their adjoints: of two exitant fields, or of two incident ones.
+// ⟨f, g⟩ = ∫∫ f g n² |cos θ| dω dA, for two exitant or two incident fields. T* and R* are the adjoints in this inner product.
 #pragma once
 
 #include "operators/matrix/patch_field.h"

@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// Numbers of their own for each use of the seed.
+// Independent random numbers for each use of the seed.
 constexpr std::uint64_t direct_stream = 0x6469726563ull, emitted_stream = 0x656d697474ull;
 
 template <class Each>
@@ -26,7 +26,7 @@ struct Segment {
     SurfacePoint from, to;
 };
 
-// Adds to the cells of a facet what the lights bring on average.
+// Adds the mean incident radiance from the lights to the cells of a facet.
 template <int C>
 NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
                              std::uint32_t number, IncidentVector<C>& means) {
@@ -101,7 +101,7 @@ ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, 
 }
 
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
-    // Those that no patch emits.
+    // Rays of patches cannot hit these.
     if (scene.emitters.has_environment() || scene.emitters.has_delta_lights()) return 0.0;
     double all = 0.0, lights = 0.0;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {

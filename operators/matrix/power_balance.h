@@ -1,6 +1,6 @@
-// Where the power of a field on patches goes: of what leaves the unknowns, some meets others, as the rays of T tell that see them,
-// and the rest meets nothing; of what arrives, the directional albedo of the cell where it does is reflected. R keeps account to
-// rounding; T does on average, for what the rays of all facets see of one and what its own rays see are two estimates.
+// Where the power of a field on patches goes. Of the power that leaves the unknowns, the rays of T that see them catch some, and
+// the rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R conserves power to rounding,
+// T only in expectation, because the rays that see a facet and the facet's own rays are two different estimates.
 #pragma once
 
 #include "operators/matrix/ray_table.h"
@@ -11,9 +11,9 @@ namespace neumann {
 // W, mean of the channels. Of one term.
 struct PowerOfTerm {
     double emitted = 0.0;   // leaves the unknowns
-    double left = 0.0;      // of it, towards nothing, or sides that neither reflect nor shine
-    double caught = 0.0;    // of it, by the rays of other facets
-    double absorbed = 0.0;  // of what is caught
+    double left = 0.0;      // part of `emitted` that hits nothing, or sides that neither reflect nor emit
+    double caught = 0.0;    // part of `emitted` that the rays of other facets see
+    double absorbed = 0.0;  // part of `caught`
 };
 
 template <int C>
@@ -23,7 +23,7 @@ public:
     PowerOfTerm of(const ExitantVector<C>& term) const;
 
 private:
-    // What one unit of radiance of each unknown adds.
+    // The contribution of one unit of radiance of each unknown.
     typename ExitantVector<1>::Values emitted_, left_, caught_;
     typename ExitantVector<C>::Values absorbed_;
 };

@@ -15,15 +15,14 @@ struct RefinementRow {
     const char* what;  // "patches / 4"
     TracedSettings settings;
     std::size_t patches = 0, unknowns = 0;
-    std::vector<std::vector<std::complex<double>>> leading;  // of each channel: at most two, by falling modulus
+    std::vector<std::vector<std::complex<double>>> leading;  // for each channel at most two, by decreasing modulus
 };
 
-// With a sixteenth and a quarter of the patches, and with a sixteenth and a quarter of the rays; where these are too few for that,
-// there are fewer rows, and where limits.go_on() says so. An eigenvalue that is not found within the limits is left out.
+// Rows for a sixteenth and a quarter of the patches, and for a sixteenth and a quarter of the rays. There are fewer rows if patches
+// or rays are too few, or if limits.go_on() returns false. Eigenvalues that are not found within the limits are left out.
 std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits = {});
 
-// How far the spectral radius of a channel moves when patches or rays are quartered; not a number where there is nothing to
-// compare.
+// How far the spectral radius of a channel moves when patches or rays are quartered; not a number if there is nothing to compare.
 double radius_shift(const std::vector<RefinementRow>& rows, std::size_t channel, double radius);
 
 }  // namespace neumann

@@ -17,8 +17,8 @@ using Index = Eigen::Index;
 
 }  // namespace
 
-// The sums are the gradient of ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d: by a few sweeps and then by Newton's method,
-// for where the sweeps are slow, as with glass.
+// Minimises ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d and whose gradient vanishes at the solution: first a few sweeps,
+// then Newton's method, because the sweeps are slow for glass.
 void scale_symmetrically(ReflectionBlock::Matrix& A, const Eigen::VectorXd& row_sums) {
     constexpr int most_sweeps = 100, most_steps = 40;
     const Index n = A.rows();
@@ -31,7 +31,7 @@ void scale_symmetrically(ReflectionBlock::Matrix& A, const Eigen::VectorXd& row_
     }
     for (int step = 0; step < most_steps && error() > rounding; ++step) {
         Eigen::MatrixXd hessian = d.asDiagonal() * A * d.asDiagonal();
-        // Where cells fall into two parts that see only each other, log d is known but for a constant.
+        // If the cells form two parts that exchange light only with each other, log d is determined up to a constant.
         hessian.diagonal() += sums + Eigen::VectorXd::Constant(n, 1e-9);
         const Eigen::VectorXd change = hessian.ldlt().solve(row_sums - sums).cwiseMax(-1.0).cwiseMin(1.0);
         const Eigen::VectorXd next = d.cwiseProduct(change.array().exp().matrix()), next_sums = next.cwiseProduct(A * next);
@@ -57,7 +57,7 @@ ReflectionBlock::ReflectionBlock(const Bsdf& front, DirectionCells front_cells, 
     build(sides);
 }
 
-// Row i by drawing ωo in cell i and ωi from the material.
+// Estimates row i with ωo sampled in cell i and ωi sampled from the BSDF.
 std::vector<std::vector<Rgb>> ReflectionBlock::sampled_rows(std::span<const Side> sides) {
     const std::uint32_t n = sides.back().first + sides.back().cells.size();
     const SobolPoints points(samples_of_row);
@@ -99,12 +99,12 @@ void ReflectionBlock::build(std::span<const Side> sides) {
         for (std::uint32_t i = 0; i < rows.size(); ++i)
             for (std::uint32_t j = 0; j < rows.size(); ++j) {
                 albedo[i] += 0.5 * rows[i][j][c];
-                // A material that knows no direction but its normal has the same albedo half a turn further.
+                // An isotropic material has the same albedo after half a turn about the normal.
                 albedo[mirrored[i]] += 0.5 * rows[i][j][c];
                 const double mean = 0.5 * (etendue[i] * rows[i][j][c] + etendue[j] * rows[j][i][c]);
                 if (mean > 0.0) entries.emplace_back(static_cast<int>(i), static_cast<int>(j), mean);
             }
-        // No sampled mean is to be larger than what it is the mean of.
+        // A sampled mean albedo must not exceed the largest albedo.
         for (const Side& side : sides) {
             auto of_side = albedo.segment(side.first, side.cells.size()).array();
             of_side = of_side.min(largest_basic_albedo(side.bsdf)[c]);

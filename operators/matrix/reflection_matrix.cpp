@@ -11,10 +11,10 @@ namespace neumann {
 
 namespace {
 
-// Unknowns that one thread reflects at least: waking another costs as much.
+// The least number of unknowns per task: with fewer, waking another thread costs more than it saves.
 constexpr std::uint32_t unknowns_at_once = 1 << 14;
 
-// The mean over a patch.
+// The mean reflectance over a patch.
 Rgb mean_reflectance(const Bsdf& bsdf, const PatchSpace& space, const Facet& facet, const SobolPoints& points,
                      std::uint32_t number) {
     Rgb sum(0.0);
@@ -80,7 +80,7 @@ ReflectionMatrix<1> ReflectionMatrix<C>::channel(int c) const {
     return {*space_, reflectance().row(C == 1 ? 0 : c), blocks_, channel_ + c};
 }
 
-// In place, with the back where it goes with the front.
+// Works in place; handles the back together with the front if they share a block.
 template <int C>
 void ReflectionMatrix<C>::reflect_cells(std::uint32_t f, double* values) const {
     const Facet& facet = space_->facets()[f];

@@ -1,11 +1,11 @@
-// R on a patch space: what leaves a facet in each cell of its directions is what arrives in all of them, means over the cells,
-// times the material's block and the facet's reflectance. Materials only.
+// R on a patch space: exitant radiance of a facet's cells of directions = reflectance · block · incident radiance of its cells. R
+// depends on the materials alone, not on visibility.
 //
-// A diffuse facet has one cell, whose block is 1. A patch's reflectance is the mean of its points'; rows then sum to the mean
-// directional albedo, so that ‖R‖∞ is at most the largest albedo and the white furnace holds to rounding on any mesh. The two
-// facets of a patch that light goes through share a block.
+// A diffuse facet has one cell, whose block is 1. A patch's reflectance is the mean over its points; rows then sum to the mean
+// directional albedo, so ‖R‖∞ is at most the largest albedo, and the white furnace test holds to rounding on any mesh. The two
+// facets of a patch that transmits light share a block.
 //
-// R is reciprocal: the numbers of R* are those of R, which takes what leaves to what it is worth where it arrives.
+// R is reciprocal: R*, which maps exitant to incident importance, has the same entries as R.
 #pragma once
 
 #include "core/material/materials.h"
@@ -17,7 +17,7 @@
 
 namespace neumann {
 
-// A material's block where it stands: its rows and columns begin with the unknown `first`. Null stands for 1.
+// A material's block, placed in R: its rows and columns begin with the unknown `first`. A null pointer stands for 1.
 struct FacetBlock {
     std::shared_ptr<const ReflectionBlock> block;
     std::uint32_t first = 0;
@@ -35,15 +35,15 @@ public:
 
     // The space is kept by reference.
     ReflectionMatrix(const Materials& materials, const PatchSpace& space);
-    // Every cell of every facet sends what arrives in it: R T is then T, the means over its rays.
+    // R without materials: exitant radiance equals incident radiance, so R T has the entries of T.
     static ReflectionMatrix identity(const PatchSpace& space);
     // One colour channel, 0 … 2.
     ReflectionMatrix<1> channel(int c) const;
 
-    // In place where g is given away.
+    // Works in place if g is moved in.
     Range operator()(Domain g) const { return Range(reflect(std::move(g).values())); }
     AdjointReflectionMatrix<C> adjoint() const { return AdjointReflectionMatrix<C>(*this); }
-    // Of what leaves unknown u.
+    // The entries of row u.
     template <class Each>
     void for_row(std::uint32_t u, const Each& each) const requires(C == 1) {
         const std::uint32_t f = space_->facet_of(u);
@@ -59,9 +59,9 @@ public:
     }
 
     const PatchSpace& space() const { return *space_; }
-    // Of each facet.
+    // The reflectance of each facet.
     const Reflectance& reflectance() const { return *reflectance_; }
-    // Of a facet, null for 1, and the unknown that its rows and columns begin with.
+    // The block of a facet (null stands for 1), and the unknown at which its rows and columns begin.
     const ReflectionBlock::Matrix* block(std::uint32_t facet, int channel = 0) const {
         const FacetBlock& of = (*blocks_)[facet];
         return of.block ? &of.block->matrix(channel_ + channel) : nullptr;
@@ -80,7 +80,7 @@ private:
           reflectance_(std::make_shared<const Reflectance>(std::move(reflectance))),
           blocks_(std::move(blocks)),
           channel_(channel) {}
-    // The back of a patch whose front has the block of both.
+    // Whether the facet is the back of a patch whose block is stored with the front.
     bool goes_with_front(std::uint32_t facet) const {
         return block(facet) && first_of_block(facet) != space_->facets()[facet].first;
     }
@@ -89,8 +89,8 @@ private:
 
     const PatchSpace* space_;
     std::shared_ptr<const Reflectance> reflectance_;
-    std::shared_ptr<const Blocks> blocks_;  // of each facet; patches of a material share one
-    int channel_ = 0;                       // of the blocks, where C is 1
+    std::shared_ptr<const Blocks> blocks_;  // one for each facet; patches of the same material share it
+    int channel_ = 0;                       // the channel of the blocks if C is 1
 };
 
 template <int C>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t rays = 256;
 
-// What is met by a ray of `what`, which sets out along w, is to face a medium of index 1.
+// Throws InputError unless the side `met` by a ray along w faces a medium of index 1. `what` names the ray's origin in the message.
 void check(const Scene& scene, const PatchSpace& space, const SurfacePoint& met, const Vec3& w, const std::string& what) {
     const bool front = glm::dot(met.normal, w) < 0.0;
     const std::uint32_t f = space.facet(space.patches().locate(met), front);

@@ -1,4 +1,5 @@
-// The patches of a scene. Their basic radiance L/n² is that of lights and pixels only where these stand outside of glass, n = 1.
+// The patches of a scene. The patches hold basic radiance L/n², which equals the radiance of lights and pixels only if these are
+// outside of glass, where n = 1.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -6,14 +7,14 @@
 
 namespace neumann {
 
-// Throws InputError as PatchSpace and side_directions() do, and where light sets out within glass, as far as rays tell.
+// Throws InputError as PatchSpace and side_directions() do, and if test rays show that a light is inside of glass.
 PatchSpace scene_patches(const Scene& scene, const Patching& patching);
 
-// A patch faces glass or another medium than n = 1. Light that total reflection keeps there is an eigenvector of K with the
-// eigenvalue 1, which no light may ever reach.
+// Whether a patch faces a medium with n ≠ 1, such as glass. Light that total reflection traps there is an eigenvector of K with
+// eigenvalue 1, which the lights may never excite.
 bool has_glass(const PatchSpace& space);
 
-// Throws InputError where the camera looks out of glass, as far as rays tell.
+// Throws InputError if test rays show that the camera is inside of glass.
 void check_camera(const Scene& scene, const PatchSpace& space);
 
 }  // namespace neumann

@@ -1,7 +1,7 @@
-// Σ_{k>N} K^k Le, the rest of a series whose terms are so far known, with few applications of K: terms are added until every second
-// one falls alike, t_{n+2} ≈ μ t_n (light between a lamp and the ceiling goes to and fro, so neighbours need not), and what follows
-// is closed as a geometric series, (t_{n+1} + t_{n+2}) μ/(1−μ). The error of that, about ‖t_{n+2} − μ t_n‖/(1−μ)², is below
-// `closing_error` of the rest; for pictures, not for proofs.
+// Σ_{k>N} K^k Le, the rest of a series, with few applications of K. Terms are added until t_{n+2} ≈ μ t_n; what follows is summed
+// as a geometric series, (t_{n+1} + t_{n+2}) μ/(1−μ). Every second term is compared because light between, for example, a lamp and
+// the ceiling makes neighbouring terms alternate. The error, about ‖t_{n+2} − μ t_n‖/(1−μ)², is below `closing_error` of the rest.
+// This is an estimate for pictures, not a bound.
 #pragma once
 
 #include "operators/matrix/patch_field.h"
@@ -18,7 +18,7 @@ constexpr int most_terms_of_rest = 2048;
 template <int C>
 struct SeriesRest {
     ExitantVector<C> sum;
-    bool converges = false;  // false too where that cannot be told from so many terms
+    bool converges = false;  // also false if it cannot be decided from the terms computed
     int applications = 0;
 };
 
@@ -39,7 +39,7 @@ SeriesRest<C> rest_of_series(const Op& K, ExitantVector<C> term) {
         for (int c = 0; c < C && closed; ++c) {
             const double size = rest.sum.row(c).abs().maxCoeff(), last = first.row(c).abs().maxCoeff();
             if (size == 0.0 || last == 0.0) continue;
-            // Relative to the last, so that squares do not vanish.
+            // Scaled by the last term, so that squares do not underflow.
             const double mu = (term.row(c) / last * (first.row(c) / last)).sum() / (first.row(c) / last).square().sum();
             const double left = 1.0 - mu, error = (term.row(c) - mu * first.row(c)).abs().maxCoeff() / (left * left);
             closed = left > 0.0 && error <= closing_error * size;

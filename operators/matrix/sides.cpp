@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t coarsest = 4, finest = 16;
 
-// Slopes that spread by α turn a reflected direction by about 2 α, to either side; cells are 2/k wide, so four to the lobe.
+// Slopes of roughness α turn a reflected direction by about 2α to either side, and cells are 2/k wide; k gives four cells per lobe.
 std::uint32_t directions_of(const Bsdf& bsdf) {
     const Lobe lobe = neumann::lobe(bsdf);
     if (lobe.kind == Lobe::Kind::diffuse) return 1;
@@ -20,13 +20,13 @@ std::uint32_t directions_of(const Bsdf& bsdf) {
     return k;
 }
 
-// Light does not go through, or both sides have reciprocal laws for what does, with one refractive index beyond.
+// Whether the material does not transmit light, or transmits it reciprocally with one refractive index.
 bool passes_as_glass(const Bsdf& bsdf) {
     const bool mixes = std::holds_alternative<Mask>(bsdf) || std::holds_alternative<Blend>(bsdf);
     return !transmits(bsdf) || (is_lawful(bsdf) && !(mixes && refractive_ratio(bsdf) != 1.0));
 }
 
-// Of the medium that a side faces, 1 where it is the thinner one.
+// The refractive index of the medium that a side faces; 1 if that is the thinner one.
 double refractive_index(const Bsdf* bsdf) { return bsdf ? std::max(1.0, 1.0 / refractive_ratio(*bsdf)) : 1.0; }
 
 [[noreturn]] void refuse(const Scene& scene, std::uint32_t shape, const std::string& why) {

@@ -1,4 +1,4 @@
-// What R needs to know of the sides of shapes: whether they reflect or emit, and in how many directions they have to be looked at.
+// For each side of a shape: whether it reflects or emits, and into how many cells its directions are divided.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -8,13 +8,13 @@
 
 namespace neumann {
 
-// One direction for a side that is diffuse in all it does, cells a quarter as wide as the lobe for a rough one, the finest for a
-// mirror or glass. The refractive index is 1 on the thinner side of a boundary, and where there is none. Throws InputError where a
-// material lets light through but is neither glass nor holes, changes from point to point otherwise than by a factor, or is
-// anisotropic: patches have one matrix of reflection for a material.
+// One cell for a side that reflects and emits diffusely, cells a quarter as wide as the lobe for a rough material, the finest cells
+// for a mirror or glass. The refractive index is 1 on the optically thinner side of a boundary, and where there is no boundary.
+// Throws InputError if a material transmits light but is neither glass nor holes, varies over the surface by more than a factor, or
+// is anisotropic, because patches have one reflection matrix per material.
 std::vector<SideDirections> side_directions(const Scene& scene);
 
-// All colour channels are alike, in what is emitted and in what is reflected.
+// Whether all colour channels are alike, in emission and in reflection.
 bool is_grey(const Scene& scene);
 
 }  // namespace neumann

@@ -11,7 +11,7 @@ TracedChannel::TracedChannel(const RayTable& table, const ReflectionMatrix<1>& R
     if (table.space().size() == table.space().facets().size()) reflectance_ = R.reflectance().matrix().transpose();
 }
 
-// Each ray brings a part; their number is taken for Poisson's.
+// Each ray contributes a part, and their number is assumed to be Poisson distributed.
 double TracedChannel::standard_error_of_power(Eigen::Index u) const {
     const IncidentVector<1> worth = adjoint().right()(ExitantVector<1>(Vector(Vector::Ones(size()))));
     double squares = 0.0;

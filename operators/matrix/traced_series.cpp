@@ -14,7 +14,7 @@ namespace neumann {
 
 namespace {
 
-// P and M.
+// The operators P (prolongation) and M (means) between the two spaces.
 class Coarsening {
 public:
     Coarsening(const PatchSpace& fine, const PatchSpace& coarse)
@@ -42,7 +42,7 @@ private:
     std::vector<std::uint32_t> around_;
 };
 
-// x, K x, K² x, …; `second` stands for K x where that is found otherwise. `look(series, term)` at each.
+// Computes x, K x, K² x, … and calls look(series, term) for each. `second`, if given, replaces K x.
 template <int C, class Op, class Look>
 TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
                           const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings,
@@ -65,7 +65,7 @@ TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::o
         coarse_term = i == 0 && second ? coarsening.mean<C>(term) : K_coarse(coarse_term);
     }
     if (!settings.rest) return series;
-    // `second` is not K's own.
+    // `second` is not K applied to x.
     const bool begin = second && settings.bounces == 0;
     if (begin) term = *second;
     auto rest = rest_of_series<C>(K, term);

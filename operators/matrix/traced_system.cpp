@@ -14,7 +14,7 @@ namespace neumann {
 
 namespace {
 
-// About what is needed for each unknown, and for each ray with its entry in T and in the transpose of one channel.
+// Approximate memory per unknown, and per ray with its entry in T and in the transpose of one channel.
 constexpr double bytes_of_unknown = 160.0, bytes_of_ray = 16.0;
 
 PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {

@@ -12,17 +12,17 @@
 namespace neumann {
 
 struct TracedSettings {
-    std::size_t patches = 2000;  // about as many; at least one a chart
-    std::uint32_t rays = 64;     // of a facet; a power of two. As many points on lights
+    std::size_t patches = 2000;  // approximate number; at least one per chart
+    std::uint32_t rays = 64;     // per facet; a power of two. Also the number of light samples per facet
     std::uint64_t seed = 0;
-    double memory = default_memory();  // bytes that may be taken, about
+    double memory = default_memory();  // approximate limit in bytes
 };
 
 class TracedSystem {
 public:
-    // The scene is kept by reference. Throws InputError where there is nothing to cut into patches, where no side of any surface
-    // faces another, and where more is asked for than memory holds. `checkpoint` is called now and then while T is traced, from any
-    // thread, and may throw to give up.
+    // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another, and if
+    // the patches and rays need too much memory. `checkpoint` is called now and then while T is traced, from any thread, and may
+    // throw to stop.
     TracedSystem(
         const Scene& scene, const TracedSettings& settings, const std::function<void()>& checkpoint = [] {});
     TracedSystem(const TracedSystem&) = delete;
@@ -33,18 +33,18 @@ public:
     const PatchSpace& space() const { return space_; }
     const RayTable& table() const { return table_; }
 
-    // 1 where the scene is grey, else red, green and blue.
+    // 1 if the scene is grey, otherwise 3.
     int channels() const { return static_cast<int>(R_.size()); }
     const ReflectionMatrix<1>& reflection(int c) const { return R_[static_cast<std::size_t>(c)]; }
-    // Of K; they refer to the table and to R here.
+    // A channel of K; it refers to the table and R of this object.
     TracedChannel channel(int c) const { return {table_, reflection(c)}; }
-    // T alone: a row is the mean of its rays, as 1 in T 1 for a closed scene.
+    // T alone: a row is the mean over its rays, so T 1 = 1 in a closed scene.
     TracedChannel transport() const { return {table_, identity_}; }
 
-    // Of basic radiance, as all on patches.
+    // Largest albedo for basic radiance.
     double largest_albedo(int c) const { return scene_->materials.largest_basic_albedo()[c]; }
     Vector emitted(int c) const { return emitted_.row(c).transpose(); }
-    // b = K Le; sampled on the lights where the rays of T hardly meet them.
+    // b = K Le, by light sampling if the rays of T hardly hit the lights.
     Vector direct(int c) const { return direct_.row(c).transpose(); }
     bool samples_lights() const { return samples_lights_; }
 
@@ -52,7 +52,7 @@ public:
     std::size_t rays_that_see_nothing() const;
 
 private:
-    using Rows = Eigen::MatrixXd;  // one a channel
+    using Rows = Eigen::MatrixXd;  // one row per channel
     template <int C>
     void fill();
 

@@ -10,10 +10,10 @@ namespace neumann {
 
 namespace {
 
-// Rays that one thread looks along at least: waking another costs as much.
+// The least number of rays per task: with fewer, waking another thread costs more than it saves.
 constexpr std::size_t rays_at_once = 1 << 16;
 
-// Channels of an unknown as the processor's registers hold them.
+// The channels of an unknown in SIMD registers.
 template <int C>
 struct Lanes;
 template <>
@@ -25,7 +25,7 @@ struct Lanes<4> {
     typedef double Type __attribute__((vector_size(32), may_alias));
 };
 
-// The mean of what `rays` bring. Four partial sums: additions wait for each other.
+// The mean radiance along `rays`. Four partial sums hide the latency of additions.
 template <int C>
 void mean(const double* source, std::span<const std::uint32_t> rays, typename Lanes<C>::Type& result) {
     using Lane = typename Lanes<C>::Type;
@@ -40,7 +40,7 @@ void mean(const double* source, std::span<const std::uint32_t> rays, typename La
     result = ((sum[0] + sum[1]) + (sum[2] + sum[3])) / static_cast<double>(rays.size());
 }
 
-// The means over the cells of facets [begin, end).
+// Computes the means over the cells of facets [begin, end).
 template <int C>
 NEUMANN_HOT void find_means(const RayTable& table, const double* source, std::uint32_t begin, std::uint32_t end, double* result) {
     using Lane = typename Lanes<C>::Type;

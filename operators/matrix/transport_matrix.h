@@ -1,6 +1,7 @@
-// T on a patch space: what arrives in a cell of directions of a facet is the mean of what its rays see. Geometry only.
+// T on a patch space: the incident radiance of a facet's cell of directions is the mean radiance that its rays see. T depends on
+// geometry alone.
 //
-// T* takes what each ray is worth where it arrives to the unknown that it comes from.
+// T* adds the importance at the start of each ray to the unknown that the ray sees.
 #pragma once
 
 #include "operators/matrix/patch_field.h"
@@ -19,13 +20,13 @@ public:
     using Domain = ExitantVector<C>;
     using Range = IncidentVector<C>;
 
-    // The table is kept by reference.
+    // Keeps a reference to the table.
     explicit TransportMatrix(const RayTable& table) : table_(&table) {}
 
     Range operator()(const Domain& f) const;
-    // Finds the rays that see each unknown.
+    // Sorts the rays by the unknown that they see.
     AdjointTransportMatrix<C> adjoint() const;
-    // Of what arrives in the cell of unknown u.
+    // The entries of row u, the incident radiance in the cell of unknown u.
     template <class Each>
     void for_row(std::uint32_t u, const Each& each) const {
         const auto seen = table_->row_of_cell(u);
@@ -56,7 +57,7 @@ public:
     }
 
 private:
-    // For each unknown, where the rays that see it arrive, in their order.
+    // For each unknown, the unknowns from which the rays that see it start, in the order of the rays.
     class Seers {
     public:
         explicit Seers(const RayTable& table);

@@ -1,5 +1,5 @@
-// What every method returns and every consumer takes: for each bounce a picture, its errors and its cost, the partial sums, the
-// rest, and what is to be known of how they were made.
+// The result of every method: for each bounce a picture with its errors and its cost, the partial sums, the rest, and a record of
+// how they were made.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -19,26 +19,27 @@
 
 namespace neumann {
 
-// Of a method that makes paths.
+// How a method that samples paths ran.
 struct PathRecord {
-    std::uint32_t replicate_size = 1;  // samples a pixel
+    std::uint32_t replicate_size = 1;  // samples per pixel
     std::size_t replicates = 0;
-    // Of a measured rest; without one, why there is none, in words.
+    // The probability of going on into the rest, if the rest was measured; otherwise `why_no_rest` gives the reason in words.
     std::optional<double> rest_probability;
     std::string why_no_rest;
     std::uint64_t walks_given_up = 0;
-    // How walks end in furnaces of the scene's largest albedo and of others near 1, by albedo; of `walk`.
+    // For `walk`: (albedo, the cost and second moment of a walk in a furnace of that albedo), for the scene's largest albedo and
+    // others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
-    std::optional<Health> health;  // unless only pictures were wanted
+    std::optional<Health> health;  // none if only pictures were wanted
 };
 
-// Of a method with fields on patches.
+// How a method with fields on patches ran.
 struct FieldRecord {
     std::uint32_t replicates = 0;
     std::size_t patches = 0, unknowns = 0;
-    std::uint64_t directions = 0;              // of all replicates
-    std::optional<std::uint32_t> gather_rays;  // a sample
-    std::string why;                           // it ended short of the goal, in words
+    std::uint64_t directions = 0;              // rays per side of a patch, in all replicates together
+    std::optional<std::uint32_t> gather_rays;  // per camera sample
+    std::string why;                           // why it ended short of the goal, in words
     std::string why_no_rest;
     EnergyBalance power;
 };
@@ -53,15 +54,15 @@ struct BounceSeries {
     Paths paths = Paths::all;
     std::vector<Checkpoint> convergence;
     Outcome outcome = Outcome::samples_reached;
-    std::uint64_t samples = 0;  // a pixel
+    std::uint64_t samples = 0;  // per pixel
     std::uint64_t rays = 0;
     double seconds = 0.0;
-    double setup_seconds = 0.0;  // of these, before the first sample
+    double setup_seconds = 0.0;  // part of `seconds`: the time before the first sample
     double degrees_of_freedom = 0.0;
 
-    Method method;  // as it ran: with its options, the seed, and as many bounces and samples it is repeated
+    Method method;  // as it ran: the same method, seed, bounces and samples repeat the render
     std::uint64_t seed = 0;
-    Plan plan;  // without parts where nothing was left out
+    Plan plan;  // has no parts where nothing was left out
     std::variant<PathRecord, FieldRecord> record;
     std::optional<Ways> ways;
     Warnings warnings;

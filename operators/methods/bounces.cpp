@@ -11,9 +11,9 @@ namespace neumann {
 
 namespace {
 
-// Until the rest is below this part of the sum.
+// By default, N is large enough that the rest is below this part of the sum.
 constexpr double default_tail = 0.01;
-// At least the last of the sums that strip-doubling shows.
+// The strip of doubling sums shows sums up to bounce 16.
 constexpr int default_least_bounces = 16, default_most_bounces = 64;
 
 int bounces_for(double tail, const Pilot& pilot) {

@@ -1,4 +1,4 @@
-// How many bounces have a picture of their own, where nothing asks for them: until the rest is small.
+// The default number of bounces N with a picture of their own: enough that the rest is small.
 #pragma once
 
 #include "operators/pictures/pilot.h"

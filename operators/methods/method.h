@@ -14,18 +14,18 @@ namespace neumann {
 namespace method {
 
 enum class LeavingOut {
-    by_plan,  // what the scene does not need, as its plan tells (operators/plan)
+    by_plan,  // leave out what the plan proves unnecessary in this scene (operators/plan)
     nothing
 };
 
-// Of all that make paths.
+// Options of all methods that sample paths.
 struct PathOptions {
-    std::optional<SamplerKind> sampler = {};  // the scene's without it, and Sobol' points where that has none
+    std::optional<SamplerKind> sampler = {};  // default: the scene's sampler, or Sobol' points if the scene names none
     LeavingOut plan = LeavingOut::by_plan;
     bool operator==(const PathOptions&) const = default;
 };
 
-// From the camera, by directions of the materials: one walk for all bounces.
+// Path tracing: walks from the camera sample directions by the BSDF. One walk gives a sample of every bounce.
 struct Walk : PathOptions {
     static constexpr const char* name = "walk";
     DirectLightSettings direct = {};
@@ -34,7 +34,7 @@ struct Walk : PathOptions {
     bool operator==(const Walk&) const = default;
 };
 
-// The same by directions from which light comes, as tables tell.
+// Path tracing whose diffuse reflections sample tables of the incident light (path guiding).
 struct Guided : PathOptions {
     static constexpr const char* name = "guided";
     std::optional<std::size_t> patches = {};
@@ -42,64 +42,64 @@ struct Guided : PathOptions {
     bool operator==(const Guided&) const = default;
 };
 
-// The same by points on all surfaces.
+// Walks from the camera that choose the next vertex uniformly by area on all surfaces.
 struct Surface : PathOptions {
     static constexpr const char* name = "surface";
     bool operator==(const Surface&) const = default;
 };
 
-// From the lights to the camera.
+// Light tracing: walks from the lights, joined to the camera.
 struct Light : PathOptions {
     static constexpr const char* name = "light";
     Roulette roulette = {};
     bool operator==(const Light&) const = default;
 };
 
-// From both ends, joined everywhere.
+// Bidirectional path tracing: subpaths from both ends, joined at every pair of vertices.
 struct Bidirectional : PathOptions {
     static constexpr const char* name = "bidirectional";
-    DirectLightSettings direct = {};  // of both, as it asks for lights and hits them
+    DirectLightSettings direct = {};  // must be multiple importance sampling: it both samples lights and hits them
     Roulette roulette = {};
     Split split = {};
-    std::optional<int> ways = {};  // the bounce of which every way is shown (ways.h)
+    std::optional<int> ways = {};  // show every way (s, t) to make this bounce (ways.h)
     bool operator==(const Bidirectional&) const = default;
 };
 
-// The walk in mirrors and through glass alone.
+// Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
 struct Classic : PathOptions {
     static constexpr const char* name = "classic";
     bool operator==(const Classic&) const = default;
 };
 
-// Each bounce by itself.
+// Each bounce is sampled by walks of its own.
 struct Pointwise : PathOptions {
     static constexpr const char* name = "pointwise";
     bool operator==(const Pointwise&) const = default;
 };
 
-// Of all that have fields on patches. What is not given is chosen by the goal.
+// Options of all methods with fields on patches. Options that are not given are chosen to reach the goal.
 struct FieldOptions {
     std::optional<std::size_t> patches = {};
-    std::optional<std::uint32_t> directions = {};  // rays of a side of a patch, of all replicates
+    std::optional<std::uint32_t> directions = {};  // rays per side of a patch, in all replicates together
     bool operator==(const FieldOptions&) const = default;
 };
 
-// T and R on patches, read at the pixel.
+// The series is computed with T and R on patches, and the field is interpolated at the pixel.
 struct Matrix : FieldOptions {
     static constexpr const char* name = "matrix";
     bool operator==(const Matrix&) const = default;
 };
 
-// The same with K once more at the pixel.
+// As Matrix, with K applied once more at the pixel (final gathering).
 struct Gather : FieldOptions {
     static constexpr const char* name = "gather";
     bool operator==(const Gather&) const = default;
 };
 
-// The patches as they are.
+// The piecewise constant field on the patches is shown as it is.
 struct Patches : FieldOptions {
     static constexpr const char* name = "patches";
-    bool importance = false;  // pictures of K*^i We
+    bool importance = false;  // show K*^i We in place of K^i Le
     bool operator==(const Patches&) const = default;
 };
 

@@ -26,7 +26,6 @@ std::string not_in(const std::string& text, const std::vector<std::string>& name
     return fmt::format("{} not in {{{}}}", text, fmt::join(names, ","));
 }
 
-// Values by name.
 template <class Value>
 using Named = std::vector<std::pair<std::string, Value>>;
 
@@ -48,7 +47,7 @@ std::string name(const Named<Value>& all, const Value& value) {
     return std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.second == value; })->first;
 }
 
-// How lights are found, whichever of them are asked.
+// A value of --direct: everything in DirectLightSettings but the choice among lights.
 struct Strategy {
     DirectLight direct = DirectLight::mis;
     LightPlace place = LightPlace::area;
@@ -114,8 +113,8 @@ std::optional<Split> read_split(const std::string& text) {
     return in_range(lights) && in_range(walks) ? std::optional(Split{*lights, *walks}) : std::nullopt;
 }
 
-// Of an option: `get` gives its value in a method that has it, and is not to be called with others; `set` puts one there. `read`
-// gives nothing where a text is wrong.
+// Makes an option. `get` reads its value from a method; a method has the option if it can be passed to `get`. `set` writes the
+// value. `read` parses a text and returns nothing if the text is wrong.
 template <class Get, class Set, class Read, class Print>
 MethodOption option(Kind kind, std::string name, std::string type, std::string help, Get get, Set set, Read read, Print print,
                     std::string expected) {
@@ -170,7 +169,6 @@ MethodOption whole(std::string name, std::string type, std::string help, std::ui
         fmt::format("a whole number from {} to {}", low, high));
 }
 
-// A method has an option if it has a member for it.
 std::vector<MethodOption> make_options() {
     return {
         choice(
@@ -245,7 +243,7 @@ std::string listed(const std::vector<std::string>& names) {
     return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
-// Options that exclude each other. `lights`: which of them are asked was given.
+// Throws InputError if options exclude each other. `lights`: --lights was given.
 void expect_sense(const method::Walk& walk, bool lights) {
     if (lights && !asks_lights(walk.direct))
         throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",

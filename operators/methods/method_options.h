@@ -1,5 +1,5 @@
-// The one description of every option of a method: what it is called, what it may be, what it means, and which methods have it.
-// The command line and its help, run.json, replays, studies and Python are made from it.
+// The only table of the methods' options: name, legal values, help text, and which methods have the option. The command line and
+// its help, run.json, replays, studies and Python use it.
 #pragma once
 
 #include "operators/methods/method.h"
@@ -13,25 +13,25 @@
 namespace neumann {
 
 struct MethodOption {
-    enum class Kind { text, number, flag };  // a number is whole; a flag "true" or "false"
+    enum class Kind { text, number, flag };  // a number is a whole number; a flag is "true" or "false"
     Kind kind;
     std::string name, type, help;
-    // What is wrong with a text, in words; empty where it can be read.
+    // Returns what is wrong with a text, in words, or an empty string if read() accepts it.
     std::function<std::string(const std::string&)> wrong;
     std::function<bool(const Method&)> belongs_to;
-    // The method has it, and the text is right.
+    // Sets the option. Requires that the method has it and that wrong(text) is empty.
     std::function<void(Method&, const std::string&)> read;
-    // As read() takes it; empty where the method does not have it, or it is left open.
+    // The value in the form that read() accepts; empty if the method does not have the option or leaves it open.
     std::function<std::string(const Method&)> text;
 };
 
-// In the order of the help.
+// All options, in the order of the help.
 std::span<const MethodOption> method_options();
 std::vector<std::string> method_names();
-// Of all methods, in a few words each.
+// Help text: all methods, in a few words each.
 const std::string& method_help();
 
-// A method as it is asked for, option by option.
+// A method as text: its name, and the options that are given.
 struct MethodText {
     std::string name = "walk";
     std::vector<std::pair<std::string, std::string>> options = {};
@@ -40,11 +40,11 @@ struct MethodText {
 Method make_method(const MethodText& text);
 // The same in one word: "walk:direct=bsdf:lights=power".
 Method read_method(const std::string& word);
-// What --direct calls it.
+// The value of --direct that gives these settings.
 std::string name_of(const DirectLightSettings& direct);
-// All options that are not left open; make_method() makes the same method of it.
+// The inverse of make_method(): all options that are not left open.
 MethodText text_of(const Method& method);
-// Those of them that are not as they are without being asked for.
+// As text_of(), with only those options that differ from their defaults.
 MethodText differences_of(const Method& method);
 
 }  // namespace neumann

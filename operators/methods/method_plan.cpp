@@ -12,7 +12,7 @@ namespace {
 
 using Decisions = std::vector<bool LeftOut::*>;
 
-// Those of the plan that a method takes; nothing where it takes no plan.
+// The decisions of the plan that a method can act on; nullopt if the method supports no plan.
 std::optional<Decisions> decisions(const method::Walk& walk) {
     const DirectLight direct = walk.direct.direct;
     Decisions taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};

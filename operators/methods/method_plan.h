@@ -1,4 +1,4 @@
-// What a method does not need of a scene.
+// Which work a method can leave out in a scene.
 #pragma once
 
 #include "operators/methods/method.h"
@@ -6,9 +6,9 @@
 
 namespace neumann {
 
-// Without parts where nothing is to be left out, or the method can do without nothing.
+// The plan has no parts if the method's options forbid leaving anything out, or if the method supports no plan.
 Plan plan_for(const Method& method, const Scene& scene);
-// All parts of a scene, and the bounces that a render would leave out where none are asked for.
+// All parts of the scene's plan, and the late bounces that a render without a given N would leave out.
 Plan plan_with_bounces(const Scene& scene);
 
 }  // namespace neumann

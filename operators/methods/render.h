@@ -6,11 +6,11 @@
 
 namespace neumann {
 
-// L = Le + K Le + K² Le + …, bounce by bounce. Stopped by `watch`, it returns what it has. Throws InputError where scene, method
-// and goal do not go together, and RunError where a tail cannot be met or nothing was finished before it was stopped. Nothing in
-// the result refers to the scene.
+// L = Le + K Le + K² Le + …, bounce by bounce. If `watch` stops it, it returns what it has. Throws InputError if scene, method and
+// goal are incompatible, and RunError if a tail cannot be met or nothing was finished before the stop. The result holds no
+// reference to the scene.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch = {});
-// The same with a pilot of the scene that was there before.
+// As above, with a pilot of the scene that exists already.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot);
 
 }  // namespace neumann

@@ -15,12 +15,12 @@ namespace neumann {
 
 namespace {
 
-// Of a replicate, with patches or directions given and no samples: about what default_error takes.
+// Samples per pixel of a replicate if patches or directions are given but not samples: about enough for default_error.
 constexpr std::uint32_t default_samples = 16;
-// Means that are known less well than to this part are told of.
+// Warn if the 95% interval of a mean is wider than this part of the mean.
 constexpr double wide_interval = 0.1;
-// Of a facet, where directions are given: as many as rays of T, in between. So do renders that choose their settings by
-// themselves, which is why theirs can be repeated.
+// If directions are given, a facet has as many light samples as rays of T, clamped to this range. Renders that choose their own
+// settings use the same rule, so they can be repeated from the directions.
 constexpr std::uint32_t fewest_light_samples = 16, most_light_samples = 64;
 
 template <class M>
@@ -30,7 +30,7 @@ FieldMethod kind(const M& m) {
     if constexpr (std::same_as<M, method::Patches>) return m.importance ? FieldMethod::importance : FieldMethod::patches;
 }
 
-// Of all replicates; in each, at least one, and a power of two.
+// One replicate's share of `all`: a power of two, and at least 1.
 std::uint32_t share(std::uint64_t all, std::uint32_t replicates) {
     return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(all / replicates, 1, 1u << 20)));
 }
@@ -80,7 +80,6 @@ void warn_of_wide_intervals(const SeriesReport& report, Warnings& warnings) {
 FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool given) {
     FieldGoal chosen{goal.relative_error, goal.seconds, std::nullopt};
     if (given) chosen.most = settings;
-    // Without any goal, what a short wait gives.
     if (!chosen.relative_error && !chosen.seconds) chosen = {default_error, default_seconds, std::nullopt};
     if (!chosen.seconds) chosen.seconds = longest_search;
     return chosen;
@@ -128,12 +127,12 @@ BounceSeries render_by(M m, const RenderJob& job) {
 
     if (has_shading_normals(job.scene)) series.warnings.add(patches_are_flat);
     warn_of_wide_intervals(series.report, series.warnings);
-    // Without an error to reach, to be out of time is no surprise.
+    // Running out of time is worth a warning only if there was an error to reach.
     const bool ended_early = run.outcome == Outcome::memory_reached || run.outcome == Outcome::does_not_pay;
     if (!run.why.empty() && (goal.relative_error || ended_early)) series.warnings.add(run.why);
 
     const std::uint64_t directions = std::uint64_t{run.settings.rays} * run.settings.replicates;
-    // With these and as many samples it is repeated.
+    // Record the settings that, with the same number of samples, repeat the render.
     if (!given || goal.seconds || m.patches) m.patches = run.settings.patching.patches;
     if (!given || m.directions || run.settings.rays != settings.rays) m.directions = static_cast<std::uint32_t>(directions);
     series.method = m;

@@ -1,4 +1,4 @@
-// What the realisations of render() share.
+// What the two implementations of render() share.
 #pragma once
 
 #include "operators/methods/render.h"
@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// Made when it is first asked for: a render whose bounces and samples are given may need none.
+// A pilot that runs when it is first asked for: a render whose bounces and samples are given may need none.
 class PilotOnDemand {
 public:
     PilotOnDemand(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed)
@@ -30,7 +30,7 @@ private:
 };
 
 struct RenderJob {
-    const Scene& scene;  // without what the plan leaves out
+    const Scene& scene;  // without the materials that the plan leaves out
     const Plan& plan;
     const Goal& goal;
     const Watch& watch;
@@ -40,7 +40,7 @@ struct RenderJob {
 BounceSeries render_by_paths(const Method& method, const RenderJob& job);
 BounceSeries render_by_fields(const Method& method, const RenderJob& job);
 
-// The last bounce with a picture of its own; the watch is told. Throws RunError where a tail cannot be met.
+// N, the last bounce with a picture of its own; calls watch.chosen(N). Throws RunError if a tail cannot be met.
 int choose_bounces(const RenderJob& job);
 
 }  // namespace neumann

@@ -17,10 +17,10 @@ namespace neumann {
 
 namespace {
 
-// Left to sampling where the set-up has taken all of the time, seconds.
+// The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
-// Samples a pixel in one replicate: as many as still give several replicates.
+// Samples per pixel in one replicate: as many as still give several replicates.
 std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& job, const Split& split) {
     if (job.goal.replicates) return share_of_replicate(job.goal);
     if (goal.samples) return replicate_size(*goal.samples);
@@ -33,12 +33,12 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& j
         static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
 }
 
-// What the moments of all pictures need at most: refused before the machine starts to swap.
+// Throws InputError if the moments of all pictures might not fit in memory, before the machine starts to swap.
 void check_memory(const Goal& goal, const Film& film, int bounces) {
-    const double nodes = 7.0;  // of the tree of replicates, at most, with the result and the samples' ranges
+    const double nodes = 7.0;  // upper bound: nodes of the tree of replicates, the result, and the samples' ranges
     const double bytes =
         nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
-    // All of it is known beforehand, so that it may be more than what grows by itself takes.
+    // The size is known beforehand, so it may be a larger part of the memory than for data that grows as it goes.
     const double memory = goal.memory.value_or(0.8 * usable_memory());
     if (bytes > memory)
         throw InputError(
@@ -94,7 +94,7 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
     return out;
 }
 
-// What is to be known of a series: what its paths miss, what its samples cannot tell, what was not reached.
+// Adds the warnings: light that the paths miss, errors that the samples cannot show, goals that were not reached.
 void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& settings, const RenderedSeries& sampled,
           double albedo) {
     const Scene& scene = job.scene;
@@ -141,7 +141,7 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     }
 }
 
-// A last bounce until the rest is as small as asked for: the pilot chose it, the render judges it.
+// For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N.
 struct Sampled {
     RenderedSeries series;
     SeriesReport report;
@@ -167,7 +167,7 @@ Sampled sample(SamplingSettings& settings, const SamplingGoal& goal, RestVerdict
     }
 }
 
-// With what was left open.
+// The method with the options that had been left open.
 Method as_it_ran(Method method, const SamplingSettings& settings) {
     std::visit(
         [&]<class M>(M& m) {
@@ -197,7 +197,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         settings.tables =
             direction_tables(*guided, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()));
         setup_seconds = clock.seconds();
-        // Of the time that was asked for.
+        // The set-up counts towards the time limit.
         if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
     }
     settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split);

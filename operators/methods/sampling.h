@@ -1,4 +1,4 @@
-// How a method that makes paths samples a scene.
+// The settings with which a path method samples a scene.
 #pragma once
 
 #include "operators/methods/method.h"
@@ -9,10 +9,11 @@
 
 namespace neumann {
 
-// All but the bounces, the rest, the tables and the replicates. Throws InputError where the method cannot render the scene.
+// Sets everything but the bounces, the rest, the tables and the replicate size. Throws InputError if the method cannot render the
+// scene.
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed);
 
-// Of a guided method. Throws InputError.
+// Builds the guide's tables. Throws InputError.
 std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& guided, const Scene& scene, int bounces,
                                                         std::uint64_t seed, double memory);
 

@@ -1,5 +1,5 @@
-// The ways (s, t) to make one bounce, s vertices from the light and t from the camera: what each brings to the picture with its
-// weight, and what it would make by itself.
+// The bidirectional strategies (s, t) for one bounce, s vertices from the light and t from the camera: each one's contribution with
+// its MIS weight, and its estimate without the weight.
 #pragma once
 
 #include "operators/pictures/rendered_series.h"
@@ -23,7 +23,7 @@ struct Ways {
     std::vector<Way> ways;
 };
 
-// The same samples and seed as `settings`, of the bidirectional method.
+// Uses the samples and the seed of `settings`, which are of the bidirectional method.
 Ways render_ways(const Scene& scene, SamplingSettings settings, int bounce, std::uint64_t samples, const Watch& watch);
 
 }  // namespace neumann

@@ -17,17 +17,17 @@ struct Corners {
 
 bool before(const Vec3& x, const Vec3& y) { return std::array{x.x, x.y, x.z} < std::array{y.x, y.y, y.z}; }
 
-// An edge by the places of its ends: files often repeat vertices.
+// An edge, identified by the positions of its ends, because files often repeat vertices.
 using EdgeEnds = std::array<double, 6>;
 EdgeEnds edge_between(Vec3 x, Vec3 y) {
     if (before(y, x)) std::swap(x, y);
     return {x.x, x.y, x.z, y.x, y.y, y.z};
 }
 
-// How far a quadrilateral may be from plane, relative to its size: coordinates in files have few digits.
+// Tolerance for plane quadrilaterals, relative to their size: coordinates in files have few digits.
 constexpr double plane_tolerance = 1e-6;
 
-// All corners of a b c d turn left about the normal, and none lies on a line with its neighbours.
+// Whether all corners of a b c d turn left about the normal, and none is collinear with its neighbours.
 bool is_plane_and_convex(const std::array<Vec3, 4>& p, const Vec3& normal) {
     for (int i = 0; i < 4; ++i) {
         const Vec3 in = p[i] - p[(i + 3) % 4], out = p[(i + 1) % 4] - p[i];
@@ -77,7 +77,7 @@ void Atlas::add_mesh(std::uint32_t shape, const TriangleMesh& mesh, double patch
 }
 
 void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector<bool>& has_chart) {
-    // Longest shared edges first: a rectangle's diagonal.
+    // The longest shared edges come first: these are the diagonals of rectangles.
     std::map<EdgeEnds, std::vector<std::uint32_t>> at_edge;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Corners t(mesh, i);
@@ -96,7 +96,7 @@ void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector
 
     for (const Shared& pair : shared) {
         if (has_chart[pair.first] || has_chart[pair.second]) continue;
-        // Turned so that the shared edge is a c in both: a b c and a c d.
+        // Rotated so that the triangles are a b c and a c d, which share the edge a c.
         const Corners lower(mesh, pair.first), upper(mesh, pair.second);
         const std::array low{lower.a, lower.b, lower.c}, up{upper.a, upper.b, upper.c};
         for (std::size_t i = 0; i < 3; ++i)

@@ -4,7 +4,7 @@ namespace neumann {
 
 namespace {
 
-// x in [0, 1] with density proportional to (1 − x) a + x b.
+// Samples x in [0, 1] with density proportional to (1 − x) a + x b.
 double sample_linear(double u, double a, double b) {
     const double root = a + std::sqrt(a * a + u * (b * b - a * a));
     return root > 0.0 ? u * (a + b) / root : 0.0;
@@ -19,7 +19,7 @@ QuadMap::QuadMap(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, con
     e_ = in_plane(b - a);
     f_ = in_plane(d - a);
     g_ = in_plane((a - b) + (c - d));
-    // A parallelogram's rounding error would only cost digits.
+    // A term of rounding errors alone is dropped, because dividing by it would lose digits.
     is_parallelogram_ = glm::length(g_) < 1e-14 * (glm::length(e_) + glm::length(f_));
     if (is_parallelogram_) g_ = Vec2(0.0);
     j0_ = cross(e_, f_);

@@ -1,4 +1,4 @@
-// A piece of surface with coordinates (s, t) in [0, 1]²: what patches are cut from.
+// A piece of surface with coordinates (s, t) in [0, 1]², which is cut into patches.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -44,7 +44,7 @@ public:
         if (is_parallelogram_) return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
         return uniform_in_trapezoids(cell, u);
     }
-    // Of the lines through the middle.
+    // Lengths of the lines t = 1/2 and s = 1/2.
     Vec2 lengths() const { return {glm::length(e_ + 0.5 * g_), glm::length(f_ + 0.5 * g_)}; }
 
 private:
@@ -62,7 +62,7 @@ class Chart {
 public:
     // A sphere, a cylinder or a disc.
     Chart(const Geometry& geometry, std::uint32_t shape);
-    // The quadrilateral a b c d: of the triangles `lower`, on b's side of the diagonal a c, and `upper`; they may be the same.
+    // The quadrilateral a b c d, made of the triangles `lower`, on b's side of the diagonal a c, and `upper`; they may be the same.
     Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);
 
     std::uint32_t shape() const { return shape_; }
@@ -83,7 +83,7 @@ public:
         if (quad_) return quad_->uniform(cell, u);
         return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
     }
-    // How long lines of constant t and of constant s are, about.
+    // Approximate lengths of lines of constant t and of constant s.
     Vec2 lengths() const { return lengths_; }
     // t = 0 and t = 1 are the same line.
     bool closed_in_t() const { return closed_in_t_; }
@@ -94,7 +94,7 @@ private:
     std::array<Vec3, 4> corners_{};
     Vec3 up_{0.0};  // points with (p − first corner) · up > 0 lie on `upper`
     std::uint32_t lower_ = 0, upper_ = 0;
-    double area_ = 0.0;  // of a round shape
+    double area_ = 0.0;  // for round shapes
     Vec2 lengths_;
     bool closed_in_t_ = false;
 };

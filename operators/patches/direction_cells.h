@@ -13,11 +13,11 @@ struct DirectionCells {
     std::uint32_t k = 1;
 
     std::uint32_t size() const { return k * k; }
-    // Of a direction in the local frame, cos θ > 0.
+    // The cell of a direction in the local frame, cos θ > 0.
     std::uint32_t cell(const Vec3& w) const { return k == 1 ? 0 : cell_of_square(square_of_disk(Vec2(w))); }
     std::uint32_t cell_of_square(const Vec2& u) const { return along(u.y) * k + along(u.x); }
     std::uint32_t mirrored(std::uint32_t cell) const { return size() - 1 - cell; }
-    // The cell around a cell, of half as many in both directions.
+    // Half as many cells along both axes, and the coarser cell that contains a cell.
     DirectionCells coarser() const { return {std::max(k / 2, 1u)}; }
     std::uint32_t coarser(std::uint32_t cell) const { return k == 1 ? 0 : cell / k / 2 * (k / 2) + cell % k / 2; }
     // Uniform in projected solid angle for uniform u in [0, 1)².

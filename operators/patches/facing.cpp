@@ -6,7 +6,7 @@ namespace neumann {
 
 namespace {
 
-// More points than these are replaced by the corners of the box around them.
+// If there are more points, they are replaced by the corners of their bounding box.
 constexpr std::size_t most_points = 1000;
 constexpr double tolerance = 1e-6;
 

@@ -1,4 +1,4 @@
-// Sides that face nothing: the outsides of a room's walls. No surface's light gets there and none leaves for another.
+// Finds sides that face nothing, such as the outsides of a room's walls: they exchange no light with other surfaces.
 #pragma once
 
 #include "operators/patches/chart.h"
@@ -11,8 +11,8 @@ class Facing {
 public:
     explicit Facing(const Geometry& geometry);
 
-    // Whether all surfaces lie behind this side of a plane or spherical chart, up to a millionth of the scene's size; false where
-    // that is not known.
+    // Whether all surfaces lie behind this side of a plane or spherical chart, up to a millionth of the scene's size; false if this
+    // is not known.
     bool nothing(const Chart& chart, bool front) const;
 
 private:

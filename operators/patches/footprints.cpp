@@ -8,18 +8,18 @@ namespace neumann {
 
 namespace {
 
-// Pairs of charts and edges that are looked at; in larger scenes patches are small anyway.
+// Limit on the pairs of charts and edges that are tested; in larger scenes patches are small anyway.
 constexpr std::size_t most_pairs = 20'000'000;
 
-// Bands reach so many widths into a gap; where that is less than `near`, there are none. They end where they would be as wide as
-// patches are anyway; the innermost is a quarter as wide as the gap. What leaks is then right to 2%; without bands it is 17% too
-// much (tests/matrix/gaps.cpp).
+// Bands reach depth_of_bands widths into a gap; if that is less than `near`, there are none. They end where they would be as wide
+// as the patches. The band at the mouth is a quarter as wide as the gap. The light that leaks out is then right to 2%; without
+// bands it is 17% too much (tests/matrix/gaps.cpp).
 constexpr double depth_of_bands = 16.0, largest_depth = 12.0, band_ratio = 0.8;
 
 struct Edge {
     Vec3 a, b;
     std::uint32_t shape;
-    std::vector<std::size_t> charts;  // whose side it is
+    std::vector<std::size_t> charts;  // the charts that have this edge
 };
 
 std::array<double, 6> key(const Vec3& a, const Vec3& b) {
@@ -28,7 +28,7 @@ std::array<double, 6> key(const Vec3& a, const Vec3& b) {
     return {low[0], low[1], low[2], high[0], high[1], high[2]};
 }
 
-// Sides of quadrilaterals, without those between two that lie in one plane.
+// The edges of quadrilaterals, except edges between two quadrilaterals in one plane.
 std::vector<Edge> outline_edges(const std::vector<Chart>& charts) {
     struct Side {
         Edge edge;
@@ -60,7 +60,7 @@ bool is_corner(const Chart& chart, const Vec3& p) {
     return std::find(corners.begin(), corners.end(), p) != corners.end();
 }
 
-// Of the quadrilateral, for a point in its plane.
+// Whether a point in the plane of the quadrilateral lies inside it.
 bool is_inside(const Chart& chart, const Vec3& p) {
     const auto& corners = chart.corners();
     const double size = glm::distance(corners[0], corners[2]);
@@ -78,8 +78,8 @@ double distance(const Vec3& p, const Footprints::Mouth& m) {
     return glm::distance(p, m.a + u * along);
 }
 
-// Of a gap between a chart and an edge above it, whose ends are at these heights; 0 where the edge stands on the chart, or leaves
-// it like the surface next to it.
+// The width of the gap between a chart and an edge whose ends are at heights a and b above it; 0 if the edge touches or crosses the
+// chart's plane, or if one height is less than half of the other.
 double gap_width(double a, double b) {
     const double low = std::min(std::abs(a), std::abs(b)), high = std::max(std::abs(a), std::abs(b));
     return a * b > 0.0 && low > 0.5 * high ? high : 0.0;
@@ -136,7 +136,7 @@ std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vec
         const auto height = [&](const Vec3& p) { return glm::dot(p - origin, normal); };
         struct Outline {
             std::vector<Footprints::Segment> segments;
-            bool divides = false;  // the chart: not all of it is inside, or outside
+            bool divides = false;  // the outline divides the chart: neither all inside nor all outside
         };
         std::map<std::uint32_t, Outline> outlines;  // by shape
         for (const Edge& edge : edges) {
@@ -144,7 +144,7 @@ std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vec
             const Vec3 a = edge.a - normal * height(edge.a), b = edge.b - normal * height(edge.b);
             Outline& outline = outlines[edge.shape];
             outline.segments.push_back({chart.coordinates(geometry, a), chart.coordinates(geometry, b)});
-            // Surfaces that go on from the chart's edge do not stand on it.
+            // Edges that start at a corner of the chart belong to adjacent surfaces.
             if (is_corner(chart, edge.a) || is_corner(chart, edge.b)) continue;
             bool above = false;
             for (const Vec3& p : {a, 0.5 * (a + b), b}) above = above || is_inside(chart, p);

@@ -1,10 +1,10 @@
-// Where other surfaces touch a chart, or come as near to it as a patch is wide: their outlines, seen perpendicularly, divide it.
-// Light falls off abruptly across such a line (the floor under a box, the ceiling above a lamp), so patches do not reach across it
-// and fields are not interpolated across it.
+// Where other surfaces touch a chart, or come closer to it than the width of a patch, their outlines are projected onto the chart
+// and divide it (discontinuity meshing). The radiance jumps across such a line (the floor under a box, the ceiling above a lamp),
+// so patches do not reach across it and fields are not interpolated across it.
 //
-// Light in a narrow gap goes to and fro many times and moves on by about the gap's width each time, so that what leaks out comes
-// from a few widths' depth, and patches that reach deeper mix it with light that stays. Along the mouth of a gap both surfaces are
-// divided into bands, a fifth narrower each towards the mouth.
+// Light in a narrow gap is reflected to and fro many times and moves on by about the gap's width each time. What leaks out
+// therefore comes from a depth of a few widths, and larger patches would mix it with light that stays inside. Along the mouth of a
+// gap both surfaces are divided into bands, each a fifth narrower than the next one inwards.
 #pragma once
 
 #include "operators/patches/chart.h"
@@ -16,7 +16,7 @@ namespace neumann {
 
 // Where a point lies among the outlines on a chart.
 struct Region {
-    std::uint32_t shapes = 0;  // a bit for each: the point lies within its outline
+    std::uint32_t shapes = 0;  // one bit per outline: whether the point lies inside
     std::uint32_t band = 0;    // 0: far from gaps
     auto operator<=>(const Region&) const = default;
 };
@@ -31,9 +31,9 @@ public:
     };
     struct Mouth {
         Vec3 a, b;     // a line in the chart's plane
-        double depth;  // to which there are bands
+        double depth;  // the bands reach this far into the gap
     };
-    // Of one more shape; outlines that are no closed lines divide nothing sensible and are the caller's to leave out.
+    // Adds the outline of one more shape. The caller must leave out outlines that are not closed.
     void add(std::vector<Segment> outline) {
         if (outlines_.size() < most_shapes) outlines_.push_back(std::move(outline));
     }
@@ -50,7 +50,8 @@ private:
     std::vector<Mouth> mouths_;
 };
 
-// For each chart. Quadrilaterals only: round shapes neither have nor throw outlines. `near`: how far an edge may be from the plane.
+// The footprints on each chart. Only quadrilaterals have and cause them, not round shapes. `near`: the largest distance of an edge
+// from the chart's plane.
 std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vector<Chart>& charts, double near);
 
 }  // namespace neumann

@@ -19,7 +19,7 @@ Vec2 in_squares(const Part& part, const Vec2& u) {
 
 SurfacePoint Part::point(const Geometry& geometry, const Chart& chart, const Footprints& footprints, const Cell& cell,
                          Region region, Vec2 u) const {
-    // Some squares hold other parts, too; then another point is tried, a step of Roberts' R2 sequence further.
+    // A square may contain other parts, too. If the point is in another part, the next point of Roberts' R2 sequence is tried.
     constexpr int tries = 256;
     SurfacePoint p;
     for (int i = 0; i < tries; ++i) {

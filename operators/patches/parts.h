@@ -9,11 +9,10 @@
 
 namespace neumann {
 
-// The part of a cell that lies in one region: known by the squares of a grid on the cell that hold it, some of them together with
-// other parts.
+// The part of a cell that lies in one region, given by the squares of a grid on the cell that overlap it. Parts can share squares.
 struct Part {
-    std::uint32_t along = 0;  // squares of the grid
-    double share = 0.0;       // of the cell's area
+    std::uint32_t along = 0;  // number of squares along each axis of the grid
+    double share = 0.0;       // fraction of the cell's area
     std::vector<std::uint16_t> squares;
 
     // Uniform by area for uniform u in [0, 1)².
@@ -23,7 +22,7 @@ struct Part {
 
 using Parts = std::map<Region, Part>;
 
-// A single part, without squares, where nothing divides the cell.
+// Returns a single part without squares if nothing divides the cell.
 Parts find_parts(const Geometry& geometry, const Chart& chart, const Footprints& footprints, const Cell& cell);
 
 }  // namespace neumann

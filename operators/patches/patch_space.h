@@ -1,7 +1,7 @@
-// The space that T and R become matrices on. Its unknowns are the exitant radiance of each side of each patch in each cell of its
-// directions; a side that neither reflects nor emits has none, nor has one that faces nothing. It is basic radiance L/n², which
-// glass does not change, with the refractive index n of the medium that the side faces. Geometry only: how many directions a side
-// needs, and n, is told by whoever knows the materials (operators/matrix/sides.h).
+// The finite-dimensional space on which T and R are matrices. Its unknowns are the exitant radiance of each side of each patch in
+// each of its cells of directions. Sides that neither reflect nor emit, and sides that face nothing, have no unknowns. The values
+// are basic radiance L/n², which refraction conserves; n is the refractive index of the medium that the side faces. This file knows
+// geometry only; operators/matrix/sides.h derives the cells and n of each side from the materials.
 #pragma once
 
 #include "core/base/frame.h"
@@ -12,11 +12,11 @@
 
 namespace neumann {
 
-// Directions of the two sides of a shape, as DirectionCells::k; 0: this side is neither seen nor lit.
+// Cells of directions of the two sides of a shape, as DirectionCells::k; 0: this side neither reflects nor emits.
 struct SideDirections {
     std::uint32_t front = 1, back = 0;
-    bool emits = false;                          // the front does
-    bool lit_from_elsewhere = false;             // by more than surfaces: what faces no surface may be lit
+    bool emits = false;                          // the front side emits
+    bool lit_from_elsewhere = false;             // lights other than surfaces exist, so sides that face no surface may be lit
     double front_index = 1.0, back_index = 1.0;  // n
     std::uint32_t of(bool front_side) const { return front_side ? front : back; }
 };
@@ -26,26 +26,26 @@ struct Facet {
     std::uint32_t patch;
     bool front;
     DirectionCells cells;
-    std::uint32_t first;  // of its unknowns; those of the back follow those of the front
+    std::uint32_t first;  // its first unknown; those of the back follow those of the front
     double index = 1.0;   // n
 };
 
 class PatchSpace {
 public:
-    // `sides`: for each shape. Throws InputError as Patches does, and where there would be more unknowns than can be numbered.
+    // `sides`: one entry for each shape. Throws InputError as Patches does, and if the unknowns do not fit in 32 bits.
     PatchSpace(const Geometry& geometry, const Patching& patching, std::vector<SideDirections> sides)
         : PatchSpace(Patches(geometry, patching), std::move(sides)) {}
 
-    // On Patches::coarser(), with cells of directions twice as wide.
+    // The space on Patches::coarser(), with cells of directions twice as wide.
     PatchSpace coarser() const;
-    // The coarser unknown around each unknown.
+    // For each unknown, the coarser unknown that contains it.
     std::vector<std::uint32_t> coarser_of_each(const PatchSpace& coarser) const;
 
     const Geometry& geometry() const { return patches_.geometry(); }
     const Patches& patches() const { return patches_; }
     const std::vector<Facet>& facets() const { return facets_; }
     std::uint32_t size() const { return size_; }
-    // What is seen where there is no unknown: its radiance is zero. One past the last unknown.
+    // The number used where there is no unknown, one past the last unknown; its radiance is zero.
     std::uint32_t nothing() const { return size_; }
 
     // Étendue of each unknown, n² times area times projected solid angle: ⟨f, g⟩ = Σ measure f g, and of basic radiance Σ measure f
@@ -56,10 +56,10 @@ public:
 
     // The facet of an unknown.
     std::uint32_t facet_of(std::uint32_t unknown) const { return facet_of_unknown_[unknown]; }
-    // The facet of a side of a patch; facets().size() where there is none.
+    // The facet of a side of a patch, or facets().size() if it has none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 
-    // The unknown that holds what leaves p along w.
+    // The unknown of the radiance that leaves p along w.
     std::uint32_t unknown(const SurfacePoint& p, const Vec3& w) const {
         const bool front = glm::dot(p.normal, w) > 0.0;
         if (sides_[p.shape].of(front) == 0) return nothing();
@@ -68,8 +68,8 @@ public:
     // z points away from the facet's side.
     static Frame frame(const Facet& facet, const SurfacePoint& p) { return frame(facet.front, p); }
 
-    // What leaves p along w, of a field that is linear between the patches of a surface: Σ weight · field[unknown]. A weight is 0
-    // where there is no unknown.
+    // The radiance that leaves p along w, interpolated linearly between patches: Σ weight · field[unknown]. The weight is 0 if
+    // there is no unknown.
     struct Reading {
         std::array<std::uint32_t, 4> unknown;
         std::array<double, 4> weight;
@@ -91,7 +91,7 @@ private:
     std::vector<SideDirections> sides_;
     std::vector<Facet> facets_;
     std::vector<std::uint32_t> facet_of_unknown_;
-    std::vector<std::uint32_t> facet_of_side_, first_of_side_;  // front and back of each patch; first: unknown, or nothing()
+    std::vector<std::uint32_t> facet_of_side_, first_of_side_;  // front and back of each patch; first unknown, or nothing()
     std::uint32_t size_ = 0;
 };
 

@@ -23,11 +23,11 @@ double positive_area(const Geometry& geometry) {
     return area;
 }
 
-// Cells along the two directions of a chart, for cells of a given width.
+// Numbers of cells along the two directions of a chart, for cells of a given width.
 std::array<std::size_t, 2> cells_of(const Chart& chart, double width) {
     const auto along = [&](double length) { return static_cast<std::size_t>(std::max(1.0, std::round(length / width))); };
     const Vec2 lengths = chart.lengths();
-    // Around a pole a few cells are needed whatever the size.
+    // Around a pole at least three cells are needed.
     return {along(lengths.x), chart.closed_in_t() ? std::max<std::size_t>(3, along(lengths.y)) : along(lengths.y)};
 }
 
@@ -40,13 +40,13 @@ std::size_t count_cells(const std::vector<Chart>& charts, double width) {
     return sum;
 }
 
-// Nearer to a chart than this part of a patch's width, a surface divides it.
+// A surface divides a chart if it is closer than this part of a patch's width.
 constexpr double near = 0.25;
 
-// Of the interpolation, on one side of an outline.
+// If the patches on the point's side of the outlines have less interpolation weight than this, there is no interpolation.
 constexpr double least_weight = 0.5;
 
-// The smallest width that needs no more cells than wanted.
+// The smallest width of cells for which there are at most `wanted` cells.
 double choose_width(const std::vector<Chart>& charts, double area, std::size_t wanted) {
     double high = 4.0 * std::sqrt(area), low = 0.25 * std::sqrt(area / static_cast<double>(wanted));
     for (int i = 0; i < 60; ++i) {
@@ -103,7 +103,7 @@ void Patches::add_cell(std::uint32_t chart, const Cell& cell, Parts parts) {
     first_of_cell_.push_back(static_cast<std::uint32_t>(patches_.size()));
 }
 
-// Twice as wide patches have half as many bands.
+// Coarser patches, twice as wide, have half as many bands.
 Region Patches::coarser(Region region) {
     region.band = (region.band + 1) / 2;
     return region;
@@ -115,7 +115,7 @@ std::optional<std::uint32_t> Patches::find(std::uint32_t cell, Region region) co
     return std::nullopt;
 }
 
-// Also of points whose region is too small a part of the cell to be a patch.
+// The patch of a region in a cell, or the nearest one if the region is too small to be a patch.
 std::uint32_t Patches::nearest(std::uint32_t cell, Region region) const {
     const auto distance = [&](std::uint32_t patch) {
         const Region r = patches_[patch].region;
@@ -127,7 +127,7 @@ std::uint32_t Patches::nearest(std::uint32_t cell, Region region) const {
     return best;
 }
 
-// A coarser cell has the parts of the finer ones in it, and their areas.
+// A coarser cell has the parts of its finer cells, with the sums of their areas.
 Patches Patches::coarser() const {
     Patches result(*geometry_, atlas_, footprints_);
     result.times_coarser_ = times_coarser_ + 1;
@@ -193,7 +193,7 @@ Patches::Axis Patches::axis(std::vector<double> ends, bool closed) {
     return axis;
 }
 
-// Pairs of cells; of an odd number the last three are one.
+// Joins pairs of cells; if the number is odd, the last three become one.
 Patches::Axis Patches::coarser(const Axis& fine) {
     std::vector<double> ends{fine.ends.front()};
     for (std::uint32_t i = 1; i < size_of(fine); ++i)
@@ -232,7 +232,8 @@ Patches::Reading Patches::interpolate(const Place& p) const {
         for (std::uint32_t& patch : reading.patch) patch = first_of_cell_[patch];
         return reading;
     }
-    // Only patches on the same side of all outlines; where those are too few, and in bands, the value of the point's own.
+    // Interpolates only between patches on the same side of all outlines. If their weight is too small, and in bands, the value of
+    // the point's own patch is used.
     const Region region = at_this_level(p.region);
     double left = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -13,18 +13,18 @@
 namespace neumann {
 
 struct Patching {
-    std::size_t patches = 4000;  // about as many; at least one a chart
-    double grading = 0.7;        // in [0, 1): the cells at an edge are 1 − grading times as wide as they would be without
+    std::size_t patches = 4000;  // approximate number; at least one per chart
+    double grading = 0.7;        // in [0, 1): cells at an edge are narrower by the factor 1 − grading
 };
 
 class Patches {
 public:
-    // Throws InputError where there are no surfaces or no patches are asked for.
+    // Throws InputError if there are no surfaces, or if `patches` is 0.
     Patches(const Geometry& geometry, const Patching& patching);
 
-    // Patches twice as wide in both directions, where a chart has so many. Points of them are not drawn.
+    // Patches twice as wide in both directions, if a chart has enough. point() must not be called on them.
     Patches coarser() const;
-    // The coarser patch around each patch.
+    // For each patch, the coarser patch that contains it.
     std::vector<std::uint32_t> coarser_of_each(const Patches& coarser) const;
 
     std::size_t size() const { return patches_.size(); }
@@ -34,7 +34,7 @@ public:
     const Chart& chart(std::uint32_t patch) const { return charts()[chart_number(patch)]; }
     std::uint32_t chart_of(const SurfacePoint& p) const { return atlas_.chart_of(p); }
 
-    // Where a point is on its chart; the same on coarser patches.
+    // The place of a point on its chart, which is the same for coarser patches.
     struct Place {
         std::uint32_t chart;
         Vec2 st;
@@ -61,8 +61,8 @@ public:
         return parts_[patch.part].point(*geometry_, chart, footprints_[patch.chart], patch.cell, patch.region, u);
     }
 
-    // A function that has its values at the middles of the patches, linear between them and on to the edge, is at a point the sum
-    // of these values times these weights. Within a chart only: an edge separates.
+    // Linear interpolation between the values at the patches' centres, extrapolated to the chart's edge: the value at a point is
+    // the sum of values times weights. There is no interpolation across charts.
     struct Reading {
         std::array<std::uint32_t, 4> patch;
         std::array<double, 4> weight;
@@ -74,15 +74,15 @@ public:
 
 private:
     struct Axis {
-        std::vector<double> ends, middles;  // of the cells
-        std::vector<std::uint32_t> first;   // cell in each of as many equal parts of [0, 1], to start looking from
-        std::vector<double> next;           // where the cell after each begins; ∞ for the last, and twice more
-        bool closed = false;                // the last cell is beside the first
+        std::vector<double> ends, middles;  // ends and centres of the cells
+        std::vector<std::uint32_t> first;   // lookup table: the first cell in each of equal parts of [0, 1]
+        std::vector<double> next;           // start of the next cell; ∞ for the last cell, and two more ∞
+        bool closed = false;                // periodic: the last cell is adjacent to the first
     };
     struct Grid {
         Axis s, t;
-        std::uint32_t first, first_patch;  // cell and patch
-        bool whole = true;                 // every cell is one patch
+        std::uint32_t first, first_patch;  // first cell and first patch of the chart
+        bool whole = true;                 // no cell is divided into parts
     };
     // A cell, or the part of a cell that is in one region of Footprints.
     struct Patch {
@@ -108,7 +108,7 @@ private:
     static std::uint32_t cell(const Axis& axis, double x) {
         const auto parts = static_cast<double>(axis.first.size());
         std::uint32_t i = axis.first[static_cast<std::size_t>(std::clamp(x * parts, 0.0, parts - 1.0))];
-        // Nearly always enough, and no branch to guess.
+        // One or two steps are nearly always enough, and additions avoid mispredicted branches.
         i += x >= axis.next[i];
         i += x >= axis.next[i];
         while (x >= axis.next[i]) ++i;
@@ -118,7 +118,7 @@ private:
         const Grid& grid = grids_[chart];
         return grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
     }
-    // The tables are large and met at random: as few of them as can be are asked.
+    // The tables are large and accessed at random, so as few of them as possible are read.
     template <class RegionAt>
     std::uint32_t locate(std::uint32_t chart, const Vec2& st, const RegionAt& region) const {
         const std::uint32_t c = cell(chart, st);
@@ -139,8 +139,8 @@ private:
 
     const Geometry* geometry_;
     Atlas atlas_;
-    std::vector<Footprints> footprints_;  // of each chart
-    std::vector<Grid> grids_;             // of each chart
+    std::vector<Footprints> footprints_;  // one per chart
+    std::vector<Grid> grids_;             // one per chart
     std::vector<std::uint32_t> first_of_cell_{0};
     std::vector<Patch> patches_;  // cell by cell
     std::vector<Part> parts_;

@@ -1,4 +1,4 @@
-// Random numbers of either kind, chosen when the program runs: for what need not be fast.
+// A sampler whose kind is chosen at run time, for code that need not be fast.
 #pragma once
 
 #include "core/sampling/independent_sampler.h"
@@ -29,7 +29,7 @@ private:
     std::variant<SobolSampler, IndependentSampler> sampler_;
 };
 
-// One of a kind that is known, or any.
+// Makes a sampler of a static type, or an AnySampler of the given kind.
 template <class Sampler>
 Sampler make_sampler(SamplerKind kind, const SobolPoints& points, std::uint64_t seed, std::uint32_t pixel) {
     if constexpr (std::is_same_v<Sampler, AnySampler>)

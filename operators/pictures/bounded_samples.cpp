@@ -13,7 +13,7 @@ bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
             return direct == DirectLight::bsdf || direct == DirectLight::mis;
         }
         case PathMethod::bidirectional:
-            return !settings.ways_of_last_bounce;  // half of these are not weighted
+            return !settings.ways_of_last_bounce;  // half of these have no MIS weight
         default:
             return false;
     }

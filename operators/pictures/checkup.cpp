@@ -17,7 +17,7 @@ constexpr std::uint64_t most_groups = 256, fewest_groups = 16, vertices = 1u << 
 constexpr int most_bounces = 64;
 constexpr std::size_t self_hits_kept = 4;
 
-// How far the balance is kept: up to bounces whose reflection is always drawn.
+// The energy balance covers the bounces whose reflection is always sampled.
 int bounces_of_camera_paths(const SamplingSettings& settings) {
     const WalkSettings& walk = settings.walk;
     const bool found_by_points = walk.direct.direct != DirectLight::bsdf && walk.direct.direct != DirectLight::mis;
@@ -29,14 +29,14 @@ int bounces_of_light_paths(const SamplingSettings& settings) {
     return std::min(settings.walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 
-// Looks at one group of paths.
+// Inspects one group of paths.
 struct GroupCheckup : PathObserver {
     GroupCheckup(std::uint64_t r, std::uint32_t f, std::uint32_t s, bool meets)
         : replicate(r), first(f), size(s), rays_meet_surfaces(meets) {}
 
     std::uint64_t replicate;
     std::uint32_t first, size;
-    bool rays_meet_surfaces;  // or end at points that were chosen, which may be in the plane that they leave
+    bool rays_meet_surfaces;  // false if rays end at sampled points, which may lie in the plane of their start
     std::optional<BalanceSheet> camera, light;
     std::uint64_t rays = 0;
     std::vector<SelfHit> self_hits;
@@ -57,7 +57,7 @@ struct GroupCheckup : PathObserver {
 
 bool is_self_hit(const SurfacePoint& from, const SurfacePoint& to) {
     const bool parallel = 1.0 - std::abs(glm::dot(from.normal, to.normal)) <= 1e-12;
-    // What is close is told apart in double.
+    // Hits close by were computed in double.
     const double rounding = from.close ? double_rounding(from.position, largest_component(to.position)) : from.error + to.error;
     return parallel && std::abs(glm::dot(from.normal, to.position - from.position)) <= rounding;
 }
@@ -78,7 +78,7 @@ std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sample
     const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
     const std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
 
-    // By area, and by mirrors alone, a path's weight is not what arrives.
+    // With `surface` and `classic`, the paths' weights are not the energy that arrives.
     const bool by_material = settings.method != PathMethod::surface && settings.method != PathMethod::classic;
     const int camera_bounces = settings.method == PathMethod::light || !by_material ? 0 : bounces_of_camera_paths(settings),
               light_bounces = splats(settings.method) ? bounces_of_light_paths(settings) : 0;

@@ -55,7 +55,7 @@ void BalanceSheet::arrive(int bounce, const SurfacePoint& x, const Vec3& w, cons
     entry.absorbed += mean_component(beta * (Rgb(1.0) - albedo(x, w)));
 }
 
-// Of one side for what leaves it along w; or of all that comes from there, as R* has it.
+// The albedo ρ of a surface, for paths from the camera and, with R*, from lights.
 Rgb BalanceSheet::albedo(const SurfacePoint& x, const Vec3& w) {
     const SurfaceSide side = scene_->materials.side(x, w);
     const Vec2 u_material = random_.next2(), u_uniform = random_.next2();
@@ -93,7 +93,7 @@ void BalanceSheet::finish(std::uint32_t paths) {
 bool EnergyBalance::is_sick(std::size_t bounce) const {
     const MeanWithError& d = bounces[bounce - 1].imbalance;
     const double each = 1.0 - (1.0 - confidence) / static_cast<double>(bounces.size());
-    // Rounding adds up over thousands of paths.
+    // Tolerates the rounding errors of thousands of paths.
     const double rounding = 1e-12 * bounces[bounce - 1].arrived.mean;
     return !(std::abs(d.mean) <= student_t_quantile(each, d.degrees_of_freedom) * d.standard_error + rounding);
 }

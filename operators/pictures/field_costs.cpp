@@ -7,7 +7,7 @@
 namespace neumann {
 
 void FieldCosts::Line::add(double more_work, double took) {
-    // Two measurements tell what does not grow; noise of short ones is not to make a slope that falls.
+    // Two measurements give slope and constant; noise in short ones must not make the slope negative.
     if (more_work > 1.2 * work && work > 0.0)
         slope = std::clamp((took - seconds) / (more_work - work), 0.0, took / more_work);
     else if (work == 0.0)
@@ -20,7 +20,7 @@ double FieldCosts::scale(const FieldSettings& settings) const {
     return static_cast<double>(settings.patching.patches) / static_cast<double>(asked_);
 }
 
-// Rays of T, as many as cells at least.
+// Number of rays of T: at least one per cell of directions.
 double FieldCosts::table(const FieldSettings& settings) const {
     double rays = 0.0;
     for (const auto& [cells, count] : sides_) rays += static_cast<double>(count) * std::max(settings.rays, cells);

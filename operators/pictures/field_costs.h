@@ -1,4 +1,4 @@
-// What renders from fields take, learnt from render to render: seconds that the next one will take, and bytes.
+// Predicts the seconds and bytes of the next render from fields, fitted to the renders before it.
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
@@ -16,10 +16,10 @@ public:
     // The film is kept by reference.
     explicit FieldCosts(const Film& film) : film_(&film) {}
 
-    // A render with these settings, and the seconds that it took with all that was asked of it.
+    // Learns from a render with these settings that took `seconds` altogether.
     void add(const FieldSettings& settings, const FieldPictures& pictures, double seconds);
-    // Fields take time like rays of T, pictures like samples, and both some that does not grow. The pictures before are kept
-    // meanwhile.
+    // The time of fields is linear in the rays of T, that of pictures in the samples, each with a constant part. The bytes include
+    // the previous pictures, which are kept meanwhile.
     FieldCost predict(const FieldSettings& settings) const;
 
 private:
@@ -33,7 +33,7 @@ private:
 
     const Film* film_;
     std::map<std::uint32_t, std::size_t> sides_;
-    std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;  // of the last render, and for how many patches it was asked
+    std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;  // of the last render; `asked_`: the number of patches in its settings
     Line fields_, pictures_;
     double other_ = 0.0;
 };

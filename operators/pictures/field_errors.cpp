@@ -60,8 +60,8 @@ WorstError FieldErrors::worst_of(const std::vector<PictureError>& errors) {
     return worst;
 }
 
-// Of the error in the number of patches, as the last two renders show it: 1 where it is that of linear interpolation, 1/2 beside
-// edges. Before it is known, and where there is nothing but diffuse surfaces, at least 1/2 and 1/4.
+// The order of the discretisation error in the number of patches, from the last two numbers of patches: 1 for linear interpolation,
+// 1/2 beside edges. It is taken as 1/2 before it is known, and as at least 1/4 if all surfaces are diffuse.
 double FieldErrors::order_of(std::size_t i) const {
     if (errors_before_.empty() || errors_[i].discretisation == 0.0) return 0.5;
     const double seen = std::log(errors_before_[i].discretisation / errors_[i].discretisation) /
@@ -86,7 +86,7 @@ WorstError FieldErrors::predict(const FieldSettings& settings) const {
 
 FieldSettings FieldErrors::grow(double target, double most_growth) const {
     FieldSettings settings = last_;
-    const double part = 0.5 * square(target);  // for sampling; and for patches
+    const double part = 0.5 * square(target);  // half of the squared error for sampling, half for discretisation
     double samples = 1.0, rays = 1.0, patches = 1.0;
     const auto own_error = [&](std::size_t i) { return by_samples_.empty() ? 0.0 : by_samples_[i] / last_.samples; };
     for (std::size_t i = 0; i < errors_.size(); ++i) {

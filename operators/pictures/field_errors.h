@@ -1,9 +1,10 @@
-// What the errors of pictures from fields are made of, learnt from render to render: what other settings would bring them to, and
-// which settings an error needs.
+// A model of the errors of pictures from fields, fitted render by render. It predicts the errors of other settings, and the
+// settings that reach a given error.
 //
 //     error² = A / samples + B / rays + C / max(rays, cells) + (D patches^-order)²
 //
-// A: camera samples; B and C: rays of T, C of sides with `cells` cells of directions, each of which has a ray at least; D: patches.
+// A is of camera samples, B and C of rays of T, D of patches. C is of sides with `cells` cells of directions, which have at least
+// one ray per cell.
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
@@ -20,19 +21,20 @@ struct WorstError {
 
 class FieldErrors {
 public:
-    // `most`: the largest settings that are gone to.
+    // `most`: upper limits on the settings.
     FieldErrors(const FieldSettings& most) : most_(most) {}
 
-    // Errors of every term, of a render with these settings whose finest sides have so many cells of directions. The second differs
-    // from the first in the number of samples alone.
+    // Learns from the errors of every term of a render with these settings; its finest sides have `finest` cells of directions. The
+    // second render must differ from the first in the number of samples alone.
     void add(const FieldSettings& settings, std::uint32_t finest, std::vector<PictureError> errors);
 
     WorstError worst() const { return worst_of(errors_); }
     WorstError predict(const FieldSettings& settings) const;
-    // The error of patches of this term does not fall any more: what is left is that of cells of directions, which get no finer.
+    // The discretisation error of this term no longer falls with more patches: it comes from the cells of directions, which are not
+    // refined.
     bool stands(std::size_t bounce) const { return finest_ > 1 && order_of(bounce) < least_order; }
 
-    // The last settings with more of what makes the errors, up to this factor for each part.
+    // The last settings with more samples, rays or patches to reach `target`, each multiplied by at most `most_growth`.
     FieldSettings grow(double target, double most_growth) const;
 
 private:
@@ -46,8 +48,8 @@ private:
     std::size_t renders_ = 0;
     std::vector<PictureError> errors_;
     std::vector<double> by_samples_;  // A
-    std::vector<double> by_cells_;    // C's part of what is not A's; 0 until rays have grown
-    // Before patches grew last.
+    std::vector<double> by_cells_;    // C's part of the sampling variance without A's; 0 until rays have grown
+    // From the render before the number of patches last grew.
     std::vector<PictureError> errors_before_;
     std::size_t patches_before_ = 0;
 };

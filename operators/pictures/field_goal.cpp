@@ -20,12 +20,12 @@ constexpr std::uint32_t pilot_samples = 4;
 // A step multiplies no part by more than this: estimates from few samples are rough.
 constexpr double most_growth = 8.0;
 constexpr double without_limit = 1e6;
-// Renders take up to so many times the time and the memory that are foretold.
+// Renders take up to this many times the predicted time and memory.
 constexpr double caution = 1.2;
-// A step towards an error out of reach pays if its error falls at least like the time of all steps to this power; that of
-// samples falls like its square root.
+// If the error is out of reach, a step pays if the error falls at least like (total time)^−least_slope; the error of samples falls
+// like its power −1/2.
 constexpr double least_slope = 1.0 / 8.0;
-// And without an error to reach, if it falls by this part.
+// Without an error to reach, a step pays if the error falls by this part.
 constexpr double least_gain = 0.05;
 constexpr int shorter_steps = 8;
 
@@ -60,7 +60,7 @@ FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::ve
 
 std::string seconds_text(double seconds) { return fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0); }
 
-// Steps from the renders so far to a goal.
+// Chooses the settings of the next render from the renders so far.
 class Steps {
 public:
     Steps(const Scene& scene, const FieldGoal& goal, const FieldSettings& most)
@@ -122,7 +122,7 @@ private:
         const FieldCost cost = costs_.predict(settings);
         return in_time(cost) && in_memory(cost);
     }
-    // The error asked for can be had, in as many steps as it takes.
+    // Whether the error can be reached at all, in any number of steps.
     bool within_reach() const {
         if (!goal_.relative_error) return false;
         const FieldSettings all = errors_.grow(*goal_.relative_error, without_limit);

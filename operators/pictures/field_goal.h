@@ -1,6 +1,6 @@
-// Chooses patches, directions and samples for an error that is asked for, or for the time that there is: renders with few, looks at
-// what each part of the error comes from, and renders with more of that. Before each render it predicts what that takes and what it
-// brings, and ends where it does not fit or does not pay.
+// Chooses patches, directions and samples to reach a given error, or to use a given time: it renders with few, finds out which part
+// dominates the error, and renders again with more of that. Before each render it predicts time, memory and error, and stops if the
+// render does not fit or does not pay.
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
@@ -11,30 +11,30 @@
 
 namespace neumann {
 
-// When to stop; whichever comes first.
+// The search stops at the first of these limits that it reaches.
 struct FieldGoal {
     std::optional<double>
-        relative_error;             // of whole pictures: of sampling and of patches together, of every term that is not all zero
-    std::optional<double> seconds;  // of everything; the first pictures, with the fewest patches, are finished in any case
-    std::optional<FieldSettings> most;  // the settings to end with, where these are given
+        relative_error;             // of whole pictures, sampling and discretisation together, for every term that is not all zero
+    std::optional<double> seconds;  // total; the first render, with the fewest patches, is finished in any case
+    std::optional<FieldSettings> most;  // the final settings, if they are given
 };
 
 struct FieldRun {
     FieldPictures pictures;
-    FieldSettings settings;                 // that the pictures were made with
+    FieldSettings settings;                 // with which the pictures were made
     std::vector<Checkpoint> convergence;    // one for each render
     std::vector<PictureError> term_errors;  // of the pictures
     Outcome outcome = Outcome::samples_reached;
     double seconds = 0.0;
-    std::string why = {};  // it ended, in words, where the error asked for was not reached
+    std::string why = {};  // why the search ended without reaching the error, in words
 };
 
-// No render is begun that would go on beyond the time, as far as it can be foretold; one that does is given up a tenth and a second
-// later. Without an error to reach, it goes on while that falls by a twentieth a step. Interrupted or out of time, it returns what
-// the render before reached; the first one is not stopped. watch.judge is not asked.
+// No render starts that is predicted to exceed the time; one that exceeds it by a tenth and a second is dropped. Without an error
+// to reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the
+// result of the previous render; the first render is not stopped. Does not call watch.judge.
 FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch);
 
-// What the settings of a single render reach; nothing where it is interrupted.
+// A single render with these settings; nothing if it is interrupted.
 std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop);
 
 }  // namespace neumann

@@ -8,17 +8,17 @@
 namespace neumann {
 
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
-    // T* and R* of four channels beside the table.
+    // Importance also needs T* and R* of four channels.
     const double bytes_of_ray = settings.method == FieldMethod::importance ? 48.0 : 4.0;
-    // Some ten vectors of four channels while a series is added up; then three floats a quantity, and a quarter for the coarser
-    // ones.
+    // About ten vectors of four channels while a series is computed; then three floats per quantity, and a quarter of that for the
+    // coarser patches.
     const double bytes_of_unknown = 320.0 + 15.0 * settings.replicates * (settings.bounces + 2.0);
     return 300.0 * sizes.patches + bytes_of_ray * sizes.rays + bytes_of_unknown * sizes.unknowns;
 }
 
 double bytes_of_pictures(const FieldSettings& settings, const Film& film) {
     const double quantities = settings.bounces + 2.0, pixels = static_cast<double>(film.crop_width) * film.crop_height;
-    // All replicates, the difference to coarser patches and the mean; and an estimate that is looked at, in doubles.
+    // Floats for all replicates, the difference to coarser patches and the mean; doubles for one Estimate.
     return pixels * (3.0 * sizeof(float) * quantities * (settings.replicates + 2.0) + 9.0 * sizeof(double));
 }
 

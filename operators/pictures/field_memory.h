@@ -1,4 +1,4 @@
-// What a render from fields takes of memory, about, and whether that may be taken.
+// Approximate memory of a render from fields, and the check of the memory limit.
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
@@ -6,14 +6,15 @@
 namespace neumann {
 
 struct FieldSizes {
-    double patches = 0.0, unknowns = 0.0, rays = 0.0;  // of T, of one replicate
+    double patches = 0.0, unknowns = 0.0, rays = 0.0;  // `rays`: rays of T in one replicate
 };
 
-// In bytes: patches, T, the fields of all replicates and what makes them; and of pictures what all replicates found.
+// Bytes of the fields: patches, T, the fields of all replicates and work space. Bytes of the pictures: the values of all
+// replicates.
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes);
 double bytes_of_pictures(const FieldSettings& settings, const Film& film);
 
-// Throws InputError where these are more than settings.memory.
+// Throws InputError if fields and pictures need more than settings.memory.
 void check_field_memory(const FieldSettings& settings, const Film& film, const FieldSizes& sizes);
 
 }  // namespace neumann

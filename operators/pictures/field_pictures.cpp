@@ -18,12 +18,12 @@ namespace neumann {
 
 namespace {
 
-// Other seeds than the series'.
+// Streams that differ from those of the series.
 constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x676174686572ull;
 constexpr std::uint32_t samples_at_once = 64;
 
 struct Workspace {
-    std::vector<SobolSampler> samplers, gather_samplers;  // of each sample, of each pixel
+    std::vector<SobolSampler> samplers, gather_samplers;  // one for each sample; one for each pixel
     std::vector<PixelSample> samples;
     std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
     std::array<std::uint64_t, 3> rays{};
@@ -187,8 +187,8 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const auto pixels = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
     const std::size_t stride = 3 * result.quantities(), all = stride * settings.replicates;
     const SobolPoints sobol(settings.samples), gather_sobol(settings.samples * settings.gather_rays);
-    // The first samples of a replicate, which are as well spread as all, tell the difference to coarser patches. Gather rays are
-    // divided by the reader.
+    // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With gather all
+    // are, because the reader compares only some gather rays.
     const std::uint32_t compared = settings.method == FieldMethod::gather ? settings.samples : (settings.samples + 3) / 4;
     const float difference_weight = 1.0f / static_cast<float>(compared * settings.replicates);
     const FieldReader reader(scene, settings.method, settings.bounces, settings.gather_rays);
@@ -251,7 +251,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) render(group, work);
     });
     if (dropped) return std::nullopt;
-    // In a fixed order, so that threads do not matter.
+    // Added in a fixed order, so that the result does not depend on threads.
     result.sums.assign(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(sums_of_group));
     for (std::uint32_t group = 1; group < groups; ++group)
         for (std::size_t k = 0; k < sums_of_group; ++k) result.sums[k] += sums[group * sums_of_group + k];

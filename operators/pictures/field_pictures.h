@@ -1,6 +1,6 @@
-// Pictures of all bounces from the series on a patch space. Everything is done several times with other random numbers, and the
-// spread is the standard error. What the patches get wrong it does not show: the same pictures are also read from patches four
-// times as large, and the difference tells the discretisation error.
+// Pictures of all bounces from the series on a patch space. Independent replicates give the standard error, which does not contain
+// the discretisation error. The same pictures are therefore also read from patches of four times the area, and the difference
+// estimates the discretisation error.
 #pragma once
 
 #include "core/base/large_array.h"
@@ -24,58 +24,59 @@ struct FieldSettings {
     FieldMethod method = FieldMethod::matrix;
     int bounces = 8;
     Patching patching;
-    std::uint32_t rays = 32;           // of T, a facet, in one replicate; a power of two
-    std::uint32_t light_samples = 16;  // of a facet, in one replicate, for b; a power of two
-    std::uint32_t samples = 2;         // of the camera, a pixel, in one replicate; a power of two. As many again make We
-    std::uint32_t gather_rays = 4;     // a camera sample; a power of two
+    std::uint32_t rays = 32;           // rays of T per facet and replicate; a power of two
+    std::uint32_t light_samples = 16;  // light samples for b per facet and replicate; a power of two
+    std::uint32_t samples = 2;         // camera samples per pixel and replicate; a power of two. As many again estimate We
+    std::uint32_t gather_rays = 4;     // per camera sample; a power of two
     std::uint32_t replicates = 4;
     std::uint64_t seed = 0;
-    bool rest = true;                  // Σ_{k>N} is wanted as well
-    double memory = default_memory();  // bytes that may be taken, about
+    bool rest = true;                  // also compute Σ_{k>N} K^k Le
+    double memory = default_memory();  // approximate limit in bytes
 };
 
-// What all replicates found in each pixel, from which the pictures are made as they are asked for.
+// The values of all replicates in each pixel. Pictures are computed from them on demand.
 class FieldPictures {
 public:
     FieldPictures(const Film& film, const FieldSettings& settings);
 
     std::size_t bounces() const { return quantities_ - 2; }  // N
-    // K^i Le, and Σ_{k≤i} K^k Le, 0 … N; and Σ_{k>N} K^k Le.
+    // K^i Le and Σ_{k≤i} K^k Le for i = 0 … N, and Σ_{k>N} K^k Le.
     Estimate term(std::size_t i) const { return picture(i, i); }
     Estimate sum(std::size_t i) const { return picture(0, i); }
     Estimate rest() const { return picture(quantities_ - 1, quantities_ - 1); }
     // The mean of term(i) alone, in floats.
     Image term_mean(std::size_t i) const;
 
-    // Over pixels and channels. All pixels share the fields, so their errors go together; these are from whole replicates.
+    // Means over pixels and channels. All pixels share the fields, so their errors are correlated; the standard errors come from
+    // the spread of whole replicates.
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, i); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(0, i); }
     MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
     PictureMeans means_of_term(std::size_t i) const { return means(i, i); }
     PictureMeans means_of_sum(std::size_t i) const { return means(0, i); }
     PictureMeans means_of_rest() const { return means(quantities_ - 1, quantities_ - 1); }
-    // Of one replicate and quantity: over pixels in red, green and blue, and over channels as well.
+    // Mean over pixels of one replicate and quantity. `which`: 0 … 2 red, green, blue; 3 the mean of the channels.
     double replicate_mean(std::uint32_t replicate, std::size_t quantity, std::size_t which = sums_of_quantity - 1) const {
         return sums[(replicate * quantities_ + quantity) * sums_of_quantity + which] / (static_cast<double>(width_) * height_);
     }
 
-    EnergyBalance power;  // of light, W: what patches exchange, replicates being the observations; without bounces for importance
-    bool importance;      // of K*^i We in place of K^i Le, m⁻²·sr⁻¹
+    EnergyBalance power;  // power of light on the patches, W; replicates are the observations; without bounces for importance
+    bool importance;      // the pictures show K*^i We, m⁻²·sr⁻¹, in place of K^i Le
     bool rest_converges = false;
-    std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; those for all of them are counted for bounce 2, or the
-                                      // rest where there is none
+    std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; rays for all of them are counted for bounce 2, or for
+                                      // the rest if N < 2
     std::size_t patches = 0, unknowns = 0;
-    std::map<std::uint32_t, std::size_t> sides;  // of patches, by how many cells of directions they have
-    std::uint64_t samples = 0;                   // a pixel, of the camera
+    std::map<std::uint32_t, std::size_t> sides;  // number of sides of patches by their number of cells of directions
+    std::uint64_t samples = 0;                   // camera samples per pixel
     double field_seconds = 0.0, picture_seconds = 0.0;
 
-    // For whoever fills them in: a pixel's values, three floats for each quantity, replicate by replicate, and after them the mean
-    // difference to those from coarser patches.
+    // For the code that fills in the values: a pixel has three floats per quantity, replicate by replicate, and then the mean
+    // difference to the values from coarser patches.
     float* values(std::size_t pixel) { return values_.get() + pixel * stride_; }
-    // Once those of pixels [begin, end) are there.
+    // Call when the values of pixels [begin, end) are complete.
     void find_means(std::size_t begin, std::size_t end);
     std::size_t quantities() const { return quantities_; }
-    // No error is stated below what these rays can tell.
+    // Standard errors are at least those of this resolution (ray_resolution.h).
     void set_resolution(RayResolution resolution) { resolution_ = std::move(resolution); }
     // Sums over all pixels, replicate by replicate and quantity by quantity: of red, green, blue, and of their mean.
     static constexpr std::size_t sums_of_quantity = 4;
@@ -90,16 +91,16 @@ private:
     std::uint32_t replicates_;
     std::size_t quantities_, stride_;
     LargeArray<float> values_;
-    LargeArray<float> means_;  // of the replicates, a picture for each quantity
+    LargeArray<float> means_;  // means over the replicates, a picture for each quantity
     RayResolution resolution_;
 };
 
-// Nothing where `stop` answers true meanwhile; asked from any thread.
+// Returns nothing if `stop` returns true meanwhile; it is called from any thread.
 std::optional<FieldPictures> render_fields(
     const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop = [] { return false; });
 
-// The error of a whole picture, relative as relative_standard_error(): of the samples, of the patches, and of both. Rays make the
-// finer and the coarser fields differ, too: that much is not the patches'.
+// The relative error of a whole picture (as relative_standard_error()) from sampling, from discretisation, and from both. Noise of
+// the rays also makes the fine and the coarse fields differ; that part is subtracted from the discretisation error.
 struct PictureError {
     double sampling = 0.0, discretisation = 0.0;
     double all() const { return std::hypot(sampling, discretisation); }

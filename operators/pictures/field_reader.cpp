@@ -12,9 +12,9 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t packet = RayCaster::packet_size;
-constexpr std::uint32_t most_mirrors = 16;  // that a gather ray follows; in more it reads what is on the patches
+constexpr std::uint32_t most_mirrors = 16;  // a gather ray follows at most so many mirrors, and then reads the patches
 
-// Calls each(i) for n rays, in packets; from(i) and hit(i) as Geometry::first_hits. The point is infinitely far away where nothing
+// Casts n rays in packets and calls each(i); from(i) and hit(i) are as in Geometry::first_hits. The point is at infinity if nothing
 // is hit.
 template <class From, class Hit, class Each>
 void for_hits(const Geometry& geometry, std::size_t n, const From& from, const Hit& hit, const Each& each) {
@@ -33,7 +33,7 @@ void add(float* to, std::size_t bounce, const Rgb& x) {
     for (int c = 0; c < 3; ++c) to[3 * bounce + static_cast<std::size_t>(c)] += static_cast<float>(x[c]);
 }
 
-// `scale` times the quantities of a field at a point, from the `first`-th float on.
+// Adds `scale` times the quantities of a field at a point, starting with the `first`-th float.
 void add_interpolated(const FieldStack& field, const SurfacePoint& p, const Patches::Place& place, const Vec3& w, std::size_t first,
                       float scale, float* __restrict to) {
     const PatchSpace::Reading reading = field.space().read(p, place, w);
@@ -52,7 +52,7 @@ void add_constant(const FieldStack& field, const SurfacePoint& p, const Vec3& w,
     for (std::size_t k = 0; k < field.stride(); ++k) to[k] += scale * values[k];
 }
 
-// to[k] += weight · from[k − 3]: each quantity from the one before it.
+// to[k] += weight · from[k − 3]: each quantity gets the previous one.
 void add_reflected(const Rgb& weight, const float* __restrict from, std::size_t first, std::size_t end, float* __restrict to) {
     const float w[3] = {static_cast<float>(weight.r), static_cast<float>(weight.g), static_cast<float>(weight.b)};
     for (std::size_t k = first; k < end; k += 3)
@@ -63,18 +63,18 @@ void add_reflected(const Rgb& weight, const float* __restrict from, std::size_t 
 
 struct FieldReader::Look {
     const PixelSample* sample;
-    SurfacePoint x, y;  // what is seen, and what it is lit by
+    SurfacePoint x, y;  // the point that is seen, and the point that lights it
     Vec3 wo, wi;
-    const Bsdf* bsdf;  // of the side that is seen; null where it absorbs
+    const Bsdf* bsdf;  // of the side that is seen; null if it absorbs
     bool diffuse;
     Rgb weight;
     double pdf;
-    // Of a gather ray: what comes of what it meets, and how many mirrors it has met.
+    // For a gather ray: its throughput, and the number of mirrors that it has met.
     Rgb through;
     std::uint32_t mirrors = 0;
     bool goes_on;
 
-    // Draws wi, with its pdf and the weight of basic radiance, from the material; false where nothing is reflected.
+    // Samples wi from the BSDF, with its pdf and the weight for basic radiance; false if nothing is reflected.
     bool choose_direction(const Materials& materials, SobolSampler& sampler) {
         const SurfaceSide side = materials.side(x, wo);
         const BsdfSample sampled = neumann::sample(*side.bsdf, side.p, side.p.frame.to_local(wo), sampler.next2());
@@ -177,7 +177,7 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
     return cast;
 }
 
-// Points on lights.
+// Direct light by points on lights.
 std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
     if (lights_.empty()) return 0;
     std::vector<Look*> asking;
@@ -207,7 +207,7 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
     return asking.size();
 }
 
-// Directions of the material.
+// Direct light by BSDF sampling.
 std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const {
     const Emitters& emitters = scene_.emitters;
     std::vector<Look*> asking;
@@ -229,8 +229,8 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
     return asking.size();
 }
 
-// Where lights are as near as they are large, for there the variance of points on them may be infinite, and where the material has
-// a lobe. Which points those are does not depend on the samples, so all stays unbiased.
+// Whether BSDF sampling is used as well: near the lights (closer than the size of their box), where the variance of points on them
+// may be infinite, and if the material is not diffuse. The choice depends on x alone, so the estimate stays unbiased.
 bool FieldReader::looks_for_lights(const Look& l) const {
     return !l.diffuse || glm::distance(l.x.position, glm::clamp(l.x.position, low_, high_)) < near_;
 }
@@ -238,11 +238,11 @@ bool FieldReader::looks_for_lights(const Look& l) const {
 NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span<const Look> looks) const {
     std::vector<float> arriving(stride_);
     const std::size_t rest = stride_ - 3;
-    // Bounce i is K of bounce i − 1, and the rest that of bounce N and the rest.
+    // Bounce i is K times bounce i − 1, and the rest is K times the sum of bounce N and the rest.
     const auto arrive = [&](const FieldStack& field, const Look& l, const Patches::Place& place) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
-        // A function that is linear between the middles of patches has not their means: it would lose light, up to some percent of
-        // a bounce. What a diffuse surface gathers shows no patches.
+        // Linear interpolation between the patches' centres does not preserve their means; it would lose up to some percent of a
+        // bounce. A diffuse surface can gather the piecewise constant field, because patches do not show there.
         if (l.diffuse)
             add_constant(field, l.y, -l.wi, 1.0f, arriving.data());
         else
@@ -270,7 +270,7 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
         }
         const Bsdf* bsdf = scene_.materials.side(l.y, -l.wi).bsdf;
         if (l.mirrors < most_mirrors && bsdf && lobe(*bsdf).kind == Lobe::Kind::specular) {
-            // Of the first one, light sampling knows.
+            // The direct light at the first vertex is already sampled (bounce 1).
             if (l.mirrors > 0)
                 add(l.sample->values, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1),
                     l.through * scene_.emitters.emitted(l.y, -l.wi));
@@ -300,7 +300,7 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
         for (;;) {
             for (Look& l : asking) {
                 if (!l.goes_on) continue;
-                // A mirror needs no numbers.
+                // Mirrors use no random numbers.
                 if (l.mirrors == 0) l.sample->gather_sampler->start(l.sample->first_gather_ray + r);
                 l.goes_on = l.choose_direction(scene_.materials, *l.sample->gather_sampler);
                 l.through *= l.weight;

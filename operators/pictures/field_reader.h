@@ -14,25 +14,25 @@ namespace neumann {
 
 // How a picture is made from fields on patches:
 //
-//     patches     every bounce as it is on the patches: the piecewise constant truth
-//     matrix      bounces 0 and 1 by rays at the pixel, later ones read from the patches, linearly within surfaces; as gather
-//                 where what is seen is not diffuse, for there cells of directions would show
-//     gather      K applied once more at the pixel: bounce i ≥ 2 is R T of the patches' bounce i − 1, as it is there where R is
-//                 diffuse, and linearly within surfaces elsewhere; and again at what is seen in a mirror
-//     importance  as patches, of K*^i We in place of K^i Le
+//     patches     every bounce is the piecewise constant field on the patches
+//     matrix      bounces 0 and 1 by rays at the pixel; later ones are interpolated linearly between patches of a surface. Pixels
+//                 that see a surface that is not diffuse use gather, because the cells of directions would be visible
+//     gather      K is applied once more at the pixel: bounce i ≥ 2 is R T of bounce i − 1 on the patches, which is piecewise
+//                 constant if R is diffuse there and interpolated otherwise; in a mirror K is applied again at what it shows
+//     importance  as patches, for K*^i We in place of K^i Le
 enum class FieldMethod { patches, matrix, gather, importance };
 inline bool shows_patches(FieldMethod method) { return method == FieldMethod::patches || method == FieldMethod::importance; }
 
-// One replicate of a series, on patches and on patches four times as large.
+// One replicate of a series, on patches and on patches of four times the area.
 struct FieldPair {
     const FieldStack& fine;
     const FieldStack& coarse;
 };
 
-// A camera ray, and where its sample is added up, times `weight`: three floats for each quantity of FieldStack. `difference` takes,
-// where it is not null, `difference_weight` times what finer patches show more than coarser ones. `sampler` has not been asked for
-// numbers that belong to what follows; `gather_sampler` is for all gather rays of the pixel, and those of this sample begin at
-// `first_gather_ray`, so that they are stratified together.
+// A camera ray, and where its sample times `weight` is added: `values` has three floats for each quantity of FieldStack.
+// `difference`, if not null, gets `difference_weight` times the sample from the finer patches minus that from the coarser ones.
+// `sampler` continues after the numbers that made the camera ray. `gather_sampler` is shared by all gather rays of the pixel, so
+// that they are stratified together; those of this sample start at `first_gather_ray`.
 struct PixelSample {
     CameraRay ray;
     double weight;
@@ -46,15 +46,16 @@ struct PixelSample {
 
 class FieldReader {
 public:
-    // `gather_rays`: a sample.
+    // `gather_rays`: per sample.
     FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays);
 
-    // Adds a sample to each pixel. Rays of one pixel should be side by side. Returns the rays cast for bounces 0, 1 and all others.
+    // Adds the samples to their pixels; samples of one pixel should be adjacent. Returns the number of rays cast for bounce 0, for
+    // bounce 1 and for all later ones.
     std::array<std::uint64_t, 3> read(const FieldPair& fields, std::span<const PixelSample> samples) const;
 
 private:
     struct Look;
-    // Returns the rays cast.
+    // These return the number of rays cast.
     std::uint64_t find_first_points(std::span<const PixelSample> samples, std::vector<Look>& looks) const;
     std::uint64_t find_lights(std::vector<Look>& looks) const;
     std::uint64_t find_lights_by_chance(std::vector<Look>& looks) const;
@@ -63,10 +64,10 @@ private:
 
     const Scene& scene_;
     FieldMethod method_;
-    std::size_t stride_;      // floats of a pixel
-    std::size_t from_field_;  // of them, the first that is read from fields
+    std::size_t stride_;      // number of floats of a pixel
+    std::size_t from_field_;  // index of the first float that is read from fields
     LightSampler lights_;
-    std::uint32_t gather_rays_, compared_;  // of these, the first so many are compared with the coarser patches
+    std::uint32_t gather_rays_, compared_;  // the first `compared_` gather rays also read the coarser patches
     Vec3 low_{0.0}, high_{0.0};             // the box around the lights
     double near_ = 0.0;
 };

@@ -6,7 +6,7 @@ namespace neumann {
 
 namespace {
 
-// Of something that adds up over the n samples of a pixel to n times a mean.
+// The share of one sample's value in the sum of a pixel's samples, which is `samples` times the mean.
 double share(double value, double samples, const Rgb& mean) {
     const double all = samples * max_component(mean);
     return all > 0.0 ? value / all : 0.0;

@@ -1,5 +1,5 @@
-// What is wrong with a render, and where: samples that are no numbers, single samples that make a pixel, rays that hit the surface
-// they leave, energy that comes from nowhere.
+// What is wrong with a render, and where: samples that are not finite, fireflies, rays that hit the surface they leave, energy that
+// is not conserved.
 #pragma once
 
 #include "operators/pictures/checkup.h"
@@ -11,27 +11,28 @@
 
 namespace neumann {
 
-// A sample by what it makes of its pixel, in the largest channels.
+// A sample's share of its pixel's value, computed with the largest channels.
 struct LargestShare {
     LargestSamples::Sample sample;
-    double of_bounce = 0.0;  // of all that its pixel has of this bounce
-    double of_sum = 0.0;     // and of all bounces with the rest
+    double of_bounce = 0.0;  // share of the pixel's value of this bounce
+    double of_sum = 0.0;     // share of the pixel's sum of all bounces and the rest
 };
 
-// Of a bounce, or of the rest.
+// The health of a bounce or of the rest.
 struct SampleHealth {
     std::uint64_t non_finite = 0;
-    // Pixels whose mean is too large for a number although their samples are not, and the first of them.
+    // Number of pixels whose samples are finite but whose mean overflows, and the first such pixel.
     std::uint64_t overflowed = 0;
     std::uint32_t first_overflowed = 0;
-    // Among the 1000 largest samples of the picture the one with the largest share of its pixel, fireflies before all others. None
-    // where many are alike.
+    // The sample with the largest share of its pixel among the 1000 largest samples of the picture; fireflies are preferred. None
+    // if many samples are alike.
     std::optional<LargestShare> largest;
-    // Among these, samples each of which makes more than half of its pixel's sum of all bounces, brings it, alone, more than the
-    // mean of the picture, and a quarter of what the brightest pixel has of this bounce; at the edge of something bright a sample
-    // that sees it does not. Neither bounce 0 is judged nor fewer than 16 samples a pixel: there it is usual.
+    // Number of these 1000 samples that are fireflies: the sample alone is more than half of its pixel's sum of all bounces, adds
+    // more than the picture's mean to its pixel, and adds more than a quarter of the brightest pixel of this bounce (which samples
+    // at the edge of something bright do not). Bounce 0 and renders with fewer than 16 samples per pixel are not judged, because
+    // such samples are usual there.
     std::uint64_t fireflies = 0;
-    // What else to try, if there are any; of the one that is named.
+    // If there are fireflies: what else to try against the one in `largest`.
     std::vector<Remedy> remedies = {};
 };
 constexpr std::uint64_t fewest_samples_to_judge = 16;
@@ -47,7 +48,7 @@ struct Health {
     bool is_sick() const;
 };
 
-// `result`: of the series' moments. Traces some paths again (checkup.h).
+// `result`: the result of the series' moments. Traces some paths again (checkup.h).
 Health examine(const Scene& scene, const SamplingSettings& settings, const RenderedSeries& series,
                const SeriesMoments::Result& result);
 

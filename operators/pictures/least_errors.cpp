@@ -27,7 +27,7 @@ Rgb times(const Rgb& a, const Rgb& b) {
     return product;
 }
 
-// ‖K^i Le‖∞ at most, and of the rest; for each channel.
+// Upper bounds of ‖K^i Le‖∞ for each bounce, and of the rest, per channel.
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     const Rgb albedo = scene.materials.largest_albedo(), emitted = scene.emitters.largest_radiance();
     const LeftOut& left_out = settings.walk.left_out;
@@ -46,7 +46,7 @@ std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     return all;
 }
 
-// The pixel and its neighbours.
+// Calls f for the pixel and its eight neighbours.
 template <class F>
 void for_neighbourhood(int width, int height, std::size_t pixel, const F& f) {
     const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
@@ -55,7 +55,7 @@ void for_neighbourhood(int width, int height, std::size_t pixel, const F& f) {
             f(static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u));
 }
 
-// Of one series; what belongs to a single quantity is kept for that alone.
+// Computes the bounds of one series, quantity by quantity.
 class Look {
 public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
@@ -68,13 +68,13 @@ public:
         std::vector<float> errors;  // h/t; empty where all are 0
         double mean_at_most = 0.0;
     };
-    // Quantities are asked for in order.
+    // Must be called for q = 0, 1, … in order.
     Quantity look(std::size_t q, double samples, double t) {
         const Estimate term = result_->term(q);
         const std::size_t pixels = result_->pixels();
         remember_largest(q);
         std::vector<float> errors(3 * pixels);
-        std::vector<Rgb> differences(pixels, Rgb(0.0));  // of those that no sample met
+        std::vector<Rgb> differences(pixels, Rgb(0.0));  // D of the pixels whose samples are all 0
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
             for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
                 const Rgb nearby = difference_nearby(pixel, q);
@@ -117,14 +117,14 @@ private:
         }
         return difference;
     }
-    // Where no sample nearby met anything.
+    // D if all samples of the pixel and its neighbours are 0.
     double difference_elsewhere(std::size_t pixel, std::size_t q, int c) const {
         if (bounds_[q][c] == 0.0) return 0.0;
         if (q == 0) return lights_.pixels[pixel][c];
         if (albedo_.pixels[pixel][c] == 0.0) return 0.0;
         return largest_[c] > 0.0 ? largest_[c] : bounds_[q][c];
     }
-    // Of the quantity's samples in the whole picture; where it has none those of the quantities before it stay.
+    // Updates largest_ with the quantity's samples in the whole picture; if all are 0, the value of the previous quantity stays.
     void remember_largest(std::size_t q) {
         Rgb largest(0.0);
         for (std::size_t pixel = 0; pixel < result_->pixels(); ++pixel)
@@ -132,7 +132,7 @@ private:
         for (int c = 0; c < 3; ++c)
             if (largest[c] > 0.0) largest_[c] = largest[c];
     }
-    // Of what is seen in pixels, and beside them, that a bounce did not reach.
+    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0.
     void find_albedo(std::uint64_t seed) {
         const std::size_t pixels = result_->pixels();
         const int width = result_->width(), height = result_->height();

@@ -1,16 +1,16 @@
-// What few samples leave open however well they agree. A sliver of light that no sample of a pixel met is no zero, and replicates
-// that agree by chance are no proof: the error of a pixel is not below
+// Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may agree by
+// chance, so the standard error of a pixel is at least
 //
-//     h/t,  h = 3 D/n      where all replicates agree, and so where no sample met anything: the rule of three, as p, the chance of
+//     h/t,  h = 3 D/n      if all replicates agree, in particular if all samples are 0: the rule of three, as p, the probability of
 //                          a sample that differs, is below 3/n with 95% confidence: (1 − p)^n ≤ e^{−pn} = 0.05
-//           h = D/n        elsewhere: one sample more or less. Replicates of stratified samples that should meet something a
-//                          little more often often meet it equally often, and do not show that
+//           h = D/n        otherwise: one sample more or less. Replicates of stratified samples often meet something equally often
+//                          although their expectation lies a little higher, and their spread does not show that
 //
-// with n samples a pixel, t of the 95% interval, and D the largest less the smallest sample of the pixel and its eight neighbours.
-// Where these are all 0 and something may be there, D is the largest sample of the picture's bounce, or of those before it, or
-// where there is none ‖Le‖∞ a^i; and h is at most ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, a the largest albedo. What is known to be empty has no
-// such error: channels without light or albedo, bounces of which the plan says so, and pixels around which no ray meets what
-// reflects.
+// with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
+// neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an
+// earlier bounce; failing that, ‖Le‖∞ a^i. h is at most ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where
+// it is known that nothing is there: channels without light or albedo, bounces that the plan proves empty, and pixels around which
+// no ray meets a reflecting surface.
 #pragma once
 
 #include "operators/pictures/rendered_series.h"
@@ -25,12 +25,12 @@ public:
     LeastErrors(const Scene& scene, const SamplingSettings& settings, const RenderedSeries& series,
                 const SeriesMoments::Result& result);
 
-    // Of quantity i, and of the sum of the quantities 0 … i, whose terms' errors are added in squares; empty where there are none.
+    // The bounds for quantity i, and for the sum of quantities 0 … i (added in squares). The image is empty if all are 0.
     Image of_term(std::size_t i) const { return image(terms_, i); }
     Image of_sum(std::size_t i) const { return image(sums_, i); }
 
-    // An upper bound, with 95% confidence, on the mean of quantity i over pixels and channels where no sample of the picture met
-    // it: 0 where some did, or where nothing is there; infinite where there is no bound.
+    // If no sample of the whole picture met quantity i: an upper bound, with 95% confidence, on its mean over pixels and channels;
+    // infinite if there is no bound. Otherwise, or if nothing is there: 0.
     double mean_at_most(std::size_t i) const { return means_at_most_[i]; }
 
 private:
@@ -42,7 +42,7 @@ private:
     std::vector<double> means_at_most_;
 };
 
-// Bounces that no sample met, and the rest, have these bounds as intervals.
+// Sets mean_at_most() as the interval of bounces, or of the rest, that no sample met.
 void report_unmet(SeriesReport& report, const LeastErrors& least);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Methods that make some of all paths only, and how much light they leave out.
+// Which paths a method cannot make, and how much light is missing.
 #pragma once
 
 #include "operators/pictures/pilot.h"
@@ -6,18 +6,18 @@
 
 namespace neumann {
 
-// Which paths a method makes, where these are not all.
+// The set of paths that a method makes.
 enum class Paths {
     all,
-    without_specular,  // none by way of a mirror, glass or another delta
-    seen_directly,     // those that the camera sees on surfaces, and not by way of a delta
-    specular           // those whose reflections are specular but for the last one, which looks for light
+    without_specular,  // no reflection by a delta lobe (mirror, glass)
+    seen_directly,     // the vertex that the camera sees is on a surface and does not scatter by a delta lobe
+    specular           // all reflections are by delta lobes, except the last one, which samples the lights
 };
-// Some material sends light in a single direction.
+// Whether some material has a delta lobe.
 bool has_specular(const Materials& materials);
 Paths paths_of(PathMethod method, const Scene& scene);
 
-// What is missing of each bounce: mean(pilot) − mean(picture), whose walks are independent, for as many bounces as the pilot knows.
+// Sets what is missing of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to Pilot::bounces.
 void report_missing(SeriesReport& report, const Pilot& pilot);
 
 }  // namespace neumann

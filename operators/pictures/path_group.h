@@ -1,4 +1,4 @@
-// Paths that advance together: those of some consecutive pixels in one replicate, one after the other.
+// A group of paths that advance together: those of consecutive pixels in one replicate, in order.
 #pragma once
 
 #include "core/scene/camera_sample.h"
@@ -11,7 +11,7 @@
 
 namespace neumann {
 
-// Enough that those that are still on their way fill the packets of rays.
+// Large enough that the paths still alive fill the ray packets.
 constexpr std::uint32_t paths_at_once = 64;
 
 struct Pixel {
@@ -22,7 +22,7 @@ inline Pixel pixel_of(const Film& film, std::uint32_t number) {
     return {film.crop_x + static_cast<int>(number % width), film.crop_y + static_cast<int>(number / width)};
 }
 
-// Where the paths of a replicate are numbered pixel by pixel: the first of a group, and the sample's number there.
+// The place of a sample, with the paths of a replicate numbered pixel by pixel: the first path of its group, and its index there.
 struct PlaceInGroup {
     std::uint64_t replicate;
     std::uint32_t first, path;
@@ -37,13 +37,13 @@ inline SampleName name_in_group(std::uint64_t replicate, std::uint32_t first, st
 
 struct PathGroup {
     std::vector<CameraRay> rays;
-    std::vector<double> weights;  // of the film's filter
+    std::vector<double> weights;  // weights of the film's filter
     Walkers walkers;
-    std::vector<Rgb> samples;  // path by path, all quantities of each
+    std::vector<Rgb> samples;  // path by path, all quantities of a path together
 };
 
-// Samples one replicate of some pixels; there is a sampler for each of their samples. estimate(rays, samplers, walkers, result).
-// `rays`: cast, for each quantity; added to. Returns the walks that were given up.
+// Samples one replicate of some pixels, with a sampler for each of their samples, and calls estimate(rays, samplers, walkers,
+// result). Adds the number of rays cast for each quantity to `rays`. Returns the number of walks given up.
 template <class Estimate, class Sampler>
 std::uint64_t trace(const Scene& scene, const Estimate& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
                     std::uint64_t replicate, PathGroup& group, std::span<std::uint64_t> rays) {

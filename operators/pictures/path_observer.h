@@ -1,4 +1,4 @@
-// Looks on while paths are traced again: ray by ray, and what they bring.
+// Interface for inspecting paths that are traced again: their rays and their contributions.
 #pragma once
 
 #include "core/geometry/surface_point.h"
@@ -12,26 +12,26 @@ struct PathStep {
     enum class Kind {
         first,    // from the camera or from a light
         goes_on,  // after a reflection
-        asks      // is this point seen, of a light, of the other half or of the camera; or what is seen in this direction?
+        asks      // a ray to a point on a light, on the other subpath or on the lens, or in a direction sampled for direct light
     };
     Kind kind = Kind::first;
-    bool from_light = false;  // of the half that sets out from a light
-    int bounce = 0;           // reflections behind it; a question counts the one that it is asked for
-    SurfacePoint from;        // a first ray from the camera has a position alone
+    bool from_light = false;  // part of the subpath from a light
+    int bounce = 0;           // number of reflections before the ray; for `asks`, including the one at its start
+    SurfacePoint from;        // of a first ray from the camera, only the position is set
     Vec3 w{0.0};              // unit length
-    double pdf = 0.0;         // of a camera path that goes on: of w, per solid angle, or delta_pdf; else 0
-    Rgb beta{0.0};            // what the path weighs along the ray, or its power; a question has none
-    bool found = false;       // there is something, or the point is seen
-    SurfacePoint to;          // where that is
+    double pdf = 0.0;         // for a camera path that goes on: of w, per solid angle, or delta_pdf; otherwise 0
+    Rgb beta{0.0};            // throughput along the ray, or power of a path from a light; 0 for `asks`
+    bool found = false;       // the ray hits something, or the point is visible
+    SurfacePoint to;          // the hit, or the point
 };
 
 class PathObserver {
 public:
     virtual ~PathObserver() = default;
-    // Paths are numbered from 0; those that are not watched are not told of.
+    // Whether to report path number i, counted from 0.
     virtual bool watches(std::uint32_t) const { return true; }
     virtual void step(std::uint32_t path, const PathStep& step) = 0;
-    // What the last step of a path has brought. `pixel`: where on the film, of what comes from a light; else null.
+    // The contribution of a path's last step. `pixel`: the position on the film if a path from a light found it; otherwise null.
     virtual void found(std::uint32_t, std::size_t /*quantity*/, const Rgb&, const Vec2* /*pixel*/) {}
 };
 

@@ -30,7 +30,7 @@ struct Workspace {
     Tally tally;
 };
 
-// Takes down the samples of one quantity that are not finite, makes them zero, and returns the sum of the others.
+// Records the samples of one quantity that are not finite, sets them to zero, and returns the sum of the others.
 Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, std::uint32_t pixel, std::uint64_t replicate,
                          Workspace& work) {
     Rgb sum(0.0);
@@ -45,7 +45,8 @@ Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q
     return sum;
 }
 
-// The means of one pixel's samples of a replicate, into work.sum; `ranges`: of the samples, for each quantity.
+// Writes the means of one pixel's samples in a replicate into work.sum, and the range of the samples of each quantity into
+// `ranges`.
 void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_weights,
              const std::optional<glm::dmat3>& colors, std::span<SampleRange> ranges, Workspace& work) {
     const std::size_t quantities = work.sum.size();
@@ -58,7 +59,7 @@ void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std:
         largest.add_count(size);
         if (!is_finite(sum)) [[unlikely]]
             sum = leave_out_non_finite(samples, size, q, pixel, replicate, work);
-        // Samples that are not negative do not exceed their sum.
+        // If no sample is negative, none exceeds the sum.
         if (has_negative_weights || max_component(sum) > largest.threshold())
             for (std::size_t i = 0; i < size; ++i)
                 largest.add(max_component(glm::abs(samples[i * quantities + q])), {pixel, {pixel, replicate * size + i}});
@@ -68,7 +69,7 @@ void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std:
     }
 }
 
-// Appends work.sum as the r-th replicate: nodes of equal size are joined as digits carry in adding 1 to a binary number.
+// Appends work.sum as the r-th replicate: nodes of equal size are merged, like carries when 1 is added to a binary number.
 void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace& work) {
     PixelMoments::set(work.carry, work.sum);
     std::size_t level = 0;
@@ -115,7 +116,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
 
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
-    // Some consecutive pixels, from `begin`.
+    // Samples a group of consecutive pixels, starting with `begin`.
     const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end,
                                 Workspace& work) {
         std::vector<Pixel> some;
@@ -138,7 +139,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             std::copy(work.waiting[i].back().begin(), work.waiting[i].back().end(),
                       node.data.begin() + static_cast<std::ptrdiff_t>((begin + i) * stride));
     };
-    // Groups of pixels are the same however the work is divided.
+    // The groups of pixels do not depend on how the work is divided among threads.
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
         if (dropped) return;

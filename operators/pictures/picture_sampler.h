@@ -27,15 +27,15 @@ public:
     std::size_t quantities() const { return settings_.quantities(); }
     const Settings& settings() const { return settings_; }
 
-    // Replicates first … first + count − 1 of every pixel; count is a power of two that divides first. What is counted is added to
-    // `tally`, which has the replicates before, unless the work is dropped. `watch` is told the pixels that are done as work goes
-    // on, from any thread, and drops the work by answering true. `memory` is used for the node: fresh pages for every block would
-    // cost as much as the moments themselves.
+    // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
+    // which holds the earlier replicates, unless the work is dropped. `watch` is called from any thread with the number of pixels
+    // done; if it returns true, the work is dropped. `memory` is reused for the node: fresh pages for every block would cost as
+    // much as the moments themselves.
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch = {},
                                    std::vector<double> memory = {}) const;
 
-    // Traces some paths of run() again and tells of them: those of a replicate that advance together (path_group.h), `first` among
-    // them the first one. Returns their samples, all quantities of each, with the bits that run() adds up; nothing is left out.
+    // Traces one group of paths of run() again (path_group.h) and reports it to `observer`; `first` is the first path of the group.
+    // Returns the samples, path by path with all quantities, with the same bits as in run(); the plan leaves nothing out.
     // The pointwise method has no paths: std::logic_error.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 

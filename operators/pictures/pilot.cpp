@@ -23,7 +23,7 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
     const DirectLightSampler direct_light(scene, direct);
     const Stopwatch watch;
 
-    // For each walk the terms and the tails Σ_{k>i}, of which mean and variance are wanted; in batches of fixed order.
+    // Moments of the terms and of the tails Σ_{k>i}, over walks; batches are added in a fixed order.
     struct Moments {
         std::vector<double> sum = std::vector<double>(quantities), square = std::vector<double>(quantities);
         void add(std::size_t q, double x) {
@@ -113,7 +113,7 @@ int Pilot::bounces_for_tail(double fraction) const {
 }
 
 double Pilot::rest_probability(int N) const {
-    // The pilot's walks play no roulette before its own rest; the render's do beyond N, and survive about as the terms fall.
+    // The pilot's walks have no roulette up to bounce 256. The render's have it beyond N, and survive about as the terms fall.
     const auto term = [&](std::size_t q) { return rest_[q - 1].mean - (q < rest_.size() ? rest_[q].mean : 0.0); };
     const auto first = static_cast<std::size_t>(N) + 1;
     double terms = 0.0, beyond = 0.0;

@@ -1,5 +1,5 @@
-// A few thousand walks before the pictures, to learn how long walks are, how fast the terms fall, and whether the series ends at
-// all. They use random numbers of their own, so that nothing chosen by looking at them is judged by them again.
+// A few thousand walks before the render, which estimate how long walks are, how fast the terms fall, and whether the series
+// converges. Their random numbers are independent of the render's, so choices based on the pilot do not bias the render.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -12,31 +12,31 @@ namespace neumann {
 
 class Pilot {
 public:
-    // Terms looked at one by one, and bounces beyond them after which a walk is given up.
+    // The number of terms estimated one by one, and the number of bounces beyond them after which a walk is given up.
     static constexpr int bounces = 256, give_up = 10'000;
 
     Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed);
 
-    // K^i Le, averaged over the channels and over the film, on which walks start uniformly whatever its filter; i ≤ bounces.
+    // Mean of K^i Le over channels and film, i ≤ bounces. Walks start uniformly on the film, whatever its filter.
     MeanWithError term(int i) const;
     // Σ_{k>i} K^k Le, likewise.
     MeanWithError rest(int i) const;
     double sum() const { return rest_[0].mean + term_[0].mean; }
 
-    // More than 1 in 20 walks were alive when given up: either the series does not converge, or too slowly to tell.
+    // False if more than 1 in 20 walks were given up: the series does not converge, or too slowly to tell.
     bool converges() const { return given_up_ * 20 <= walks_; }
     std::uint64_t walks() const { return walks_; }
     std::uint64_t given_up() const { return given_up_; }
 
     // The smallest N ≤ bounces whose rest, with twice its standard error, is below `fraction` of the sum; −1 if there is none.
     int bounces_for_tail(double fraction) const;
-    // The probability of going on into the rest beyond N at which the rest costs no more rays than the terms.
+    // The probability of going on into the rest beyond N with which the rest takes no more rays than the terms.
     double rest_probability(int N) const;
     double seconds_per_walk() const { return seconds_per_walk_; }
 
 private:
     std::vector<MeanWithError> term_, rest_;
-    std::vector<double> rays_;  // for each term and the rest beyond `bounces`, a walk
+    std::vector<double> rays_;  // rays per walk, for each term and for the rest beyond `bounces`
     std::uint64_t walks_ = 0, given_up_ = 0;
     double seconds_per_walk_ = 0.0;  // all terms, on all threads
 };

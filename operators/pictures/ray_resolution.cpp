@@ -7,7 +7,7 @@ namespace {
 // Fields and pixels are floats.
 constexpr double rounding = 0x1p-22;
 
-// σ/mean of each quantity over all unknowns by their measure, which is how rays meet them.
+// σ/mean of each quantity over all unknowns, weighted by their measure, as rays hit them.
 std::vector<Rgb> contrasts(const std::vector<TracedSeries>& replicates) {
     const PatchSpace& space = replicates.front().fine.space();
     const std::size_t quantities = replicates.front().fine.stride() / 3;
@@ -39,7 +39,7 @@ std::vector<Rgb> contrasts(const std::vector<TracedSeries>& replicates) {
 RayResolution::RayResolution(const std::vector<TracedSeries>& replicates, const RayCounts& counts) {
     const std::vector<Rgb> contrast = contrasts(replicates);
     const double open = counts.is_closed ? 0.0 : 1.0 / counts.all;
-    Rgb field(0.0);  // of the mean over the field so far
+    Rgb field(0.0);  // relative error of the mean over the field, up to this quantity
     for (std::size_t q = 0; q < contrast.size(); ++q) {
         Rgb in_row(0.0), in_all(0.0);
         const Rgb before = field;

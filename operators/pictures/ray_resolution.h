@@ -1,12 +1,12 @@
-// How sure a picture can be by the number of its rays, however well its replicates agree. All are stratified alike, so that in a
-// symmetric scene each of them may count the same, and be wrong by as much. But no mean of n values tells a jump of what it
-// averages better than to 1/n of it:
+// A lower bound on the standard error from the number of rays, however well the replicates agree. All replicates are stratified in
+// the same way, so in a symmetric scene all may have the same error. But the mean of n values resolves a jump of the integrand to
+// 1/n of its height at best:
 //
-//     SE ≥ σ/n,   σ the standard deviation of what rays bring.
+//     SE ≥ σ/n,   σ the standard deviation of the values that the rays return.
 //
-// A pixel reads rows of T, each of the rays of one facet. The rows are scrambled each by itself, so that in the mean of a picture
-// all M rays count: where they agree, a share of 3/M of them may be otherwise (95%), and the interval of three degrees of freedom
-// is as wide.
+// A pixel reads rows of T, and each row has the rays of one facet. The rows are scrambled independently, so for the mean of a
+// picture all M rays count: if they all agree, up to 3/M of them could differ (95%), which is about the width of an interval with
+// three degrees of freedom.
 #pragma once
 
 #include "operators/matrix/traced_series.h"
@@ -15,20 +15,20 @@
 
 namespace neumann {
 
-// Rays of all replicates together.
+// Numbers of rays in all replicates together.
 struct RayCounts {
     double of_facet = 0.0, all = 0.0;            // of T
-    double lights_of_facet = 0.0, lights = 0.0;  // for b; 0 where T makes it
-    double gathered = 0.0;                       // at a pixel that applies K once more; 0 where it reads the field
+    double lights_of_facet = 0.0, lights = 0.0;  // light samples for b; 0 if b comes from T
+    double gathered = 0.0;                       // gather rays of a pixel; 0 if pixels read the field
     double pixels = 0.0;
-    std::size_t sampled_at_pixel = 0;  // quantities that tell their own error
-    bool is_closed = false;            // proven: no ray can leave. Otherwise one may have
+    std::size_t sampled_at_pixel = 0;  // the first quantities are sampled at the pixel and need no such bound
+    bool is_closed = false;            // it is proven that no ray leaves the scene
 };
 
 class RayResolution {
 public:
     RayResolution() = default;
-    // `replicates`: their finer fields, of which quantity i + 1 is R T of quantity i, the rest that of bounce N and itself.
+    // `replicates`: the finer fields. Quantity i + 1 is R T of quantity i; the rest is R T of bounce N plus itself.
     RayResolution(const std::vector<TracedSeries>& replicates, const RayCounts& counts);
 
     // The least standard error of a quantity, relative to its value: in a pixel, and of the mean over all pixels.

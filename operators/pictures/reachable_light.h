@@ -1,4 +1,4 @@
-// Where light may be that samples do not show.
+// Where there may be light that the samples missed.
 #pragma once
 
 #include "core/image/image.h"
@@ -9,11 +9,12 @@
 
 namespace neumann {
 
-// For each pixel the largest albedo of what some rays through it meet; 0 where they see nothing that reflects. Of pixels that are
-// not `wanted`, nothing. The same bits on any number of threads.
+// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit; 0 if none reflects. The same bits on
+// any number of threads.
 Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed);
 
-// For each pixel the largest radiance of some points of lights that the camera sees there: those too small for rays to meet, too.
+// For each pixel, the largest radiance of sampled points on lights that the camera sees there. This finds lights that are too small
+// for camera rays to hit.
 Image seen_lights(const Scene& scene, std::uint64_t seed);
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// What else to try where a sample makes a pixel alone. Its path tells: which of its reflections are by a delta (a mirror, glass, a
-// hole), where no other way to make the path can take its place.
+// What else to try against a firefly. The answer depends on which reflections of its path are by a delta lobe (mirror, glass,
+// hole), where no other strategy can make the path.
 #pragma once
 
 #include "operators/pictures/picture_sampler.h"
@@ -9,14 +9,14 @@
 namespace neumann {
 
 enum class Remedy {
-    ask_lights,     // the walk with multiple importance sampling: the light was found from a point that could have asked for it
-    bidirectional,  // two neighbours on the path, or the camera and its first point, can be joined: behind a delta, lights find
-                    // more of such paths than chance does
-    more_bounces    // the rest is made from the camera alone
+    ask_lights,     // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
+    bidirectional,  // two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find
+                    // light behind a delta lobe more often than walks hit it by chance
+    more_bounces    // the rest is sampled from the camera alone, so a larger N helps
 };
 
-// Of a sample of a quantity, bounces 0 … N and the rest: what the scene and the path allow. Together, where there are several.
-// Empty where no method makes such a path but by chance.
+// The remedies that scene and path allow for a sample of a quantity (bounce 0 … N or the rest); several are to be combined. Empty
+// if every method makes such a path by chance only.
 std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity);
 
 }  // namespace neumann

@@ -13,8 +13,8 @@ namespace neumann {
 
 namespace {
 
-// An interrupted render goes on to a number of samples that can be repeated, and to the end of its first replicate, only if it has
-// not run for longer, seconds.
+// Seconds. An interrupted render that has run for longer stops at once; otherwise it goes on to a number of samples that can be
+// repeated, and to the end of its first replicate.
 constexpr double patience = 3.0;
 
 Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
@@ -58,12 +58,12 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         watch.progress(progress);
     };
 
-    // Whether --spp finds the same replicates again.
+    // Whether --spp with this number of samples gives the same replicate size.
     const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
     std::vector<double> memory;
     bool error_reached = false;
     for (std::uint64_t done = 0;;) {
-        // Blocks of at most a sixteenth of what is done: few nodes are kept, and little is lost when one is dropped.
+        // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
         if (goal.samples)
             while (block > 1 && (done + block) * size > *goal.samples) block /= 2;

@@ -8,12 +8,12 @@
 
 namespace neumann {
 
-// When to stop sampling; what is given holds together, whichever comes first. Nothing given: never.
+// Sampling stops at the first of these limits that it reaches; without any, it never stops.
 struct SamplingGoal {
-    std::optional<std::uint64_t> samples;  // a pixel
+    std::optional<std::uint64_t> samples;  // per pixel
     std::optional<double> seconds;
-    std::optional<double> relative_error;  // of every term that is not all zero, as relative_standard_error(); looked at when the
-                                           // number of samples is a power of two
+    std::optional<double> relative_error;  // relative_standard_error() of every term that is not all zero; checked when the number
+                                           // of samples is a power of two
 };
 
 enum class Outcome { samples_reached, time_reached, error_reached, interrupted, memory_reached, does_not_pay };
@@ -26,17 +26,18 @@ struct RenderedSeries {
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
     double seconds = 0.0;
-    bool samples_are_bounded = false;  // of bounces 0 … N, as bounded_samples.h knows it
+    bool samples_are_bounded = false;  // of bounces 0 … N (bounded_samples.h)
 };
 
-// Samples a pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 4 replicates. Large
-// replicates have less error, many tell it better: of 2, a 95% interval is 12.7 standard errors to each side, of 4 it is 3.2.
+// Samples per pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 4 replicates. Larger
+// replicates have less error (stratification), but more replicates estimate it better: the 95% interval is ±12.7 standard errors
+// with 2 replicates and ±3.2 with 4.
 constexpr std::uint32_t largest_replicate = 32, fewest_replicates = 4;
 std::uint32_t replicate_size(std::uint64_t samples);
 
-// A render that is stopped by time or error ends at a number of samples from which replicate_size() finds the same replicates
-// again, and so does one that is interrupted, unless that would take long. An interrupted one drops the samples that are not yet in
-// all pixels; where that is all of them it takes a single one.
+// A render that is stopped by time or error ends at a number of samples from which replicate_size() gives the same replicate size
+// again, and so does one that is interrupted, unless that would take long. An interrupted render drops the samples that not all
+// pixels have; if that is all of them, it renders one sample per pixel.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const Watch& watch = {});
 

@@ -1,4 +1,4 @@
-// One sample traced again, with its path.
+// Traces one sample again and records its path.
 #pragma once
 
 #include "operators/pictures/path_observer.h"
@@ -13,15 +13,15 @@ struct ReplayedStep {
     PathStep step;
     struct Found {
         std::size_t quantity;       // its bounce; N + 1 stands for the rest
-        Rgb value;                  // what the picture gets of it: radiance, as a sample of the pixel
-        std::optional<Vec2> pixel;  // where on the film, of what comes from a light; else it is the path's own pixel
+        Rgb value;                  // contribution to the picture: radiance, as a sample of the pixel
+        std::optional<Vec2> pixel;  // position on the film if a path from a light found it; otherwise it is the path's own pixel
     };
     std::vector<Found> found;
 };
 
 struct Replay {
     std::vector<ReplayedStep> steps;
-    // Bounces 0 … N and the rest, with the bits that are added up in the sample's own pixel; zero where all comes from the lights.
+    // The contributions to the sample's own pixel, bounces 0 … N and the rest, to the bit; zero if all come from the lights.
     std::vector<Rgb> terms;
 };
 

@@ -1,4 +1,4 @@
-// Paths traced again, for an observer: the same walks with any sampler, compiled to be small and not fast.
+// Traces paths again for an observer: the same walks with AnySampler, which keeps the code small but is slower.
 #include "operators/pictures/any_sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/picture_sampler.h"

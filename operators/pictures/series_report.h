@@ -1,4 +1,4 @@
-// What a rendered series says of itself: each bounce in figures, and what is left out.
+// The report of a rendered series: numbers for each bounce, and what is missing.
 #pragma once
 
 #include "operators/pictures/field_pictures.h"
@@ -10,37 +10,37 @@
 
 namespace neumann {
 
-// What patches get wrong, as it is estimated.
+// The estimated discretisation error.
 struct DiscretisationReport {
     double mean = 0.0, worst = 0.0;  // of the error, over pixels and channels, radiance
     int worst_x = 0, worst_y = 0;    // where the worst is
-    double relative = 0.0;           // √(Σ error² / Σ mean²), without what noise explains
+    double relative = 0.0;           // √(Σ error² / Σ mean²), with the part from noise subtracted
 };
 
 struct BounceReport {
     MeanWithError mean;              // radiance of K^i Le, over pixels and channels
-    std::optional<double> ratio;     // to the mean of the bounce before: an estimate, not a bound; none after a bounce that is zero
-    double bound;                    // a priori, of ‖Σ_{k>i} K^k Le‖∞; infinite: there is none
+    std::optional<double> ratio;     // mean divided by that of the previous bounce, an estimate; none if the previous mean is zero
+    double bound;                    // a-priori bound on ‖Σ_{k>i} K^k Le‖∞; infinite if there is none
     bool infinite_variance = false;  // then `mean` has no interval
     bool unmet = false;              // no sample met it, and `mean` has an upper bound as its interval (least_errors.h)
-    // The samples are bounded, so that the variance is finite, but the largest have a tail as if it were not: they are rare, make
-    // much of the mean, and what is missing of them is missing in the interval, too.
+    // The samples are bounded, so the variance is finite, but the largest samples have a heavy tail: they are rare and make much of
+    // the mean, so the interval may be too short.
     bool rare_large_samples = false;
     std::optional<TailIndex> tail;
     std::uint64_t rays = 0;
-    double seconds = 0.0;  // of the sampling, shared out by rays
+    double seconds = 0.0;  // sampling time, divided among the bounces by their rays
     std::optional<DiscretisationReport> discretisation;
-    std::optional<MeanWithError> missing;  // by methods that do not make all paths (missing_paths.h)
+    std::optional<MeanWithError> missing;  // mean radiance of the paths that the method cannot make (missing_paths.h)
 };
 
 enum class RestVerdict {
     measured,        // Σ_{k>N} K^k Le is estimated
-    not_converging,  // walks did not end, or terms did not fall: it was given up
+    not_converging,  // given up because walks did not end, or terms did not fall
     not_sampled,     // the method has no rest
 };
 
 struct SeriesReport {
-    bool importance = false;  // of K*^i We in place of K^i Le, m⁻²·sr⁻¹; then there is no bound, as ‖We‖∞ is infinite
+    bool importance = false;  // the series is K*^i We, m⁻²·sr⁻¹, in place of K^i Le; it has no bound, as ‖We‖∞ is infinite
     std::vector<BounceReport> bounces;
     MeanWithError sum;  // of Σ_{k≤N}
     std::optional<DiscretisationReport> sum_discretisation;
@@ -48,10 +48,9 @@ struct SeriesReport {
     MeanWithError rest;
     bool rest_infinite_variance = false, rest_unmet = false;
 
-    // Of any bounce.
     bool infinite_variance() const;
     bool rare_large_samples() const;
-    // The rest, with its interval, is below this part of the sum.
+    // Upper bound on the rest (mean plus interval) divided by the sum.
     double tail_fraction() const;
 };
 

@@ -1,4 +1,5 @@
-// Paths from the lights, with or without a half from the camera, that advance together: what SplatSampler does with each group.
+// A group of paths from the lights (and, for bidirectional paths, of subpaths from the camera) that advance together: trace_group()
+// of SplatSampler.
 #pragma once
 
 #include "operators/pictures/any_sampler.h"
@@ -9,12 +10,12 @@
 
 namespace neumann {
 
-// Paths from the lights that are stratified together.
+// Number of paths from the lights that are stratified together.
 constexpr std::uint32_t light_net = 4096;
-// Stands for the lights where random numbers belong to a pixel.
+// The pixel number for the random numbers of paths from the lights.
 constexpr std::uint32_t of_lights = 0xffffffffu;
 
-// Of a thread.
+// Work space of a thread.
 struct SplatSampler::Workspace {
     explicit Workspace(std::size_t quantities) : tally(quantities) {}
 
@@ -35,7 +36,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     const auto sampler_of = [&](const SobolPoints& points, std::uint32_t pixel) {
         return make_sampler<Sampler>(settings_.sampler, points, settings_.seed, pixel);
     };
-    // Each replicate begins a net of its own.
+    // Each replicate starts a new (t, m, s)-net.
     const std::uint64_t paths = (std::uint64_t{pixels_} * size + light_net - 1) / light_net * light_net;
     std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
@@ -61,7 +62,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     }
     group.samples.assign(samples * Q, Rgb(0.0));
     const int N = settings_.walk.bounces;
-    // To which quantities something found belongs: its bounce, or its way.
+    // Adds a contribution to the quantities to which it belongs: its bounce, or its strategy (s, t).
     const auto sort = [&](const Found& f, const auto& add) {
         if (!settings_.ways_of_last_bounce) {
             add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value * f.weight);

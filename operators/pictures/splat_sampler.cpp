@@ -15,12 +15,12 @@ namespace neumann {
 
 namespace {
 
-// That are one piece of work.
+// Number of groups in one Chunk of work.
 constexpr std::uint32_t groups_at_once = 8;
 
 }  // namespace
 
-// What a piece of work brings to pixels anywhere, in the order in which it was found.
+// The contributions of one piece of work to pixels anywhere on the film, in a fixed order.
 struct SplatSampler::Chunk {
     struct Share {
         std::uint32_t pixel, quantity;
@@ -41,7 +41,8 @@ SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
       light_points_(light_net),
       filter_radius_(radius(scene.film.filter)) {}
 
-// Radiance times pixels, of one path among as many as there are pixels.
+// Adds a contribution to the pixels whose filter covers `position`. `value` is radiance times the number of pixels, for one path
+// per pixel.
 void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,
                           Workspace& work) const {
     const Film& film = scene_->film;
@@ -131,7 +132,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                 sample_group<IndependentSampler>(replicate, first, n, chunk, picture, ranges.own, work);
         }
     };
-    // Pieces are worked on in any order and added up in one: the same bits on any number of threads.
+    // Chunks are computed in any order and added in a fixed one: the same bits on any number of threads.
     const std::size_t in_flight = 4 * static_cast<std::size_t>(oneapi::tbb::info::default_concurrency());
     std::vector<Chunk> chunks(in_flight);
     std::uint32_t next = 0;
@@ -186,7 +187,7 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
     ranges.shares.of.resize(pixels_ * Q);
     Tally new_tally(Q);
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
-    // And for their mean.
+    // Calls f for every pixel and for index pixels_, which holds the means over the picture.
     const auto for_each_pixel = [&](const auto& f) {
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels_ + 1, 256), [&](const auto& range) {
             for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) f(pixel);
@@ -202,7 +203,7 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
         const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
         for_each_pixel(
             [&](std::size_t pixel) { PixelMoments::set(of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * Q, Q)); });
-        // Nodes of equal size are joined as digits carry in adding 1 to a binary number.
+        // Nodes of equal size are merged, like carries when 1 is added to a binary number.
         std::size_t level = 0;
         for (; r >> level & 1; ++level) {
             const auto n = static_cast<double>(std::uint64_t{1} << level);
@@ -212,7 +213,7 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
         std::swap(waiting[level], carry);
     }
     tally.merge(new_tally);
-    // Where something comes from the lights, most paths bring nothing.
+    // Most paths contribute nothing to a given pixel, so 0 is among the samples.
     for (SampleRange& range : ranges.shares.of)
         if (range.largest[0] >= range.smallest[0] || settings_.method == PathMethod::light) range.add(Rgb(0.0));
     ranges.own.merge(ranges.shares);

@@ -1,5 +1,5 @@
-// Samples the terms by paths from the lights, which find their pixels themselves: a replicate is a whole picture. There are as many
-// paths as camera samples would be, and each counts for the pixels whose filter reaches to where it is seen.
+// Samples the terms by paths from the lights, which may contribute to any pixel, so a replicate is a whole picture. A replicate has
+// as many paths as camera samples, and each is added to the pixels whose filter covers its position on the film.
 #pragma once
 
 #include "core/sampling/sobol_sampler.h"
@@ -27,16 +27,16 @@ public:
 private:
     struct Workspace;
     struct Chunk;
-    // Of the camera's samples, and of what comes to a pixel from anywhere.
+    // Ranges of the samples from the camera (`own`), and of splatted contributions (`shares`).
     struct Ranges {
         SampleRanges own, shares;
     };
-    // A replicate's picture, all quantities of each pixel, and then their means. False where the work was dropped.
+    // Samples a replicate's picture: all quantities of each pixel, and then their means. Returns false if the work was dropped.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
                         const std::function<bool(double)>& part_done) const;
-    // Some pixels' samples, whose numbers are first … first + samples − 1 in the replicate. `found(path, quantity, value)`: what
-    // a path brings to its own pixel, but for the filter's weight; `splatted(path, position, quantity, value)`: radiance times
-    // pixels.
+    // Traces paths first … first + samples − 1 of the replicate. `found(path, quantity, value)`: a contribution to the path's own
+    // pixel, before the filter's weight. `splatted(path, position, quantity, value)`: a contribution at a position on the film, as
+    // radiance times the number of pixels.
     template <class Sampler, class OnFound, class OnSplat, class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
                      const OnSplat& splatted, Workspace& work, const Observer& observer = {}) const;

@@ -1,4 +1,4 @@
-// The ways to sample all terms along camera rays, behind one call: estimator(rays, samplers, workspace, result). Walks can tell
+// Estimators of all terms along camera rays with one interface: estimator(rays, samplers, workspace, result). Walks can report to
 // an observer (operators/walk/observer.h).
 #pragma once
 
@@ -26,7 +26,7 @@ public:
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
         walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
-    // For whoever looks on: with the rays that were left out because their answers are known.
+    // With an observer: leaves nothing out, so it also reports rays whose results were known without casting them.
     template <class Observer, class Sampler>
     void trace(const Observer& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                TermSamples& result) const {
@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    // Where hitting lights does all, they are not asked beside it.
+    // If BSDF sampling alone is enough (LeftOut::questions), the lights are not sampled.
     static DirectLightSettings asked(const WalkSettings& settings) {
         DirectLightSettings direct = settings.direct;
         if (settings.left_out.questions && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;
@@ -49,7 +49,7 @@ private:
     Continuation continuation_;
 };
 
-// Each term asked for its value, by itself and from the start: the slow way, as on the slide. It has no rest.
+// Each term is evaluated recursively from the start, as written in the equations: slow, and without a rest.
 class PointwiseEstimator {
 public:
     PointwiseEstimator(const Scene& scene, int bounces) : scene_(&scene) {

@@ -1,4 +1,4 @@
-// What a render tells whoever looks on while it works, and the one way to stop it.
+// Callbacks of a running render, and the only way to stop it.
 #pragma once
 
 #include "core/image/image.h"
@@ -13,9 +13,9 @@ namespace neumann {
 
 struct RenderProgress {
     int bounces;            // 0 … N have pictures
-    std::uint64_t samples;  // a pixel, finished
+    std::uint64_t samples;  // finished samples per pixel
     double seconds;         // so far
-    double fraction;        // of the goal, as far as known; 0 … 1
+    double fraction;        // part of the goal that is done, 0 … 1, as far as known
     std::optional<double> seconds_left;
 };
 
@@ -24,23 +24,23 @@ struct Checkpoint {
     std::uint64_t samples = 0, rays = 0;
     double seconds = 0.0;
     std::vector<double> term_error;       // relative standard error of each term 0 … N
-    double sum_error = 0.0;               // and of Σ_{k≤N}
+    double sum_error = 0.0;               // relative standard error of Σ_{k≤N}
     std::vector<double> true_term_error;  // relative error against a reference, if there is one
     std::optional<double> true_sum_error;
 };
 
 struct Watch {
-    // Asked from any thread; once true it stays so. The render ends soon, with what it has.
+    // Called from any thread; must stay true once it is. The render then ends soon and returns what it has.
     std::function<bool()> stop = [] { return false; };
-    // From time to time, from any thread.
+    // Called from time to time, from any thread.
     std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {};
-    // The last bounce, as soon as it is known and before anything is sampled. What it throws ends the render.
+    // Called with N as soon as it is chosen, before anything is sampled. An exception that it throws ends the render.
     std::function<void(int bounces)> chosen = [](int) {};
-    // What happens, in words, where that is a surprise.
+    // Called with a message, in words, if something unexpected happens.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
-    // Fills in the true errors of a checkpoint, given the terms and their sum so far. Without it there is nothing to judge by.
+    // Fills in the true errors of a checkpoint, given the terms and their sum so far; empty if there is no reference.
     std::function<void(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint&)> judge = {};
-    // Whether there are checkpoints before the last one: they take time of their own.
+    // Whether to make checkpoints before the last one; they cost time.
     bool checkpoints = true;
 };
 

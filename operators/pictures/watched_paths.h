@@ -1,4 +1,4 @@
-// Puts together what paths tell of (operators/walk/observer.h) into steps.
+// Converts the callbacks of operators/walk/observer.h to the steps of a PathObserver.
 #pragma once
 
 #include "operators/pictures/path_observer.h"
@@ -36,7 +36,7 @@ public:
 
 private:
     PathObserver* observer_;
-    mutable std::vector<PathStep> waiting_;  // of each path: its ray, until it meets something
+    mutable std::vector<PathStep> waiting_;  // for each path, the ray that was cast last
 };
 
 }  // namespace neumann

@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// Planes times vertices: a fraction of a second.
+// Limit on the number of planes times vertices, which takes a fraction of a second.
 constexpr double most_work = 1e8;
 
 // max over the shape of n·(p − origin).
@@ -63,7 +63,7 @@ bool HalfSpaces::are_within(const Cylinder& c) const {
         c, [&](const Vec3& p) { return glm::length(across(p - c.base, c.axis)); },
         [&](const Vec3& u, const Vec3& v) { return longest(across(u, c.axis), across(v, c.axis)); });
 }
-// `distance` of a point, and how far a disc reaches beyond its centre at most.
+// `distance`: of a point; `reach`: how far a disc reaches at most beyond its centre.
 template <class Round, class Distance, class Reach>
 bool HalfSpaces::all_others(const Round& round, const Distance& distance, const Reach& reach) const {
     const double most = round.radius + rounding_;
@@ -85,7 +85,8 @@ bool HalfSpaces::all_planes(std::uint32_t shape, const F& f) const {
     return true;
 }
 
-// Over the whole sphere of directions, as meshes are seen from a point inside of a convex body; 0 where other shapes are.
+// The solid angle of all surfaces, seen from a point inside the convex body, divided by that of the sphere; 0 if there are shapes
+// other than meshes.
 double HalfSpaces::solid_angle_from_inside() const {
     Vec3 middle(0.0);
     double vertices = 0.0, sum = 0.0;

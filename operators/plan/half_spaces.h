@@ -1,8 +1,8 @@
-// What surfaces can see of each other, proven from the half-spaces that hold them all; no ray is cast. Where a scene is not
-// covered, or too large to be looked through, the answer is that nothing is known.
+// Proves which surfaces cannot see or occlude each other, from half-spaces that contain all surfaces; no ray is cast. If a scene is
+// too large or no proof applies, the answers are "not known" (false).
 //
-// A surface may rise above a plane by 2^-32 of the scene's radius and still count as on it: far more than coordinates in double are
-// rounded by, and a thousandth of the distance at which rays in float start clear of a surface, so no ray could tell.
+// A surface that rises above a plane by up to 2^-32 of the scene's radius counts as being on it. This is far more than the rounding
+// error of coordinates in double, and a thousandth of the offset at which float rays start from a surface, so no ray could tell.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -10,31 +10,31 @@
 namespace neumann {
 
 struct ConvexBody {
-    // All surfaces lie on the boundary of one convex body: two points that are not in one plane of it see each other, for what is
-    // between them lies inside of it.
+    // All surfaces lie on the boundary of one convex body. Two points that are not in one of its planes then see each other,
+    // because the segment between them lies inside the body.
     bool found = false;
-    bool fronts_face_inwards = false;  // all of them
-    bool is_closed = false;            // from inside, surfaces are seen in all directions, unless some lie on others
+    bool fronts_face_inwards = false;  // the fronts of all surfaces do
+    bool is_closed = false;            // from inside, surfaces are seen in all directions, unless some surfaces overlap
 };
 
-// Refers to the geometry.
+// Keeps a reference to the geometry.
 class HalfSpaces {
 public:
     explicit HalfSpaces(const Geometry& geometry);
 
     ConvexBody convex_body() const;
-    // No surface rises above the horizon of any point on this side of a shape: rays that leave it meet nothing.
+    // Whether no surface rises above the horizon of any point on this side of a shape, so that rays that leave it hit nothing.
     bool no_surface_seen_from(std::uint32_t shape, bool front) const;
 
 private:
-    // No surface is farther along n than p.
+    // Whether all surfaces lie in the half-space n·(x − p) ≤ 0.
     bool end_at(const Vec3& p, const Vec3& n) const;
-    // All surfaces are within the ball, or within the cylinder drawn out without end.
+    // Whether all surfaces are within the ball, or within the infinite cylinder.
     bool are_within(const Sphere& ball) const;
     bool are_within(const Cylinder& cylinder) const;
     template <class Round, class Distance, class Reach>
     bool all_others(const Round& round, const Distance& distance, const Reach& reach) const;
-    // f(a point of it, its normal) says yes for all planes of a shape.
+    // Whether f(point, normal) is true for all planes of a shape.
     template <class F>
     bool all_planes(std::uint32_t shape, const F& f) const;
     double solid_angle_from_inside() const;
@@ -42,7 +42,7 @@ private:
     const Geometry& geometry_;
     const std::vector<Shape>& shapes_;
     bool are_too_many_ = false;
-    double rounding_;  // what is on a plane for all that rays can tell
+    double rounding_;  // points this close to a plane count as on it
 };
 
 }  // namespace neumann

@@ -27,8 +27,8 @@ struct Look {
     SceneCensus has;
     HalfSpaces half_spaces;
     ConvexBody body;
-    std::size_t blind_sides = 0;  // with a material, that see no surface
-    // What stands on the sides of shapes, but for those.
+    std::size_t blind_sides = 0;  // number of sides with a material that see no surface
+    // The materials of the sides of shapes; blind sides are absorbing.
     std::vector<Materials::Sides> lit_sides;
     bool sides_see_no_surface() const { return blind_sides == has.sides; }
 
@@ -37,7 +37,7 @@ private:
         const Bsdf* bsdf = scene.materials.at(shape, front);
         return bsdf ? static_cast<int>(bsdf - scene.materials.bsdfs().data()) : Materials::absorbing;
     }
-    // Shading normals may turn directions below the horizon, and so does what lets light through.
+    // Shading normals may reflect light below the horizon, and transmission does; no proof applies then.
     bool sees_nothing(std::uint32_t shape, bool front, const Bsdf& bsdf) const {
         return !has_smooth_normals(scene.geometry.shapes()[shape]) && !std::holds_alternative<PerturbedNormal>(bsdf) &&
                !transmits(bsdf) && half_spaces.no_surface_seen_from(shape, front);
@@ -49,7 +49,7 @@ PlanPart left_out(const std::string& part, const std::string& reason, const std:
     return {part, false, reason, saves, decision};
 }
 
-// Of parts that are met only where a surface has them.
+// What it saves to leave out parts that run only on surfaces that have them.
 constexpr const char* nothing_more = "nothing: it is met only where it stands";
 
 PlanPart counted(const std::string& part, std::size_t sides, const Look& at) {

@@ -1,7 +1,7 @@
-// What a scene needs of the machinery, found by one look at it before anything runs. What it does not need is left out, which
-// changes no expected picture, and but for the questions for light no bit of one.
+// Which parts of the program a scene needs, found from the scene before anything runs. Parts that it does not need are left out.
+// This does not change the expected picture; except for LeftOut::questions, it changes no bit of the picture.
 //
-// A case is one entry of the list in plan.cpp.
+// The cases are listed in plan.cpp.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -14,27 +14,27 @@
 namespace neumann {
 
 struct PlanPart {
-    std::string part;    // of the machinery
-    bool kept;           // the scene needs it, or nothing is known that would spare it
-    std::string reason;  // as found in the scene
-    std::string saves;   // by leaving it out; empty where it is kept
-    // What walks are told, where that is more than not to meet it.
+    std::string part;    // the name of the part
+    bool kept;           // the scene needs it, or it is not proven unnecessary
+    std::string reason;  // why it is kept or left out
+    std::string saves;   // what leaving it out saves; empty if it is kept
+    // The flag of LeftOut that walks need for this part, if any.
     bool LeftOut::*decision = nullptr;
 };
 
 struct Plan {
     std::vector<PlanPart> parts;
     LeftOut walk;
-    // What stands on the sides of shapes, where those that no light reaches absorb; empty where there are none.
+    // The materials of the sides of shapes, with sides that no light reaches made absorbing; empty if there are no such sides.
     std::vector<Materials::Sides> sides = {};
 };
 
 Plan make_plan(const Scene& scene);
-// The part that is no property of the scene: who asks for it keeps it.
+// The name of the only part that does not depend on the scene: it is kept if the user asks for roulette.
 inline constexpr const char* roulette_part = "roulette before the last picture";
 
-// The scene without materials where no light arrives, as the plan says; nothing where there are none. Its geometry and its lights
-// are those of `scene`, shared.
+// The scene without materials on sides that no light reaches, according to the plan; nothing if there are no such sides. It shares
+// geometry and lights with `scene`.
 std::optional<Scene> without_unlit_materials(const Plan& plan, const Scene& scene);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// What is in a scene, counted.
+// Counts of what is in a scene.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -9,13 +9,13 @@ struct SceneCensus {
     explicit SceneCensus(const Scene& scene);
 
     std::size_t shapes = 0, smooth = 0;  // `smooth`: shapes with shading normals, of the mesh or of a map
-    // Sides of shapes with a material, and of these: that change over the surface, mirror or throw light
-    // in single directions otherwise, spread it around such a direction, let it through, or are holes in parts.
+    // Numbers of sides of shapes with a material, and of sides whose material varies over the surface, has a delta lobe, has a
+    // glossy lobe, transmits light, or is masked by holes.
     std::size_t sides = 0, textured = 0, specular = 0, rough = 0, transmissive = 0, masked = 0;
-    std::size_t light_shapes = 0;  // shapes that give off light
+    std::size_t light_shapes = 0;  // shapes that emit
     bool has_environment = false, has_constant_environment = false, has_delta_lights = false;
     bool is_grey = false;
-    // All shapes give off one radiance, and so does what surrounds them, if anything does.
+    // All shapes emit the same constant radiance, and so does the environment, if there is one.
     bool shines_alike = false;
 };
 

@@ -3,7 +3,8 @@
 //     (A B) f = A(B f)   (A + B) f = A f + B f   (a A) f = a (A f)   I f = f
 //     (A B)* = B* A*     (A + B)* = A* + B*      (a A)* = a A*       I* = I
 //
-// The types say what can be written: T takes exitant fields to incident ones and R these back, so there is no T T and no R R.
+// The types allow only what makes sense: T maps exitant fields to incident ones and R maps incident ones to exitant ones, so T T
+// and R R do not compile.
 #pragma once
 
 #include <concepts>
@@ -12,17 +13,17 @@
 
 namespace neumann {
 
-// What every operator is: a linear map from one kind of field to another. A value that is cheap to copy; what is large it shares.
+// A linear map from one kind of field to another. Operators are values that are cheap to copy, because they share large data.
 template <class A>
 concept Operator = requires(const A a, typename A::Domain f) {
     { a(std::move(f)) } -> std::same_as<typename A::Range>;
 };
 
-// One that maps a kind of field to itself.
+// An operator that maps a kind of field to itself.
 template <class A>
 concept Endomorphism = Operator<A> && std::same_as<typename A::Domain, typename A::Range>;
 
-// One that knows its A*: ⟨A f, g⟩ = ⟨f, A* g⟩.
+// An operator with an adjoint A*: ⟨A f, g⟩ = ⟨f, A* g⟩.
 template <class A>
 concept Adjointable = Operator<A> && requires(const A a) {
     { a.adjoint() } -> Operator;
@@ -35,14 +36,14 @@ auto adjoint(const A& a) {
     return a.adjoint();
 }
 
-// One on numbered unknowns that knows its entries: for_row(u, each) calls each(v, a) so that (A f)_u = Σ a f_v. An entry may come
-// in parts.
+// An operator on numbered unknowns with access to its entries: for_row(u, each) calls each(v, a) so that (A f)_u = Σ a f_v. An
+// entry may be reported in several parts.
 template <class A>
 concept HasRows = Operator<A> && requires(const A a, void (*each)(std::uint32_t, double)) {
     a.for_row(std::uint32_t{}, each);
 };
 
-// Of one kind of field, I f = f.
+// The identity on one kind of field, I f = f.
 template <class Field>
 class Identity {
 public:

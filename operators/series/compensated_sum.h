@@ -1,4 +1,4 @@
-// Sums that keep what ordinary addition rounds away, for each component by itself.
+// Compensated summation, component by component.
 //
 // A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen, ZAMM 54 (1974): the lost low-order part of
 // each addition is collected and added at the end. Error 2ε + O(n²ε²) Σ|t|/|Σ t| instead of O(nε).
@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// sum + t, and to `lost` what that leaves out.
+// Returns sum + t, and adds the rounding error of that to `lost`.
 template <class Real>
 void add_keeping(Real& sum, Real& lost, Real t) {
     const Real s = sum + t;
@@ -20,7 +20,7 @@ void add_keeping(Real& sum, Real& lost, Real t) {
     sum = s;
 }
 
-// Of fields that are stored, as size() numbers at data(). Functions have one of their own (operators/pointwise/field.h).
+// The sum of fields stored as size() numbers at data(). For functions see operators/pointwise/field.h.
 template <class Field>
 class CompensatedSum {
 public:

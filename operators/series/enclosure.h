@@ -1,6 +1,6 @@
 // A rigorous enclosure of the whole series from three of its terms (Collatz and Wielandt's quotients).
 //
-// For K ≥ 0 and Le ≥ 0: if c1 t_n ≤ t_{n+p} ≤ c2 t_n at every unknown and c2 < 1, then K carries this on to all later terms, and
+// For K ≥ 0 and Le ≥ 0: if c1 t_n ≤ t_{n+p} ≤ c2 t_n at every unknown and c2 < 1, then the same holds for all later terms, and
 //
 //     S_{n+p} + r c1/(1−c1) ≤ L ≤ S_{n+p} + r c2/(1−c2),   r = t_{n+1} + … + t_{n+p}.
 //
@@ -16,7 +16,7 @@ namespace neumann {
 
 struct Enclosure {
     bool exists = false;
-    std::string why;  // where it does not
+    std::string why;  // if it does not hold: the reason
     double c1 = 0.0, c2 = 0.0;
     Vector low, high;    // W·m⁻²·sr⁻¹
     double width = 0.0;  // max (high − low) / max high

@@ -1,4 +1,4 @@
-// Fields on finitely many unknowns, one value each, and their norms.
+// Fields with one value per unknown, and their norms.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@ namespace neumann {
 
 using Vector = Eigen::VectorXd;  // one value per unknown
 
-// What other fields of one value an unknown have as well; and each is made of a Vector.
+// Other fields with one value per unknown have this overload too, and can be constructed from a Vector.
 inline const Vector& to_vector(const Vector& x) { return x; }
 
 // L1, L2 and L∞ of a vector: power Σ m|t| (W, where t is radiance and m area times projected solid angle), (Σ m t²)^½ and max |t|.

@@ -5,11 +5,11 @@ namespace neumann {
 
 enum class Verdict {
     converged,   // the estimated error is below the tolerance
-    rounding,    // as close as rounding lets it come, which is not as close as the tolerance
-    limit,       // the applications allowed were used up before
+    rounding,    // rounding prevents a smaller error, and it is above the tolerance
+    limit,       // the applications allowed were used up first
     diverging,   // the terms do not get smaller, and the spectral radius is 1 or more: there is no L
-    broke_down,  // a division by zero, or numbers that are not finite: the method has no answer here
-    refused      // there is an answer, but not one to rely on; `why` says what is wrong with it
+    broke_down,  // a division by zero, or numbers that are not finite: the method has no answer
+    refused      // there is an answer, but it cannot be relied on; `why` gives the reason
 };
 
 inline const char* name(Verdict verdict) {

@@ -38,7 +38,7 @@ SolverResult solve_anderson(const Problem& problem, int m) {
             x -= dg.leftCols(kept) * gamma;
         }
         if (!x.allFinite()) return progress.end(x, Verdict::broke_down, "values that are not finite");
-        // The estimate is that of the iterate before: the residual of this one is not known yet.
+        // The estimate belongs to the previous iterate: the residual of this one is not known yet.
         if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
         if (rounding) return progress.end_rounding(x, estimate);
         if (progress.exhausted()) return progress.end_limit(x);

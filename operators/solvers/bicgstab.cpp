@@ -12,7 +12,7 @@ SolverResult solve_bicgstab(const Problem& problem) {
     Vector x = Vector::Zero(n), y = x, last = x, r(n);
     if (problem.Le.isZero(0.0)) return progress.end(x, Verdict::converged, "nothing emits");
 
-    // Eigen changes y in place, so that the iterate can be seen whenever K is applied.
+    // Eigen changes y in place, so the iterate can be read whenever K is applied.
     const EigenSystem* seen = nullptr;
     const auto look = [&] {
         if (y == last) return;
@@ -28,7 +28,7 @@ SolverResult solve_bicgstab(const Problem& problem) {
     Eigen::BiCGSTAB<EigenSystem, Eigen::IdentityPreconditioner> bicgstab;
     bicgstab.compute(system);
     const Vector scaled = system.scaled(problem.Le);
-    // Of the residual, in parts of that of x = 0.
+    // Tolerance of the residual, relative to that of x = 0.
     const double least = std::numeric_limits<double>::epsilon();
     double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
     for (;;) {

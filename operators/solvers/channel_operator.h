@@ -1,4 +1,4 @@
-// One colour channel of K = R ∘ T on finitely many unknowns: what a solver of L = Le + K L needs to know.
+// The interface of one colour channel of K = R ∘ T on finitely many unknowns, as the solvers of L = Le + K L use it.
 //
 // Unknown u stands for a patch, or for a patch and a bundle of directions; its value is radiance in W·m⁻²·sr⁻¹, and measure_u is
 // area times projected solid angle. Inner product and adjoint: ⟨f, g⟩ = Σ_u measure_u f_u g_u,  ⟨K f, g⟩ = ⟨f, K* g⟩.
@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// All vectors have size() values; x and y are different vectors. Calls change nothing that can be seen from outside.
+// All vectors have size() values; x and y must be different vectors. Calls have no visible side effects.
 class ChannelOperator {
 public:
     virtual ~ChannelOperator() = default;
@@ -17,7 +17,7 @@ public:
     virtual void apply(const Vector& x, Vector& y) const = 0;  // y = K x
     virtual const Vector& measure() const = 0;                 // > 0
 
-    // Some K can only be applied: K* or the entries answer where these are true, and throw std::logic_error elsewhere.
+    // Some K can only be applied. Where these return false, the functions for K* or for the entries throw std::logic_error.
     virtual bool has_adjoint() const { return true; }
     virtual bool has_entries() const { return true; }
     virtual void apply_adjoint(const Vector& x, Vector& y) const = 0;        // y = K* x

@@ -19,7 +19,7 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
     Vector r = problem.Le, d = r / centre, x = d, Kd;
     double estimate = std::numeric_limits<double>::infinity();
     for (;;) {
-        // The residual of this x takes one more application, so that the estimate is that of the iterate before.
+        // The residual of this x takes one more application, so the estimate belongs to the previous iterate.
         if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
         if (Progress::is_rounding(largest(r), x)) return progress.end_rounding(x, estimate);
         if (progress.exhausted()) return progress.end_limit(x);

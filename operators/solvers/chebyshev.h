@@ -1,8 +1,8 @@
 // Chebyshev's semi-iteration: the polynomial of K that is smallest on an interval of eigenvalues.
 //
 // For a K with real eigenvalues in [lowest, highest], highest < 1. G. H. Golub, R. S. Varga, Numer. Math. 3 (1961); Y. Saad,
-// Iterative Methods for Sparse Linear Systems, 2nd ed., algorithm 12.1. One application a step. An interval that does not hold all
-// eigenvalues costs speed, or the convergence.
+// Iterative Methods for Sparse Linear Systems, 2nd ed., algorithm 12.1. One application per step. If the interval does not contain
+// all eigenvalues, convergence is slower or lost.
 #pragma once
 
 #include "operators/solvers/solver.h"
@@ -12,7 +12,7 @@ namespace neumann {
 // Refused unless lowest ≤ highest < 1.
 SolverResult solve_chebyshev(const Problem&, double lowest, double highest);
 
-// With the interval [Problem::lowest, Problem::radius]; refused without a radius.
+// Uses the interval [Problem::lowest, Problem::radius]; refused without a radius.
 SolverResult solve_chebyshev(const Problem&);
 
 }  // namespace neumann

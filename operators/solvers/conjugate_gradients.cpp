@@ -15,7 +15,7 @@ SolverResult solve_conjugate_gradients(const Problem& problem) {
                             "needs the reflectance ρ of each unknown, with K = diag(ρ) F and F reciprocal");
     const auto& rho = problem.reflectance->array();
     if (!(rho >= 0.0).all()) return progress.end(problem.Le, Verdict::refused, "reflectances have to be at least 0");
-    // Black unknowns have weight 0 and hold Le.
+    // Black unknowns have weight 0 and the value Le.
     const Vector weight = (rho > 0.0).select(progress.K().measure().array() / rho, 0.0).matrix();
     const Vector fixed = (rho > 0.0).select(0.0, problem.Le.array()).matrix();
     const auto dot = [&](const Vector& f, const Vector& g) { return f.cwiseProduct(weight).dot(g); };

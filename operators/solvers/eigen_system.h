@@ -1,5 +1,5 @@
-// D (I − K) D⁻¹ as a matrix that Eigen's iterative solvers take, without forming it. With D = diag(√measure) their Euclidean inner
-// product is the one of the unknowns.
+// D (I − K) D⁻¹ as a matrix-free operator for Eigen's iterative solvers. With D = diag(√measure) their Euclidean inner product is
+// the one weighted with the measure.
 #pragma once
 
 #include "operators/solvers/channel_operator.h"
@@ -24,7 +24,7 @@ public:
     using StorageIndex = int;
     enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic, IsRowMajor = false };
 
-    // `applied` is told of each application; that to 0 is left out, and not told.
+    // `applied` is called for each application of K. K is not applied to the zero vector.
     EigenSystem(const ChannelOperator& K, std::function<void()> applied)
         : K_(&K), root_(K.measure().cwiseSqrt()), applied_(std::move(applied)) {}
 

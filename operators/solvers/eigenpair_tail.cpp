@@ -31,7 +31,7 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
     TermSeries series(progress.K(), problem.Le);
     ChangeRate rate;
     for (;;) {
-        // What of t_n is not in the leading mode.
+        // The part of t_n outside the leading mode.
         const double amount = w.dot(series.term()) / scale;
         const double other = largest(series.term() - amount * v);
         const Vector x = series.sum() + lambda / (1.0 - lambda) * amount * v;
@@ -42,7 +42,7 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
         if (!std::isfinite(scale) || !x.allFinite())
             return progress.end(x, Verdict::broke_down, "the leading eigenvector is defective");
         if (Progress::is_rounding(rate.estimate(), x)) return progress.end_rounding(x, rounding);
-        // They fall in the end; these are what the leading mode is not known to.
+        // These parts fall in the end; what remains is the error of the leading eigenpair.
         if (rate.not_falling() && other <= 1e-8 * largest(series.term()))
             return progress.end(x, Verdict::rounding, "the other modes are down to the accuracy of the leading one");
         if (progress.exhausted()) return progress.end_limit(x);

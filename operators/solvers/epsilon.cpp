@@ -18,7 +18,7 @@ double wynn(std::array<double, depth + 1> column, std::size_t n) {
     for (std::size_t k = 1; k <= n; ++k) {
         std::array<double, depth + 1> next;
         for (std::size_t j = 0; j + k <= n; ++j) {
-            // Equal entries make this infinite, and the entry after next finite again; not a number where two in a row are equal.
+            // Equal entries make this infinite, and the entry after next finite again; two equal pairs in a row give NaN.
             next[j] = before[j + 1] + 1.0 / (column[j + 1] - column[j]);
             if (std::isnan(next[j])) return best;
         }

@@ -33,7 +33,7 @@ SolverResult solve_extrapolated(const Problem& problem, const Extrapolate& extra
             steady = 0;
             wait *= 2;
         }
-        // Whatever is in the way of extrapolating them, the terms have fallen.
+        // Even if the extrapolation fails, the terms themselves may have converged.
         const double rounding = progress.rounding(rate.rate());
         if (rate.estimate() <= problem.tolerance * largest(sum) &&
             progress.reached(sum, std::max(rate.estimate() / largest(sum), rounding)))

@@ -1,4 +1,4 @@
-// The loop around whatever extrapolates the partial sums of the series.
+// The common loop of all methods that extrapolate the partial sums of the series.
 #pragma once
 
 #include "operators/solvers/solver.h"
@@ -10,18 +10,19 @@
 
 namespace neumann {
 
-// Why a method has no answer after this term.
+// Why a method has no extrapolated limit after this term.
 struct Trouble {
     Verdict verdict;
     std::string why;
 };
 
-// Called after each term from t_0 on; writes the extrapolated limit into x, or returns what is in the way.
+// Called after each term from t_0 on; writes the extrapolated limit into x, or returns the reason why there is none.
 using Extrapolate = std::function<std::optional<Trouble>(const TermSeries&, Vector& x)>;
 
-// Ends when two limits in a row differ by less than the tolerance and the residual of the last, found with one more application of
-// K, agrees; where it does not, looks again after twice as many terms. Where there is trouble S_n stands in for the limit, and is
-// what it ends with if it gets there first, as the series alone would. Diverging as there; refused is what Progress::end refuses.
+// Ends when two successive limits differ by less than the tolerance and the residual of the last one, which takes one more
+// application of K, is also small enough; if it is not, checks again after twice as many terms. After Trouble, S_n is used in place
+// of the limit; if S_n converges first, it is the result. Divergence is detected as for the series; Progress::end may refuse the
+// result.
 SolverResult solve_extrapolated(const Problem&, const Extrapolate&);
 
 }  // namespace neumann

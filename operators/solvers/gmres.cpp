@@ -30,7 +30,7 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     if (problem.Le.isZero(0.0)) return progress.end(x, Verdict::converged, "nothing emits");
 
     Gmres gmres;
-    bool begun = false;  // a step, whose residual is known when K is applied next
+    bool begun = false;  // a step has begun; its residual is known when K is applied next
     const auto look = [&] {
         const int k = static_cast<int>(progress.applications());
         progress.record(gmres.error(), problem.exact && k <= steps ? progress.true_error(after_steps(problem, k))
@@ -43,7 +43,7 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     });
     gmres.compute(system);
     gmres.set_restart(steps);
-    // Of the residual, in parts of that of x = 0.
+    // Tolerance of the residual, relative to that of x = 0.
     const double least = std::numeric_limits<double>::epsilon();
     double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
     for (;;) {

@@ -9,7 +9,7 @@
 
 namespace neumann {
 
-// Throws std::invalid_argument where the sizes do not fit or a measure is not positive.
+// Throws std::invalid_argument if the sizes do not match or a measure is not positive.
 inline void check_channel(Eigen::Index rows, Eigen::Index columns, const Vector& measure) {
     if (rows != columns || rows != measure.size())
         throw std::invalid_argument("K has to be square, with a measure for each unknown");

@@ -9,18 +9,18 @@
 
 namespace neumann {
 
-// Fields of one value an unknown, which a Vector can be made of and turned into.
+// A field with one value per unknown, convertible to and from a Vector.
 template <class Field>
 concept OnUnknowns = std::constructible_from<Field, const Vector&> && requires(const Field& f) {
     { to_vector(f) } -> std::convertible_to<Vector>;
 };
 
-// K has K* and entries as far as the operator has: its rows are those of K, and its columns those of K*.
+// A ChannelOperator from an operator of the algebra. It has K* and entries if the operator has: columns of K come from rows of K*.
 template <Endomorphism Op>
 requires OnUnknowns<typename Op::Domain>
 class OperatorChannel : public ChannelOperator {
 public:
-    // `measure`: of each unknown, with which the adjoint of K is one.
+    // `measure`: the measure of each unknown, in whose inner product K* is the adjoint of K.
     OperatorChannel(Op K, Vector measure) : K_(std::move(K)), adjoint_(adjoint_of(K_)), measure_(std::move(measure)) {}
 
     Eigen::Index size() const override { return measure_.size(); }
@@ -78,8 +78,8 @@ private:
     Vector measure_;
 };
 
-// (I − K) L = Le by any solver, of solvers() or by name. `how`: all but K and Le, which are filled in. A solver that needs K* or
-// entries of a K that has none ends with Verdict::refused. Fields on unknowns only: there is no other I − K to solve.
+// Solves (I − K) L = Le with a solver given as a function or by name. `how`: the problem without K and Le, which are filled in. If
+// the solver needs K* or entries and K has none, the verdict is Verdict::refused. For fields on finitely many unknowns only.
 template <Endomorphism K>
 requires OnUnknowns<typename K::Domain> SolverResult solve(const Difference<Identity<typename K::Domain>, K>& equation,
                                                            const typename K::Domain& Le, Vector measure, const Solver& solver,

@@ -1,4 +1,4 @@
-// What all solvers share: counting, recording, and the gates at the end.
+// Shared by all solvers: counts applications, records the history, and checks the answer at the end.
 #pragma once
 
 #include "core/base/stopwatch.h"
@@ -19,42 +19,42 @@ public:
     double applications() const { return result_.applications; }
     void count(double applications) { result_.applications += applications; }
     void setup_ends() { result_.setup = result_.applications; }
-    // Without those that diverges() took.
+    // Whether all allowed applications are used up, not counting those of diverges().
     bool exhausted() const { return result_.applications - evidence_.applications() >= static_cast<double>(problem_.most); }
 
-    // Error of x estimated from its residual r = Le + K x − x: ‖r‖∞ / (1 − radius) / ‖x‖∞. Where the radius is not given, as much
-    // as Le became x, by ‖x‖∞ / ‖Le‖∞, if not by 1 / (1 − rate): a lower bound of what (I − K)⁻¹ makes of r. At least what rounding
-    // leaves of x.
+    // Error of x estimated from its residual r = Le + K x − x: ‖r‖∞ / (1 − radius) / ‖x‖∞. If the radius is not given, the larger
+    // of ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate) replaces 1 / (1 − radius); both are lower bounds of the norm of (I − K)⁻¹. The result is
+    // at least the rounding error of x.
     double from_residual(const Vector& r, const Vector& x, double rate = 0.0) const;
-    // ε / (1 − q): what is left, relative to x, of rounding each term or change by ε where they fall like q^n. q is the radius, if
-    // it is known to be below 1, or else `rate`.
+    // ε / (1 − q): the error, relative to x, of rounding each term or change by ε if they fall like q^n. q is the radius if it is
+    // known to be below 1, and otherwise `rate`.
     double rounding(double rate = 0.0) const;
-    // Rounding is all that is left of this residual or change, or all that keeps it from getting smaller.
+    // Whether this residual or change consists of rounding errors, or is kept from falling by them alone.
     static bool is_rounding(double change, const Vector& x, bool falling = true);
 
-    // Records a step; true when the estimate is below the tolerance.
+    // Records a step; returns true if the estimate is below the tolerance.
     bool record(double estimate, double error);
     bool reached(const Vector& x, double estimate) { return record(estimate, true_error(x)); }
-    double true_error(const Vector& x) const;  // not a number where L is not known
+    double true_error(const Vector& x) const;  // not a number if L is not known
 
-    // Whether the spectral radius of K is 1 or more: as given, or else found, which is counted.
+    // Whether the spectral radius of K is 1 or more. If it is not given, it is computed; the applications for that are counted.
     bool diverges();
-    // The same, and less than 1; false both where it cannot be found.
+    // Whether the spectral radius is below 1. Both functions return false if it cannot be found.
     bool converges();
 
-    // Ends with x. An answer that converged, or that rounding keeps from it, is refused where the spectral radius given is 1 or
-    // more, where x is 10¹² times Le, and where Le ≥ 0 but x is negative somewhere, unless the radius is below 1. The last is a
-    // proof, for K ≥ 0: were x ≥ 0 a solution, then x = S_n + K^{n+1} x ≥ S_n for all n and the series would converge.
+    // Ends with x. An answer with verdict `converged` or `rounding` is refused if the given spectral radius is 1 or more, if x is
+    // 10¹² times Le, or if Le ≥ 0 but x is negative somewhere and the radius is not below 1. For K ≥ 0, a solution x ≥ 0 proves
+    // convergence: x = S_n + K^{n+1} x ≥ S_n for all n.
     SolverResult end(Vector x, Verdict verdict, std::string why);
-    // Refused, by a method that takes unknowns one by one: this K can only be applied.
+    // Refuses because the method needs entries of K, and this K can only be applied.
     SolverResult end_without_entries();
-    // All applications are used up; or the radius, where it is known, says why they do not help.
+    // All applications are used up. If the radius is known to be 1 or more, the verdict is diverging.
     SolverResult end_limit(Vector x);
-    // diverges(), and what was seen of it.
+    // Ends because diverges() is true; `seen` is what was observed.
     SolverResult end_diverging(Vector x, const std::string& seen);
-    // `what` grew until it was not finite: the method breaks down where the series does not diverge.
+    // `what` grew until it was not finite: the verdict is broke_down, unless the series diverges.
     SolverResult end_overflow(Vector x, const char* what);
-    // `error`: what rounding leaves. Refused where that is more than a thousandth.
+    // `error`: the relative error due to rounding. Refused if it is above a thousandth.
     SolverResult end_rounding(Vector x, double error);
 
 private:
@@ -64,6 +64,6 @@ private:
     Stopwatch watch_;
 };
 
-double largest(const Vector& x);  // ‖x‖∞, 0 without values, not a number where one is not
+double largest(const Vector& x);  // ‖x‖∞; 0 if x is empty; not a number if a value is not
 
 }  // namespace neumann

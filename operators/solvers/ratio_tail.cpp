@@ -11,7 +11,7 @@ SolverResult solve_ratio_tail(const Problem& problem) {
         const Vector& measure = problem.K->measure();
         const Vector weighted = measure.cwiseProduct(series.term());
         const double lambda = weighted.dot(series.term()) / weighted.dot(series.before());
-        // Also caught: not a number.
+        // This also catches NaN.
         if (!(std::abs(lambda) < 1.0))
             return Trouble{Verdict::refused,
                            fmt::format("the ratio of terms is {:.4g}: they do not fall by one ratio below 1", lambda)};

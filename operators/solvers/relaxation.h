@@ -1,4 +1,4 @@
-// Relaxation: L_u is solved for from its own equation, one unknown after another.
+// Relaxation: solves each equation for its own unknown L_u, one unknown after another.
 //
 //     x_u ← (Le_u + Σ_{v≠u} K_uv x_v) / (1 − K_uu)
 //
@@ -11,14 +11,14 @@
 
 namespace neumann {
 
-// Unknowns in their order, gathering rows.
+// Visits the unknowns in order and gathers along rows of K.
 SolverResult solve_gauss_seidel(const Problem&);
 
-// The same, each change multiplied by omega, 0 < omega < 2.
+// As Gauss-Seidel, with each change multiplied by omega, 0 < omega < 2.
 SolverResult solve_sor(const Problem&, double omega);
 
-// Southwell's relaxation, in radiosity called shooting: the unknown with the most unshot power measure_u |r_u| first, scattering
-// columns. Each relaxation counts 1/n application; the history has a look every n/4 relaxations.
+// Southwell's relaxation, called shooting in radiosity: always relaxes the unknown with the most unshot power measure_u |r_u|, and
+// scatters along its column of K. A relaxation counts as 1/n application; the history has an entry every n/4 relaxations.
 SolverResult solve_southwell(const Problem&);
 
 }  // namespace neumann

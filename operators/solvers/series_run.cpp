@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// Neighbours first; where these alternate, every second term.
+// Compares neighbouring terms first, and every second term if neighbours alternate.
 Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum) {
     Enclosure enclosure;
     if (series.bounce() == 0) {

@@ -1,4 +1,4 @@
-// The series term by term, until it is known to be close enough, or known not to get there.
+// Adds the series term by term until its error is small enough, or until it is known to diverge.
 #pragma once
 
 #include "operators/series/enclosure.h"
@@ -12,26 +12,26 @@
 
 namespace neumann {
 
-// One bounce. Bounds are on ‖L − S_n‖∞ in W·m⁻²·sr⁻¹, infinite where there is none.
+// One bounce. The bounds are on ‖L − S_n‖∞ in W·m⁻²·sr⁻¹, infinite if there is none.
 struct SeriesRow {
     int bounce = 0;
     TermNorms term;                // of K^n Le
-    double ratio = 0.0;            // of the power of this term and of the one before; not a number at bounce 0
+    double ratio = 0.0;            // power of this term divided by that of the previous one; not a number at bounce 0
     double a_priori = 0.0;         // a^{n+1}/(1−a) ‖Le‖∞
     double a_posteriori = 0.0;     // a/(1−a) ‖t_n‖∞
-    double estimate = 0.0;         // ‖t_n‖∞ q/(1−q), from the rates q of the last terms: no bound
-    double enclosure_width = 0.0;  // relative to ‖L‖∞; infinite where there is no enclosure
+    double estimate = 0.0;         // ‖t_n‖∞ q/(1−q) with the rate q of the last terms: not a bound
+    double enclosure_width = 0.0;  // relative to ‖L‖∞; infinite if there is no enclosure
 };
 
 struct SeriesOptions {
     double tolerance = 1e-6;  // of the error, relative to ‖S_n‖∞
     int most_bounces = 10000;
-    std::optional<double> norm = {};  // a ≥ ‖K‖∞, as the largest albedo; makes the bounds
+    std::optional<double> norm = {};  // a ≥ ‖K‖∞, for example the largest albedo; the bounds need it
     std::function<void(const SeriesRow&)> observer = {};
 };
 
 struct SeriesRun {
-    Vector sum;  // S_n; the middle of the enclosure where that is what ended it
+    Vector sum;  // S_n, or the middle of the enclosure if that ended the series
     Verdict verdict = Verdict::limit;
     std::string why;
     std::vector<std::string> warnings;
@@ -40,10 +40,10 @@ struct SeriesRun {
     Enclosure enclosure;  // the last one looked for
 };
 
-// Converged where the enclosure or the bound with a < 1 is within the tolerance: both are rigorous up to rounding. Where neither
-// exists the estimate has to do, and `why` says so. Rounding where that is all that is left and the tolerance is less. Diverging
-// where 32 bounces did not make the terms smaller and the spectral radius, which is found then, is 1 or more; a ≥ 1 alone is a
-// warning.
+// Verdicts. Converged: the enclosure, or the bound with a < 1, is within the tolerance; both are rigorous up to rounding. If
+// neither exists, the estimate decides, and `why` says so. Rounding: only rounding errors are left, and they exceed the tolerance.
+// Diverging: the terms did not fall over 32 bounces, and the spectral radius, which is then computed, is 1 or more; a ≥ 1 alone
+// only causes a warning.
 SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOptions& options = {});
 
 }  // namespace neumann

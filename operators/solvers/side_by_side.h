@@ -1,4 +1,4 @@
-// All solvers on one problem, with LU's answer to judge them by.
+// Runs all solvers on one problem, with LU's answer as the reference.
 #pragma once
 
 #include "operators/solvers/solvers.h"
@@ -9,21 +9,21 @@ struct SolverRow {
     const NamedSolver* solver = nullptr;
     SolverResult result;
     double seconds = 0.0;
-    double error = 0.0;  // ‖x − L‖∞ / ‖L‖∞; not a number where L is not known, and for LU, which is the reference
+    double error = 0.0;  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which is the reference
 
-    // The last estimate of the error; not a number where there is none.
+    // The last estimate of the error; not a number if there is none.
     double estimate() const;
 };
 
 struct SideBySide {
-    std::vector<SolverRow> rows;  // as solvers()
-    std::string no_reference;     // why LU gave no L, or nothing
+    std::vector<SolverRow> rows;  // in the order of solvers()
+    std::string no_reference;     // why LU gave no L; empty if it did
     bool interrupted = false;     // the rows end early
 };
 
 struct SideBySideOptions {
-    bool histories = false;             // with true errors: each solver runs once more, for some take long over these
-    std::function<bool()> interrupted;  // asked before every use of K; the solver that is at work then has no row
+    bool histories = false;             // record true errors; each solver runs again for them, because some are slow with them
+    std::function<bool()> interrupted;  // called before every use of K; the solver that is interrupted gets no row
 };
 
 // `exact` and `observer` of the problem are not used.

@@ -1,4 +1,4 @@
-// Solvers of L = Le + K L, (I − K) L = Le, for one colour channel, side by side: what each needs, what it tells, and how it ends.
+// The common interface of the solvers of (I − K) L = Le for one colour channel: problem, options, result and verdict.
 #pragma once
 
 #include "operators/series/verdict.h"
@@ -12,24 +12,23 @@
 
 namespace neumann {
 
-// One look at a solver on its way.
+// One entry of a solver's history.
 struct SolverStep {
     double applications = 0.0;  // of K, so far
     double estimate = 0.0;      // estimated error, as below
-    double error = 0.0;         // ‖x − L‖∞ / ‖L‖∞ where L is known, else not a number
+    double error = 0.0;         // ‖x − L‖∞ / ‖L‖∞ if L is known, otherwise not a number
     double seconds = 0.0;       // since the solver began
 };
 
 struct Problem {
     const ChannelOperator* K = nullptr;
     Vector Le = {};
-    double tolerance = 1e-6;            // of the estimated error, relative to ‖x‖∞
-    Eigen::Index most = 10000;          // applications of K
-    std::optional<double> radius = {};  // spectral radius of K, or a bound or estimate of it; turns residuals into errors
-    std::optional<double> lowest = {};  // lowest eigenvalue of a K with a real spectrum; −radius without it
-    const Vector* reflectance =
-        nullptr;                    // ρ of each unknown where K = diag(ρ) F with F reciprocal, measure_u F_uv = measure_v F_vu
-    const Vector* exact = nullptr;  // L, to record the true error
+    double tolerance = 1e-6;              // of the estimated error, relative to ‖x‖∞
+    Eigen::Index most = 10000;            // largest number of applications of K
+    std::optional<double> radius = {};    // spectral radius of K, or a bound or estimate of it; turns residuals into errors
+    std::optional<double> lowest = {};    // lowest eigenvalue of a K with a real spectrum; −radius without it
+    const Vector* reflectance = nullptr;  // ρ of each unknown if K = diag(ρ) F with F reciprocal, measure_u F_uv = measure_v F_vu
+    const Vector* exact = nullptr;        // L, to record the true error
     std::function<void(const SolverStep&)> observer = {};
 };
 
@@ -37,8 +36,8 @@ struct SolverResult {
     Vector x;  // the last iterate, whatever the verdict
     Verdict verdict = Verdict::limit;
     std::string why;
-    double applications = 0.0;  // of K, setup included; a relaxation of one of n unknowns counts 1/n
-    double setup = 0.0;         // of these, spent before the first iterate
+    double applications = 0.0;  // of K, setup included; a relaxation of one of n unknowns counts as 1/n
+    double setup = 0.0;         // applications before the first iterate
     std::vector<SolverStep> history;
 };
 

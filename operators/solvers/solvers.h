@@ -1,4 +1,4 @@
-// All solvers by name, for whoever runs them side by side.
+// All solvers by name.
 #pragma once
 
 #include "operators/solvers/solver.h"
@@ -14,10 +14,10 @@ struct NamedSolver {
     Solver solve;
 };
 
-// In the order of a table: the series, what extrapolates it, relaxation, polynomials, Krylov, and LU as the reference.
+// In the order of tables: the series, its extrapolations, relaxation, polynomial and Krylov methods, and LU as the reference.
 const std::vector<NamedSolver>& solvers();
 
-// nullptr where there is none of this name.
+// Returns nullptr if there is none with this name.
 const NamedSolver* find_solver(std::string_view name);
 
 }  // namespace neumann

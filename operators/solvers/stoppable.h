@@ -1,4 +1,4 @@
-// K that asks before every use whether it is to go on, so that whoever has had enough waits for no solver's end.
+// A K that can interrupt a solver: it checks before every use whether to go on.
 #pragma once
 
 #include "core/base/error.h"
@@ -14,7 +14,7 @@ public:
     Stopped() : RunError("interrupted") {}
 };
 
-// Every use throws Stopped once `stop` is true.
+// Every use throws Stopped once `stop` returns true.
 class StoppableChannel : public ChannelOperator {
 public:
     StoppableChannel(std::shared_ptr<const ChannelOperator> K, std::function<bool()> stop)

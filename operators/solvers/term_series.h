@@ -1,4 +1,4 @@
-// The terms t_n = K^n Le and the partial sums S_n = Σ_{k≤n} t_k of one channel: the series of whatever a solver is given.
+// The terms t_n = K^n Le and the partial sums S_n = Σ_{k≤n} t_k of one channel, for the K of a solver.
 #pragma once
 
 #include "operators/series/neumann_series.h"
@@ -6,7 +6,7 @@
 
 namespace neumann {
 
-// K kept by reference, as an operator.
+// A reference to K, as an operator of the algebra.
 class ChannelReference {
 public:
     using Domain = Vector;

@@ -20,7 +20,7 @@ void check_size(const Image& a, const Image& b) {
         throw InputError(fmt::format("{}×{} pixels against {}×{}", a.width, a.height, b.width, b.height));
 }
 
-// z(pixel, channel) has Student's distribution where picture and reference agree.
+// z(pixel, channel) has Student's distribution if picture and reference agree.
 template <class Statistic>
 Conformity judge(const Image& picture, double degrees_of_freedom, const Statistic& z) {
     Conformity result{0.0, Image(picture.width, picture.height)};
@@ -53,16 +53,16 @@ Conformity conformity_by_error(const Estimate& picture, const SampledReference& 
     check_size(picture.mean, reference.mean);
     check_size(picture.mean, reference.variance);
     const auto n = static_cast<double>(reference.samples), samples = picture.degrees_of_freedom + 1.0;
-    // Numbers that are rounded, to half floats in the end and to floats in each addition, err by the bound over √3, were all errors up
-    // to the bound as likely.
+    // Rounding to half floats at the end and to floats in each addition: uniformly distributed errors have the standard deviation
+    // bound / √3.
     const double rounding = std::hypot(0x1p-11, n * 0x1p-25) / std::sqrt(3.0);
     return judge(picture.mean, picture.degrees_of_freedom, [&](std::size_t pixel, int c) {
         const double mean = reference.mean.pixels[pixel][c], difference = picture.mean.pixels[pixel][c] - mean;
         if (difference == 0.0) return 0.0;
-        // A difference of two half floats, of which the smallest is 2⁻²⁴.
+        // The variance is a difference of two half floats, whose smallest positive value is 2⁻²⁴.
         const double stored = std::max(reference.variance.pixels[pixel][c], 0.0);
         const double of_sample = stored + 0x1p-11 * (mean * mean + stored) + 0x1p-24;
-        // Where our samples missed what is seldom, their spread tells nothing of it.
+        // If our samples missed rare events, their spread is too small.
         const double own = std::max(std::pow(picture.standard_error.pixels[pixel][c], 2), of_sample / samples);
         return difference / std::sqrt(own + of_sample / n + std::pow(rounding * mean, 2));
     });

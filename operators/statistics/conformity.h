@@ -1,5 +1,5 @@
-// Whether a picture agrees with a reference that another program sampled, as Mitsuba's regression tests judge it and as its own
-// standard errors do. Colours are XYZ.
+// Tests whether a picture agrees with a reference sampled by another program: with the criterion of Mitsuba's regression tests, and
+// with the picture's own standard errors. Colours are XYZ.
 #pragma once
 
 #include "core/image/image.h"
@@ -9,26 +9,27 @@
 namespace neumann {
 
 struct SampledReference {
-    Image mean, variance;   // of single samples; not negative but for rounding
-    std::uint64_t samples;  // a pixel
+    Image mean, variance;   // of single samples; the variance is not negative, up to rounding
+    std::uint64_t samples;  // per pixel
 };
 
-// Each channel of each pixel is tested by itself, two-sided, at a level such that a perfect picture has one rejection with
-// probability 1% (Šidák 1967, over the pixels); the picture is accepted where at least 99.75% of them are.
+// Each channel of each pixel has a two-sided test, at a level such that a correct picture has any rejection with probability 1%
+// (Šidák 1967, over the pixels). The picture is accepted if at least 99.75% of the tests are.
 struct Conformity {
-    double accepted = 0.0;  // part of the pixels' channels
+    double accepted = 0.0;  // accepted fraction of the channels of all pixels
     Image p_values;
     bool conforms() const { return accepted >= 0.9975; }
 };
 
-// Mitsuba's own criterion: the difference over √(reference variance / samples), the variance at least 1e-4; normal. It knows no
-// error of the reference. Throws InputError where the sizes differ.
+// Mitsuba's own criterion: z = difference / √(reference variance / samples), with a variance of at least 1e-4, normally
+// distributed. It ignores the error of the reference. Throws InputError if the sizes differ.
 Conformity conformity_by_reference(const Image& picture, std::uint64_t samples, const SampledReference& reference);
 
-// The difference over √(SE² + reference variance / reference samples + rounding²), by Student's t. SE is at least what the reference's
-// variance gives for as many samples. The rounding is that of floats that were added up, systematic where all are alike, and of half
-// floats, in which Mitsuba stores films, and so their variance, unless told otherwise: the references of its scenes directional, spot
-// and texture_interp are half floats to the last bit, once they are XYZ again. Throws InputError where the sizes differ.
+// z = difference / √(SE² + reference variance / reference samples + rounding²), with Student's t. SE is at least what the
+// reference's variance gives for the same number of samples. The rounding has two parts: floats that were added up (systematic if
+// all samples are alike), and half floats, in which Mitsuba stores films and their variance by default. The references of its
+// scenes directional, spot and texture_interp are exactly half floats after conversion back to XYZ. Throws InputError if the sizes
+// differ.
 Conformity conformity_by_error(const Estimate& picture, const SampledReference& reference);
 
 }  // namespace neumann

@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// √(a / b), and 0/0 = 0. The sums are of numbers that were divided by the largest one, so that squares neither overflow nor vanish.
+// √(a / b), and 0/0 = 0. The sums are of numbers divided by the largest one, so that squares neither overflow nor underflow.
 double root_of_ratio(double a, double b) { return a == 0.0 ? 0.0 : std::sqrt(a / b); }
 
 double largest(const Image& image) {
@@ -20,7 +20,7 @@ double largest(const Image& image) {
     return value;
 }
 
-// `value`: of a pixel, and of its standard error.
+// `value` is applied to a pixel and to its standard error.
 template <class Value>
 MeanWithError mean_of(const Estimate& estimate, const Value& value) {
     const std::size_t n = estimate.mean.pixels.size();

@@ -1,4 +1,4 @@
-// Figures for whole pictures.
+// Means and errors of whole pictures.
 #pragma once
 
 #include "core/image/image.h"
@@ -7,15 +7,15 @@ namespace neumann {
 
 struct MeanWithError {
     double mean = 0.0, standard_error = 0.0, degrees_of_freedom = 0.0;
-    // Half of the width of the 95% interval, by Student's t.
+    // Half width of the 95% interval (Student's t).
     double interval() const;
 };
 
-// Mean over pixels and channels. A pixel's channels, and pixels that are not independent, are taken as fully correlated, which can
-// only make the error larger. Degrees of freedom by Welch and Satterthwaite.
+// Mean over pixels and channels. A pixel's channels, and pixels that are not independent, are treated as fully correlated, which
+// can only overestimate the error. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
-// Of each channel over pixels, and of all over both.
+// Means of each channel over pixels, and of all channels.
 struct PictureMeans {
     MeanWithError channel[3], all;
 };
@@ -27,10 +27,10 @@ MeanWithError difference(const MeanWithError& a, const MeanWithError& b);
 // √(Σ SE² / Σ mean²) over pixels and channels; 0 for a picture that is zero everywhere.
 double relative_standard_error(const Estimate& estimate);
 
-// √(Σ discretisation² / Σ mean²), likewise; 0 where there is none.
+// √(Σ discretisation² / Σ mean²) over pixels and channels; 0 if there is none.
 double relative_discretisation(const Estimate& estimate);
 
-// √(Σ (x − r)² / Σ r²) over pixels and channels; 0 where both are zero everywhere. Throws InputError where the sizes differ.
+// √(Σ (x − r)² / Σ r²) over pixels and channels; 0 if both are zero everywhere. Throws InputError if the sizes differ.
 double relative_error(const Image& test, const Image& reference);
 
 bool is_zero(const Image& image);

@@ -7,7 +7,7 @@ namespace neumann {
 
 namespace {
 
-// Bounds: one sample more or less counts for as little as there are pixels.
+// `bounds`: the effect of one sample more or less is divided by the number of pixels.
 enum class Add { values, squares, bounds };
 
 Image box_means(const Image& picture, int factor, Add add) {

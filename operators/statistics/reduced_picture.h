@@ -1,13 +1,13 @@
-// A picture in fewer pixels, with the errors that these have.
+// Reduces a picture to fewer pixels, with their errors.
 #pragma once
 
 #include "core/image/pixel_estimate.h"
 
 namespace neumann {
 
-// Each new pixel is the mean of factor × factor old ones, of those that there are at the right and lower edge. Standard errors add
-// up in squares where pixels are independent, and as they are otherwise; so does the discretisation, which goes together. What few
-// samples leave open falls as there are more.
+// Each new pixel is the mean of factor × factor old ones, or of those that exist at the right and lower edge. Standard errors add
+// up in squares if pixels are independent, and linearly otherwise. Discretisation errors are correlated and add up linearly. The
+// lower bounds on the errors (least_errors.h) are divided by the number of pixels, because there are more samples.
 PixelEstimate reduced(const PixelEstimate& picture, int factor);
 
 }  // namespace neumann

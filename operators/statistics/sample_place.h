@@ -1,4 +1,5 @@
-// Which sample it was, so that it can be traced again, and where it counted. Pixels are numbered row by row within the crop.
+// The name of a sample, with which it can be traced again, and the pixel to which it contributed. Pixels are numbered row by row
+// within the crop.
 #pragma once
 
 #include <compare>
@@ -6,14 +7,14 @@
 
 namespace neumann {
 
-// The paths of a pixel are numbered; to each pixel belong as many from the lights as from the camera.
+// A path is named by its pixel and its number there. A pixel has as many paths from the lights as from the camera.
 struct SampleName {
     std::uint32_t pixel = 0;
     std::uint64_t sample = 0;
     auto operator<=>(const SampleName&) const = default;
 };
 
-// What comes from the lights counts for other pixels than its own.
+// A path from a light contributes to other pixels than its own.
 struct SamplePlace {
     std::uint32_t pixel = 0;
     SampleName name;

@@ -1,5 +1,5 @@
-// The smallest and the largest sample of every pixel, quantity and channel: by how much a sample can differ from the others there.
-// The same samples give the same ranges, in any order and any number of pieces.
+// The smallest and the largest sample of every pixel, quantity and channel. The ranges do not depend on the order in which samples
+// are added or parts are merged.
 #pragma once
 
 #include "core/base/vec.h"
@@ -31,11 +31,11 @@ struct SampleRange {
     }
 };
 
-// Pixel by pixel, all quantities of each; empty: nothing is known.
+// Pixel by pixel, with all quantities of a pixel together. Empty if unknown.
 struct SampleRanges {
     std::vector<SampleRange> of;
 
-    // What is known of one part alone is not known of all.
+    // If the ranges of one part are unknown, those of the whole are unknown.
     void merge(const SampleRanges& other) {
         if (of.size() != other.of.size()) of.clear();
         for (std::size_t i = 0; i < of.size(); ++i) of[i].merge(other.of[i]);

@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-// Where a quantity's numbers lie within its nine doubles.
+// Offsets within a quantity's nine doubles.
 constexpr std::size_t mean_at = 0, term_m2_at = 3, sum_m2_at = 6, stride = PixelMoments::doubles_per_quantity;
 
 void merge_pictures(std::vector<double>& a, double na, const std::vector<double>& b, double nb, std::size_t doubles_per_pixel) {
@@ -98,7 +98,7 @@ SeriesMoments::Result SeriesMoments::result() const {
         result.data_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * doubles_per_pixel(), 0.0);
         return result;
     }
-    // From the right, where the small nodes of a run that starts at 0 are.
+    // Merges from the right, where the smallest nodes are.
     result.data_ = nodes_.back().data;
     result.count_ = static_cast<double>(nodes_.back().count);
     for (std::size_t i = nodes_.size() - 1; i-- > 0;) {

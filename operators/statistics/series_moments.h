@@ -1,8 +1,8 @@
 // Means and variances of all pictures of a series: for every pixel the mean of each term and the second central moments of each
 // term and of each partial sum, over replicates.
 //
-// Replicates are joined as the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k).
-// The rounding therefore does not depend on how a run was cut: any ranges that cover the same replicates merge to the same bits.
+// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k). The
+// rounding therefore does not depend on how a run was divided: any ranges that cover the same replicates merge to the same bits.
 // Two sets are joined by Chan, Golub and LeVeque's formula (1983), under which equal means leave the variance exactly zero.
 #pragma once
 
@@ -21,7 +21,7 @@ class PixelMoments {
 public:
     static constexpr std::size_t doubles_per_quantity = 9;
 
-    // Of one replicate: the means are given, the moments are zero.
+    // Sets the node of one replicate: its means are given, its moments are zero.
     static void set(std::span<double> node, std::span<const Rgb> means);
     // a ← a ∪ b, with na and nb replicates.
     static void merge(std::span<double> a, double na, std::span<const double> b, double nb);
@@ -30,16 +30,16 @@ public:
 // A node of the tree: 2^k consecutive replicates of a whole picture.
 struct MomentsNode {
     std::uint64_t first = 0, count = 0;
-    std::vector<double> data;  // pixel by pixel; where pixels are not independent, their mean comes after them as one more
-    SampleRanges ranges = {};  // of the samples themselves; may be empty
+    std::vector<double> data;  // pixel by pixel; if pixels are not independent, their mean follows as one more pixel
+    SampleRanges ranges = {};  // ranges of the samples; may be empty
 };
 
-// Any consecutive replicates, as the fewest nodes.
+// Any consecutive replicates, stored as the smallest number of nodes.
 class SeriesMoments {
 public:
     SeriesMoments(int width, int height, std::size_t quantities) : width_(width), height_(height), quantities_(quantities) {}
 
-    // `node` must start where the replicates so far end. Returns memory that is free again, if any, for the next node.
+    // `node` must start where the present replicates end. Returns memory that is free again, if any, for the next node.
     std::vector<double> add(MomentsNode node);
     // `next` must start where these replicates end.
     void add(const SeriesMoments& next);
@@ -51,10 +51,10 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
     const std::vector<MomentsNode>& nodes() const { return nodes_; }
-    // Of all samples; empty where they were not kept.
+    // Ranges of all samples; empty if they were not kept.
     const SampleRanges& ranges() const { return ranges_; }
 
-    // Joins all nodes into pictures that term() and sum() can be read from.
+    // All nodes merged, for reading term() and sum().
     class Result;
     Result result() const;
 
@@ -65,22 +65,22 @@ private:
     int width_, height_;
     std::size_t quantities_;
     std::vector<MomentsNode> nodes_;
-    SampleRanges ranges_;  // of all nodes, whose own are empty
+    SampleRanges ranges_;  // of all nodes together; the nodes' own ranges are empty
 };
 
 class SeriesMoments::Result {
 public:
-    // Mean over replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of the quantities 0 … i.
+    // Mean over n replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of quantities 0 … i.
     Estimate term(std::size_t i) const { return estimate(i, false); }
     Estimate sum(std::size_t i) const { return estimate(i, true); }
 
-    // Of their means over pixels and channels. Where pixels are not independent it is the spread of whole pictures that counts.
+    // Means over pixels and channels. If pixels are not independent, the standard error is from the spread of whole replicates.
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, false); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
     PictureMeans means_of_term(std::size_t i) const { return means(i, false); }
     PictureMeans means_of_sum(std::size_t i) const { return means(i, true); }
 
-    // The mean alone, at one pixel.
+    // The mean at one pixel.
     Rgb term_at(std::size_t pixel, std::size_t i) const { return at(pixel, i, false).first; }
     Rgb sum_at(std::size_t pixel, std::size_t i) const { return at(pixel, i, true).first; }
 
@@ -95,7 +95,7 @@ private:
     Estimate estimate(std::size_t i, bool sum) const;
     MeanWithError mean(std::size_t i, bool sum) const;
     PictureMeans means(std::size_t i, bool sum) const;
-    // At one pixel: its mean and standard error.
+    // Mean and standard error at one pixel.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
     bool pixels_are_independent() const { return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }
 

@@ -11,9 +11,9 @@ namespace {
 
 bool larger(const LargestSamples::Sample& a, const LargestSamples::Sample& b) { return a.value > b.value; }
 
-// Hill's estimate from the k largest of samples that fall, and how many more would be above the largest of them if the tail went on
-// so: k (X_k / X_1)^α, which of a power law is above x with probability e^−x (Aban, Meerschaert and Panorska, Parameter Estimation
-// for the Truncated Pareto Distribution, 2006).
+// Hill's estimate from the k largest samples in decreasing order, and the statistic k (X_k / X_1)^α: the expected number of samples
+// above the largest one if the tail is a power law, in which case it exceeds x with probability e^−x (Aban, Meerschaert and
+// Panorska, Parameter Estimation for the Truncated Pareto Distribution, 2006).
 struct Hill {
     double alpha, upper, missing;
 
@@ -21,7 +21,7 @@ struct Hill {
         double sum = 0.0;
         for (std::size_t i = 0; i + 1 < k; ++i) sum += std::log(largest[i] / largest[k - 1]);
         const auto n = static_cast<double>(k - 1);
-        alpha = n / sum;  // infinite where all are equal
+        alpha = n / sum;  // infinite if all are equal
         upper = alpha * (1.0 + 3.1 / std::sqrt(n));
         missing = static_cast<double>(k) * std::pow(largest[k - 1] / largest[0], alpha);
     }

@@ -1,5 +1,5 @@
-// Is the variance finite? The largest samples tell: where P(X > x) ~ x^−α, α ≤ 2 means that it is not, and that no interval built
-// on a variance is to be trusted.
+// Judges from the largest samples whether the variance is finite: if P(X > x) ~ x^−α with α ≤ 2 it is not, and intervals computed
+// from a variance do not hold.
 #pragma once
 
 #include "operators/statistics/sample_place.h"
@@ -11,20 +11,20 @@
 
 namespace neumann {
 
-// The largest samples seen, in any order and any number of pieces: the same samples give the same set.
+// The set of the largest samples. It does not depend on the order in which samples are added or sets are merged.
 class LargestSamples {
 public:
     static constexpr std::size_t capacity = 1000;
 
-    // Zeros need not be added one by one: add_count() counts samples, add() looks at one.
+    // add() does not count the sample; add_count() counts samples. Zeros therefore need not be added one by one.
     void add(double x, const SamplePlace& place = {}) {
         if (x > threshold_) insert({x, place});
     }
     void add_count(std::uint64_t n) { count_ += n; }
     void merge(const LargestSamples& other);
-    // Samples that `other` already outdoes need not be kept: for sets that will be merged into it.
+    // For a set that will be merged into `other`: samples that are too small for `other` need not be kept.
     void outdo(const LargestSamples& other) { threshold_ = std::max(threshold_, other.threshold_); }
-    // add() does nothing for values up to this.
+    // add() ignores values up to this.
     double threshold() const { return threshold_; }
 
     std::uint64_t count() const { return count_; }
@@ -35,7 +35,7 @@ public:
         double value;
         SamplePlace place;
     };
-    // Likewise, without those that are as large as samples that were not kept: there it is chance which have stayed.
+    // Largest first, without samples whose value equals that of samples not kept: among these, chance decided which were kept.
     std::vector<Sample> standing_out() const;
 
 private:
@@ -52,8 +52,8 @@ struct TailIndex {
 };
 
 // Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power law has the
-// same index at both, while that of a bounded sample falls off faster further out. `upper` is infinite where the tail is seen to
-// end. None where k < 400.
+// same index in both, while the tail of a bounded distribution falls faster further out. `upper` is infinite if the tail is seen to
+// end. Returns nothing if k < 400.
 std::optional<TailIndex> tail_index(const LargestSamples& samples);
 
 }  // namespace neumann

@@ -19,7 +19,7 @@ struct Line {
     double slope = 0.0, variance = 0.0, chi_squared = 0.0, by_shared_error = 0.0;
 };
 
-// Weighted as for a line of the given slope.
+// `slope` enters the weights through the errors of x.
 Line fit(const std::vector<LogPoint>& points, double slope) {
     double w_sum = 0.0, x_mean = 0.0, y_mean = 0.0, xx = 0.0;
     std::vector<double> weight;
@@ -79,7 +79,7 @@ std::optional<WorkToError> work_to_error(std::span<const ErrorPoint> points, dou
         if (points[i].mse > mse) continue;
         if (i == 0) return WorkToError{points[0].work, true};
         const ErrorPoint &a = points[i - 1], &b = points[i];
-        // An MSE that came out negative, below the noise of the reference, has no logarithm; the lesser work is then unknown.
+        // An MSE that is negative because of the reference's noise has no logarithm: the work is then at most b.work.
         if (!(b.mse > 0.0)) return WorkToError{b.work, true};
         const double part = std::log(a.mse / mse) / std::log(a.mse / b.mse);
         return WorkToError{a.work * std::pow(b.work / a.work, part), false};

@@ -60,7 +60,7 @@ std::vector<ErrorPoint> against_seconds(std::span<const StudiedPoint> points) {
     return result;
 }
 
-// What the reference adds is of one size for all points but where a bias changes it.
+// The error due to the reference is the same for all points, unless a bias changes it.
 double shared_error(std::span<const StudiedPoint> points) {
     double most = 0.0;
     for (const StudiedPoint& p : points) most = std::max(most, p.errors.reference_error);
@@ -73,7 +73,7 @@ WithError median_with_error(std::vector<double> values) {
     const auto n = static_cast<double>(values.size());
     const double middle = median(values);
     for (double& x : values) x = std::abs(x - middle);
-    // Of normal values, σ = 1.4826 times their median distance, and the median's error is √(π/2) σ / √n.
+    // For normal values, σ = 1.4826 times the median absolute deviation, and the median's standard error is √(π/2) σ / √n.
     return {middle, 1.2533 * 1.4826 * median(values) / std::sqrt(n)};
 }
 

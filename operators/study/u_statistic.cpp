@@ -17,7 +17,7 @@ double u_statistic(const SymmetricMatrix& g) {
 double u_statistic_error(const SymmetricMatrix& g) {
     if (g.size() < 4) return std::numeric_limits<double>::infinity();
     const auto n = static_cast<double>(g.size());
-    // Around U, which changes no covariance and loses fewer digits.
+    // Subtracting U changes no covariance and loses fewer digits.
     const double u = u_statistic(g);
     double all = 0.0, squares = 0.0, rows = 0.0;  // Σ_{j≠k} G, Σ_{j≠k} G², Σ_j (Σ_{k≠j} G)²
     for (std::size_t j = 0; j < g.size(); ++j) {

@@ -3,8 +3,8 @@
 //
 //     Var U = 4 (R−2) / (R (R−1)) ζ₁ + 2 / (R (R−1)) ζ₂,    ζ₁ = Cov(G_jk, G_jl),  ζ₂ = Var G_jk
 //
-// Both terms are needed: ζ₁ vanishes where there is no bias. ζ₁ and ζ₂ are estimated without bias, from products of elements with
-// no index or one in common, and ζ₁ is taken as 0 where it comes out negative, which can only make the error larger.
+// Both terms are needed, because ζ₁ vanishes if there is no bias. ζ₁ and ζ₂ are estimated without bias, from products of elements
+// with no index or one index in common. A negative estimate of ζ₁ is replaced by 0, which can only enlarge the error.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ private:
     std::vector<double> values_;
 };
 
-// For a size of at least 2.
+// The size must be at least 2.
 double u_statistic(const SymmetricMatrix& g);
 // Infinite for a size below 4.
 double u_statistic_error(const SymmetricMatrix& g);

@@ -10,13 +10,13 @@
 
 namespace neumann {
 
-// That without V and |cosθ|; `light`: Le / pdf.
+// The same without V and |cosθ|. `light` is Le / pdf.
 inline Rgb reflected_light(const Rgb& beta, const SurfaceSide& side, const Vec3& wo, const Vec3& wi, const Rgb& light) {
     return beta * eval(*side.bsdf, side.p, wo, wi) * light;
 }
 
-// R: the walk's question, of those that DirectLightSampler has. Its answer is weighed against what `way` (continuation.h) would
-// find by itself, with `directions` drawn for each question.
+// R: chooses the walk's light sample and stores it in w.asked. Its MIS weight is against the pdf of `way` (continuation.h), which
+// draws `directions` directions for each light sample.
 template <class Way, class Sampler>
 void choose_question(const DirectLightSampler& direct, std::size_t question, const Way& way, double directions,
                      const SurfaceSide& side, const Vec3& wo, Sampler& sampler, Walker& w) {
@@ -31,7 +31,7 @@ void choose_question(const DirectLightSampler& direct, std::size_t question, con
     w.asked.w = q.w;
 }
 
-// T: the answers, told as found(walk, value). The first vertices of a pixel's walks are close together. Returns the rays cast.
+// T: casts the rays of the light samples and calls found(walk, value) for those that are seen. Returns the number of rays cast.
 template <class Transport, class Observer, class Found>
 std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out, int bounce,
                    Walkers& walkers, const Observer& observer, const Found& found) {

@@ -1,15 +1,15 @@
 // How a walk goes on: the direction of its next reflection, and with which density it draws it. Each is a class with
 //
-//     Place                       what place(x, wo, wanted) finds out about a vertex; asked of all walks before any reflection, so
-//                                 that nothing waits for memory; `wanted`: bounces after this one that have pictures
-//     at(side, place)             what is below, for a vertex
+//     Place                       the result of place(x, wo, wanted) for a vertex, looked up for all walks before any reflection to
+//                                 hide the latency of memory; `wanted`: the number of later bounces that have pictures
+//     at(side, place)             an object for this vertex with the two functions below
 //     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / density, and its pdf; pdf 0 ends the walk
-//     pdf(side, wo, wi, y)        the same pdf, by which multiple importance sampling weighs lights: the density, per solid angle,
-//                                 with which sample() draws wi and the walk then finds y, or one that stands for it
-//     joins_points                sample() has one argument more, into which it writes the next vertex, and T is asked whether
-//                                 that is seen; otherwise T looks for it along wi
+//     pdf(side, wo, wi, y)        the same pdf, for the weights of multiple importance sampling: the density, per solid angle, with
+//                                 which sample() draws wi and the walk then finds y, or a density used in its place
+//     joins_points                if true, sample() writes the next vertex into one more argument, and a visibility ray is cast to
+//                                 it; otherwise the next vertex is the first hit along wi
 //
-// The pdf of a mirror is delta_pdf: light that is found by it counts in full.
+// The pdf of a mirror is delta_pdf: light that is found by it has MIS weight 1.
 #pragma once
 
 #include "core/geometry/area_sampler.h"
@@ -21,10 +21,10 @@
 
 namespace neumann {
 
-// Of continuations that are the same everywhere.
+// The Place of continuations that do not depend on the vertex.
 struct Nowhere {};
 
-// What a continuation has found out about the vertices of some walks.
+// The Places of some walks' vertices.
 template <class Continuation>
 class Places {
 public:
@@ -48,7 +48,7 @@ private:
     std::vector<Place> place_;
 };
 
-// By the material.
+// Samples the BSDF.
 struct MaterialContinuation {
     static constexpr bool joins_points = false;
     using Place = Nowhere;
@@ -63,8 +63,9 @@ struct MaterialContinuation {
     }
 };
 
-// By points on all surfaces, uniform by area, of which those that are not seen end the walk (Dutré, surface sampling). Deltas are
-// missing, for no point falls into their direction. The variance is infinite where surfaces meet, as that of 1/d².
+// Samples the next vertex uniformly by area on all surfaces; a vertex that is not seen ends the walk (Dutré, surface sampling).
+// Delta lobes are missing, as a point lies in their direction with probability 0. The variance is infinite where surfaces meet,
+// because the weight grows as 1/d².
 class SurfaceContinuation {
 public:
     static constexpr bool joins_points = true;
@@ -94,9 +95,9 @@ private:
     AreaSampler surfaces_;
 };
 
-// By mirrors, glass and other deltas alone; other directions end the walk, whose last reflection has asked for its light: classic
-// ray tracing (Whitted, An Improved Illumination Model for Shaded Display, 1980). These are some of all paths, so the terms are too
-// small.
+// Samples delta lobes (mirrors, glass) alone: classic ray tracing (Whitted, An Improved Illumination Model for Shaded Display,
+// 1980). A walk ends at its first other reflection, which has still sampled the lights. Paths with several such reflections are
+// missing, so the terms are too small.
 struct SpecularContinuation {
     static constexpr bool joins_points = false;
     using Place = Nowhere;

@@ -19,7 +19,7 @@ DirectLightSampler::DirectLightSampler(const Scene& scene, const DirectLightSett
     if (settings.direct == DirectLight::surfaces) surfaces_.emplace(scene.geometry);
 }
 
-// What lets light through sees both hemispheres, each every other time.
+// If the BSDF transmits, each hemisphere is chosen with probability 1/2.
 LightQuestion DirectLightSampler::ask_direction(const SurfaceSide& side, const Vec2& u, double which_side) const {
     const bool cosine = settings_.direct == DirectLight::cosine, both = transmits(*side.bsdf);
     Vec3 local = cosine ? cosine_hemisphere(u) : uniform_hemisphere(u);

@@ -1,4 +1,4 @@
-// The ways to find the light of the last reflection: ∫ fs Le |cosθ| dω, by directions or by points.
+// Direct light at the last reflection, ∫ fs Le |cosθ| dω: samples directions or points.
 #pragma once
 
 #include "core/geometry/area_sampler.h"
@@ -10,14 +10,15 @@
 
 namespace neumann {
 
-// Whether some light is out of reach: no ray meets a light without extent, and no surface is at infinity.
+// Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
-// A question for the light at a point: is that point seen, or what is seen in that direction?
+// A light sample whose visibility is not known yet. A ray tells whether `point` is seen or, if directions are sampled, what is seen
+// along `w`.
 struct LightQuestion {
     Vec3 w{0.0};
     SurfacePoint point;
-    Rgb weight{0.0};   // of a point, what it sends over the density; of a direction, 1 over the density, for what is found there
+    Rgb weight{0.0};   // for a point, Le / pdf; for a direction, 1 / pdf, which multiplies the Le that is found
     double pdf = 0.0;  // of w, per solid angle, or delta_pdf
 };
 
@@ -25,11 +26,10 @@ class DirectLightSampler {
 public:
     DirectLightSampler(const Scene& scene, const DirectLightSettings& settings);
 
-    // Beside the directions of the material: how many questions a point asks, whose answers add up; and whether they are
-    // directions.
+    // Number of light samples at a vertex, besides the BSDF's direction; their contributions add up.
     std::size_t questions() const { return questions_; }
     bool asks_directions() const { return settings_.direct == DirectLight::hemisphere || settings_.direct == DirectLight::cosine; }
-    // Light that the direction of a material finds by itself counts.
+    // Whether light that the BSDF's direction hits counts.
     bool counts_what_is_hit() const { return settings_.direct == DirectLight::bsdf || settings_.direct == DirectLight::mis; }
 
     template <class Sampler>
@@ -50,7 +50,8 @@ public:
             }
         }
     }
-    // The weight of an answer, and of light that a direction of the material has found at y. `pdf_of_material`: of the direction.
+    // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material`: of that direction,
+    // per solid angle.
     double weight_of_answer(double pdf, double pdf_of_material) const {
         return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf, pdf_of_material) : 1.0;
     }

@@ -1,5 +1,6 @@
-// How paths end, from the camera and from lights: by roulette on their way; beyond the last picture by that and by chance; and in
-// the end they are given up. What goes on by chance has the reciprocal weight.
+// How paths from the camera and from lights end: by roulette at every reflection; with probability 1 − rest_probability on the step
+// from bounce N into the rest; and after give_up bounces of the rest they are given up. The weights of survivors are divided by the
+// probability of surviving.
 #pragma once
 
 #include "operators/walk/path_end.h"
@@ -12,15 +13,15 @@
 namespace neumann {
 
 struct Ending {
-    int bounces;  // N: the last with a picture of its own; beyond it is the rest
+    int bounces;  // N: the last bounce with a picture of its own; beyond it is the rest
     Roulette roulette;
     double rest_probability;  // of going on into the rest; 0: there is none
-    int give_up;              // bounces of the rest
+    int give_up;              // bounces in the rest after which a path is given up
 
     bool in_rest(int bounce) const { return bounce > bounces; }
     bool is_last(int bounce) const { return bounce == bounces && rest_probability == 0.0; }
 
-    // Whether there are any that reach this bounce, having reached the one before.
+    // Ends paths on the step from the bounce before to this one. Returns whether any path goes on.
     template <class Walker, class Sampler>
     bool reach(int bounce, Together<Walker>& paths, std::span<Sampler> samplers, std::uint64_t& given_up) const {
         if (in_rest(bounce)) {
@@ -40,8 +41,8 @@ struct Ending {
         return !paths.alive.empty();
     }
 
-    // Whether a path lives on after a reflection, whose weight was `reflected` in its largest channel. `whole`: the β that counts
-    // as 1.
+    // Roulette after a reflection: returns whether the path survives. `reflected`: largest channel of the reflection's weight.
+    // `whole`: the β that counts as 1.
     template <class Sampler>
     bool live(int bounce, PathEnd& end, double reflected, Sampler& sampler, double whole = 1.0) const {
         const bool rest = in_rest(bounce);

@@ -1,6 +1,6 @@
-// Directions of diffuse surfaces drawn where indirect light comes from (direction_tables.h); all others by the material, and those
-// of the last picture and of the rest, whose roulette would end walks for going where light comes from. Unbiased given tables that
-// do not depend on the walks.
+// Path guiding: diffuse surfaces sample tables of the indirect incident light (direction_tables.h). Other materials sample their
+// BSDF, and so do all at bounce N and in the rest, where roulette would end walks because guiding lowers their weight. Unbiased if
+// the tables do not depend on the walks.
 #pragma once
 
 #include "operators/guide/direction_tables.h"
@@ -17,12 +17,12 @@ public:
 
     explicit GuidedContinuation(std::shared_ptr<const DirectionTables> tables) : tables_(std::move(tables)) {}
 
-    // One point of a walk. With a table fs |cosθ| / pdf is ρ over the table's density.
+    // A vertex of a walk. With a table, fs |cosθ| / pdf is ρ divided by the table's density.
     class Vertex {
     public:
         Vertex() = default;
         Vertex(const CellDistribution* table, const Frame& shading) : table_(table) {
-            // With texture coordinates the frame has other tangents than that of the table.
+            // Where there are texture coordinates, the shading frame's tangents differ from those of the table.
             const Frame frame(shading.n);
             if (frame.s == shading.s && frame.t == shading.t) return;
             s_ = {glm::dot(frame.s, shading.s), glm::dot(frame.s, shading.t)};
@@ -40,15 +40,15 @@ public:
             sampled.weight *= place.inverse_density;
             return sampled;
         }
-        // For the weights of lights alone, which may be any that add up to 1: the material's, as sample() says too. It is at most
-        // 1/α times the true one, and takes no table.
+        // The BSDF's pdf, not the density of sample(). It only enters the MIS weights, which stay unbiased for any pdf used
+        // consistently; BsdfSample::pdf is the same. It is at most 1/α times the true density, and needs no table lookup.
         double pdf(const SurfaceSide& side, const Vec3& wo, const Vec3& wi, const SurfacePoint&) const {
             return neumann::pdf(*side.bsdf, side.p, wo, wi);
         }
 
     private:
         const CellDistribution* table_ = nullptr;
-        Vec2 s_{1.0, 0.0}, t_{0.0, 1.0};  // the table's tangents, in the frame of the surface's
+        Vec2 s_{1.0, 0.0}, t_{0.0, 1.0};  // rotation from the table's tangents to those of the shading frame
     };
 
     using Place = const CellDistribution*;

@@ -1,4 +1,5 @@
-// What paths tell whoever looks on, each of its own in order. Nobody costs nothing: nothing is left of a call of an empty function.
+// Callbacks of paths, for code that inspects them; the calls for one path come in its order. NoObserver costs nothing, because its
+// empty functions are inlined.
 #pragma once
 
 #include "operators/walk/path_end.h"
@@ -9,14 +10,15 @@
 namespace neumann {
 
 struct NoObserver {
-    // A path casts a ray from its end, with so many reflections behind it; then what the ray meets, infinitely far away if that is
-    // nothing.
+    // A path casts a ray from its end after this many reflections; then meets() gets the hit, or a point at infinity if there is
+    // none.
     void casts(std::uint32_t /*path*/, bool /*from_light*/, int /*reflections*/, const PathEnd&) const {}
     void meets(std::uint32_t /*path*/, const SurfacePoint&) const {}
-    // For this bounce x has asked by a ray whether it sees y, or what is seen along w, which is y. `w`: towards y, of any length.
+    // A ray for a light sample or a connection of this bounce was cast from x: to the given point y, or along w, where it found y.
+    // `w`: towards y, of any length.
     void asks(std::uint32_t /*path*/, bool /*from_light*/, int /*bounce*/, const SurfacePoint& /*x*/, const Vec3& /*w*/,
               const SurfacePoint& /*y*/, bool /*seen*/) const {}
-    // What it has just met or seen adds to a quantity. Light tracing and bidirectional paths have callbacks for it.
+    // The last meets() or asks() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks instead.
     void finds(std::uint32_t /*path*/, std::size_t /*quantity*/, const Rgb&) const {}
 };
 

@@ -1,5 +1,6 @@
-// Ends walks by chance and gives those that go on the reciprocal weight (Arvo and Kirk 1990): unbiased for any probability above 0,
-// but of finite variance only where the squares of what is left, Σ E[β²], converge. In a furnace of albedo ρ that is ρ² < survival.
+// Russian roulette (Arvo and Kirk 1990): ends walks at random and divides the weight of the others by their survival probability.
+// It is unbiased for any probability above 0, but the variance is finite only if Σ E[β²] converges. In a furnace of albedo ρ this
+// means ρ² < survival.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,18 +11,18 @@ namespace neumann {
 
 struct Roulette {
     enum class Kind {
-        none,       // no walk ends before the last picture; beyond it those that have lost weight since then do
-        fixed,      // always the same
-        albedo,     // by what the last reflection has left of the weight
-        throughput  // by the weight that is left of all reflections
+        none,       // no roulette up to bounce N; in the rest, survive with the ratio of β to its value at the last survival
+        fixed,      // survive with probability `survival`
+        albedo,     // survive with the weight of the last reflection
+        throughput  // survive with β
     };
     Kind kind = Kind::none;
-    double survival = 1.0;  // of `fixed`
+    double survival = 1.0;  // used by `fixed`
 
     bool operator==(const Roulette&) const = default;
 
-    // Of going on, largest channels counting. `reflected`: the weight of the last reflection; `beta`: of the walk; `kept`: of the
-    // walk when it last went on. `rest`: beyond the last picture.
+    // The probability of surviving. Weights are largest channels: `reflected` of the last reflection, `beta` of the walk, `kept` of
+    // the walk when it last survived. `rest`: whether the bounce is beyond N.
     double probability(bool rest, double reflected, double beta, double kept) const {
         switch (kind) {
             case Kind::none:

@@ -1,5 +1,5 @@
-// Paths that advance together, one reflection at a time: R for all, then T for all, so that the processor always has several
-// independent chains of arithmetic to work on.
+// Paths that advance together (as in wavefront path tracing), one reflection at a time: R for all, then T for all, so that the
+// processor always has several independent chains of arithmetic to work on.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -13,18 +13,18 @@
 
 namespace neumann {
 
-// `Walker` is a PathEnd and what its kind of path needs beside it, and says whether it comes `from_light`.
+// `Walker` derives from PathEnd, adds what its kind of path needs, and has a constant `from_light`.
 template <class Walker>
 struct Together {
-    std::vector<Walker> walker;        // one for each path; what they hold of others before is left as it is
-    std::vector<std::uint32_t> alive;  // those that go on, in order
+    std::vector<Walker> walker;        // one for each path; begin() does not reset them
+    std::vector<std::uint32_t> alive;  // indices of the paths that go on, ascending
 
     void begin(std::size_t count) {
         walker.resize(count);
         alive.resize(count);
         std::iota(alive.begin(), alive.end(), 0u);
     }
-    // Goes on with those of which f(walker, number) is true.
+    // Keeps the paths for which f(walker, index) is true.
     template <class Keep>
     void keep_if(const Keep& f) {
         std::size_t kept = 0;
@@ -33,8 +33,8 @@ struct Together {
         alive.resize(kept);
     }
 
-    // The same after asking T for the next points of as many paths at once as make a packet: ask(k, n, point) is that of
-    // alive[k … k + n), writes into point(j), and answers a bit for each; the others end infinitely far away. The observer is told.
+    // Moves each path to its next point, packet by packet, and then does keep_if(f). ask(k, n, point) finds the next points of
+    // alive[k … k + n), writes them to point(j), and returns a bit mask of those found; the others move to infinity.
     template <class Observer, class Ask, class Keep>
     void advance(int reflections, const Observer& observer, const Ask& ask, const Keep& f) {
         constexpr std::size_t packet = RayCaster::packet_size;
@@ -52,7 +52,7 @@ struct Together {
         }
         alive.resize(kept);
     }
-    // Such an answer: T, what is seen from x along w.
+    // An `ask` for advance(): T, the first hit from x along w.
     template <class Transport, class HitAt>
     std::uint32_t first_hits(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         return T.first_hits(
@@ -68,7 +68,7 @@ struct Together {
         advance(
             reflections, observer, [&](std::size_t k, std::size_t n, const auto& hit) { return first_hits(T, k, n, hit); }, f);
     }
-    // From the camera.
+    // Starts paths along camera rays and moves them to the first hits.
     template <class Transport, class Observer, class Keep>
     void set_out(const Transport& T, std::span<const CameraRay> rays, const Observer& observer, const Keep& f) {
         begin(rays.size());
@@ -82,7 +82,7 @@ struct Together {
             0, observer, [&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); }, f);
     }
 
-    // Several walks that go on from the first vertex: all is as it was there.
+    // For several walks from one first vertex: saves and restores the state there.
     void remember_first() {
         first_ = walker;
         first_alive_ = alive;

@@ -1,5 +1,5 @@
-// V(x, y) of many pairs of points, asked of T packet by packet: whether anything stands between a path's end and a point that was
-// chosen, on a light, on the lens or on the path's other half.
+// V(x, y) of many pairs of points, packet by packet: x is the end of a path, y a sampled point on a light or on the lens, or a
+// vertex of the other subpath.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -9,7 +9,7 @@
 
 namespace neumann {
 
-// pair(k): the k-th, by reference; answer(k, seen) is told of them in order.
+// pair(k) returns references to the k-th pair; answer(k, seen) is called in order of k.
 template <class Transport, class PairAt, class Answer>
 void ask_visibility(const Transport& T, std::size_t count, RayCaster::Rays kind, const PairAt& pair, const Answer& answer) {
     for (std::size_t k = 0; k < count; k += RayCaster::packet_size) {

@@ -3,10 +3,10 @@
 //
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
-// The directions are those of the material, or of another continuation (continuation.h).
+// The directions are sampled from the BSDF, or by another continuation (continuation.h).
 //
-// The last reflection may instead ask for light by itself (ask_light.h), or do both. After a mirror only the direction can find
-// a light, and what it finds counts in full whatever is asked for.
+// The last reflection may instead sample the lights (ask_light.h), or do both. After a mirror only the direction can find a light,
+// and what it finds has weight 1 whatever the strategy.
 #pragma once
 
 #include "core/base/hot.h"
@@ -22,15 +22,15 @@
 
 namespace neumann {
 
-// Samples of every term, for several walks. `quantities`: for each walk N + 2 entries, the terms 0 … N and the rest.
+// Samples of every term, for several walks. `quantities` has N + 2 entries for each walk: the terms 0 … N and the rest.
 struct TermSamples {
     std::span<Rgb> quantities;      // added to
     std::span<std::uint64_t> rays;  // N + 2 entries: rays cast for each, by all walks; added to
-    std::uint64_t given_up = 0;     // walks; added to
+    std::uint64_t given_up = 0;     // number of walks; added to
 };
 
-// Samples all terms along some camera rays. `T` answers first_hits() and visible() as Geometry does; samplers[i] gives the numbers
-// of walk i. `observer`: observer.h.
+// Samples all terms along some camera rays. `T` has first_hits() and visible() like Geometry; samplers[i] gives the random numbers
+// of walk i. `observer`: see observer.h.
 template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
 NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
                       std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
@@ -40,7 +40,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     const Ending ending = settings.ending();
     const int N = settings.bounces;
     const std::size_t quantities = static_cast<std::size_t>(N) + 2;
-    double share = 1.0;  // of a walk, among those that go on from its first vertex
+    double share = 1.0;  // weight of a walk: 1 over the number of walks from its first vertex
     const auto find = [&](std::uint32_t i, std::size_t q, const Rgb& x) {
         out.quantities[i * quantities + q] += x * share;
         observer.finds(i, q, x * share);
@@ -67,7 +67,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     for (int copy = 0; copy < split.walks; ++copy) {
         if (copy > 0) walkers.return_to_first();
 
-        // L = Le + K L: K once more, and Le at what it leads to.
+        // L = Le + K L: apply K once more, then add Le at the next vertex.
         for (int bounce = 1; ending.reach(bounce, walkers, samplers, out.given_up); ++bounce) {
             const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
             const bool first = bounce == 1, wants_light_only = ending.is_last(bounce);
@@ -75,7 +75,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             const std::size_t questions = direct.questions() * static_cast<std::size_t>(!first ? 1 : copy == 0 ? split.lights : 0);
             places.find(continuation, walkers, std::max(N - bounce, 0));
 
-            // R: find the light, and with the last question choose a direction; T: is the light seen?
+            // R: sample the lights and, along with the last light sample, the next direction; T: are the light samples seen?
             for (std::size_t question = 1; question <= std::max<std::size_t>(questions, 1); ++question) {
                 walkers.keep_if([&](Walker& w, std::uint32_t i) {
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
@@ -103,7 +103,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                                           [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
             }
 
-            // Which walks go on, for this bounce's light, for a further bounce, or for the rest.
+            // Keep the walks whose ray is needed: for this bounce's light, for a further bounce, or for the rest.
             if (wants_light_only && left_out.rays_for_light) break;
             const bool only_mirrors = wants_light_only && !direct.counts_what_is_hit();
             walkers.keep_if([&](Walker& w, std::uint32_t i) {
@@ -111,7 +111,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                 return ending.live(bounce, w, w.reflected, samplers[i]);
             });
 
-            // T: follow the direction; Le: light that it meets.
+            // T: follow the direction; Le: add the light that it hits.
             const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
                 if (left_out.rays_from_surfaces) return std::uint32_t{0};
                 if constexpr (Continuation::joins_points)

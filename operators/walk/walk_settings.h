@@ -1,4 +1,4 @@
-// What can be asked of the walk; its code is in walk.h.
+// The settings of walk() (walk.h).
 #pragma once
 
 #include "core/emitter/light_sampler.h"
@@ -8,11 +8,11 @@
 
 namespace neumann {
 
-// How the light of the last reflection is found.
+// The sampling strategy for direct light at the last reflection.
 enum class DirectLight {
-    hemisphere,  // directions, uniform
-    cosine,      // directions by their cosine
-    bsdf,        // directions of the material, which are those in which the walk goes on
+    hemisphere,  // directions, uniform by solid angle
+    cosine,      // directions, with density proportional to the cosine
+    bsdf,        // directions of the BSDF, in which the walk also goes on
     surfaces,    // points on all surfaces, uniform by area
     light,       // points on lights
     mis          // light and bsdf, weighted by a heuristic (Veach 1997, 9.2)
@@ -27,9 +27,8 @@ struct DirectLightSettings {
     bool operator==(const DirectLightSettings&) const = default;
 };
 
-// What is done at the first vertex of each camera ray, where one sample does the most: light is asked for `lights` times, and
-// `walks` go on from it, both averaged. After that walks are single. One of each makes paths, several make trees (Arvo and Kirk
-// 1990).
+// Splitting at the first vertex of each camera ray, where more samples help most: `lights` light samples are taken, and `walks`
+// walks go on from it; both are averaged. There is no splitting after that (Arvo and Kirk 1990).
 struct Split {
     int lights = 1, walks = 1;
 
@@ -42,7 +41,7 @@ struct WalkSettings {
     Roulette roulette = {};
     Split split = {};
     LeftOut left_out = {};
-    // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le, at reciprocal weight; 0: no rest.
+    // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le (its weight is divided by it); 0: no rest.
     double rest_probability = 1.0;
     // Bounces beyond N after which a walk is given up and counted.
     int give_up = 1'000'000;

@@ -1,4 +1,4 @@
-// A walk from the camera on its way, and those that advance together.
+// The state of a walk from the camera, and of walks that advance together.
 #pragma once
 
 #include "operators/walk/path_end.h"
@@ -8,27 +8,27 @@
 
 namespace neumann {
 
-// What a walk asks at a vertex: is y seen, or what is seen along w?
+// A walk's light sample, before its ray is cast: to y, or along w.
 struct AskedLight {
     SurfacePoint y;
     Vec3 w;
-    Rgb value;  // what y brings if it is seen, or the weight of what is seen along w; black where there is nothing to ask
+    Rgb value;  // the contribution if y is seen, or the weight of the Le seen along w; black if no ray is needed
 };
 
 struct Walker : PathEnd {
     static constexpr bool from_light = false;
-    Vec3 wo;                 // towards the vertex before
-    Vec3 from;               // that vertex
+    Vec3 wo;                 // towards the previous vertex
+    Vec3 from;               // position of the previous vertex
     double reflected = 0.0;  // largest channel of the last reflection's weight
     AskedLight asked;
 };
 
 // Work space of walk(), kept between calls.
 struct Walkers : Together<Walker> {
-    std::vector<std::uint32_t> asking;  // those that wait for an answer
-    std::vector<SurfacePoint> next;     // of a continuation that joins points: the next vertex of each
+    std::vector<std::uint32_t> asking;  // walks whose light sample needs a ray
+    std::vector<SurfacePoint> next;     // the next vertex of each walk, if the continuation joins points
 
-    // For advance(): T, where that vertex is seen.
+    // An `ask` for advance(): moves walks to their `next` vertices if these are visible.
     template <class Transport, class HitAt>
     std::uint32_t join_next(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         const std::uint32_t seen = T.visible(
