@@ -1,4 +1,4 @@
-// What a study is to do: its methods, how much each of them is given for each budget, and how a single run is done.
+// The plan of a study: its methods, the effort of each method for each budget, and a single run.
 #pragma once
 
 #include "apps/commands/study_command.h"
@@ -15,23 +15,23 @@ struct StudyMethod {
     Method method;
 };
 
-// A method as read_method() reads it. Throws InputError where it is unknown, or has no place in a study.
+// Parses a method with read_method(). Throws InputError if it is unknown or not allowed in a study.
 Method studied_method(const std::string& word);
-// Throws InputError where one is unknown, given twice, or there is none.
+// Throws InputError if a method is unknown or given twice, or if there is none.
 std::vector<StudyMethod> study_methods(const StudyRequest& request);
 
-// Nothing where the run was interrupted. Errors name the method.
+// Returns nothing if the run was interrupted. Errors name the method.
 std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
                                        const Scene& scene, const Pilot& pilot);
 
 struct StudyPlan {
-    std::vector<double> budgets;  // seconds of a run, or samples a pixel
+    std::vector<double> budgets;  // seconds per run, or samples per pixel
     bool budgets_are_samples = false;
     std::vector<std::vector<Effort>> efforts;  // method by method, budget by budget
-    std::uint64_t reference_samples = 0;       // of a reference that is made
+    std::uint64_t reference_samples = 0;       // samples per pixel of the reference, if one is rendered
 };
 
-// After short runs that measure how fast each method is; they also find what a method refuses. Nothing where it was interrupted.
+// Makes short runs that measure the speed of each method, and find out what a method refuses. Returns nothing if interrupted.
 std::optional<StudyPlan> plan_study(const StudyRequest& request, const std::vector<StudyMethod>& methods, const Scene& scene,
                                     const Pilot& pilot, int bounces);
 

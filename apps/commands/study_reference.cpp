@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* values_prefix = "values:";
-// Of each method that is tried: 4 samples a pixel, and twice as many until it has cast so many rays.
+// Each method that is tried starts with 4 samples per pixel, which are doubled until it has cast enough rays.
 constexpr int first_trial = 2;
 constexpr std::uint64_t trial_rays = 500'000;
 
@@ -80,7 +80,7 @@ StudyReference from_folder(const std::string& folder, const Film& film, int boun
     };
     for (int i = 0; i <= bounces; ++i) add(bounce_file(static_cast<std::size_t>(i)));
     add(sum_file(static_cast<std::size_t>(bounces)));
-    // What is in it tells it from another one.
+    // A hash of the contents identifies it.
     XXH64_hash_t hash = 0;
     for (const Estimate& e : result.pictures)
         for (const Image* image : {&e.mean, &e.standard_error})
@@ -114,7 +114,7 @@ bool is_cached(const fs::path& folder, const Json& identity) {
     return file && Json::parse(file, nullptr, false) == identity;
 }
 
-// The pictures as in a folder of a render, and the identity as its run.json.
+// Stores the pictures as in a render's folder, and the identity as its run.json.
 void keep(const fs::path& path, const Json& identity, const StudyReference& reference, double degrees_of_freedom) {
     OutputFolder folder(path, "render");
     const std::size_t N = reference.pictures.size() - 2;
@@ -141,7 +141,7 @@ StudyMethod making_method(const StudyRequest& request) {
     return method;
 }
 
-// variance_times_rays(), with a seed that is that of no run and not that of the reference.
+// variance_times_rays(), with a seed that differs from those of all runs and of the reference.
 std::optional<std::vector<double>> try_method(const char* name, const Scene& scene, const Pilot& pilot, int bounces) {
     for (int level = first_trial;; ++level) {
         const auto run = run_method({name, read_method(name)}, sampling_effort(level), bounces,
@@ -188,7 +188,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
         return reference;
     };
     const std::optional<fs::path> cache = cache_folder();
-    // As speed is never measured alike, half as many samples do as well; more do anyway.
+    // The measured speed varies, so a cached reference with half as many samples is accepted, and so is one with more.
     std::vector<std::uint64_t> enough{wanted};
     if (!request.reference_samples && !request.resume)
         enough = {16 * wanted, 8 * wanted, 4 * wanted, 2 * wanted, wanted, wanted / 2};
@@ -215,7 +215,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
         const Json identity = made_identity(request, wanted, scene, bounces);
         try {
             keep(cache_path(*cache, identity), identity, made, run->degrees_of_freedom);
-            // Rounded as it will be when it is read again.
+            // Read back, so that the pictures are rounded as in later studies that read them from the cache.
             made = from_folder(cache_path(*cache, identity).string(), scene.film, bounces);
         } catch (const std::runtime_error& e) {
             made.warnings.push_back(fmt::format("the reference is not kept: {}", e.what()));
