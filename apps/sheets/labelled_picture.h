@@ -31,8 +31,8 @@ DisplayImage with_label(const LabelledPicture& picture, int width, int height, d
                         const std::optional<std::string>& font);
 constexpr int label_height(int label_size) { return 5 * label_size / 3; }
 
-// The scale for pictures of this size if the scale `fitting` fits. Small pictures are enlarged up to eight times or to 128 pixels, by
-// whole factors, so that pixels stay square and equal.
+// The scale for pictures of this size if the scale `fitting` fits. Small pictures are enlarged up to eight times or to 128 pixels,
+// whichever is larger, by whole factors, so that pixels stay square and equal.
 double scale_shown(int width, int height, double fitting);
 
 }  // namespace neumann

@@ -34,7 +34,7 @@ private:
     const Context& context_;
     std::vector<Bsdf> bsdfs_;
     std::map<const Element*, Materials::Sides> sides_;
-    std::set<const Element*> open_;  // being read
+    std::set<const Element*> open_;  // elements being read, to detect cycles
     int default_ = Materials::absorbing;
 };
 
