@@ -16,8 +16,8 @@ struct ConformRequest {
     bool json = false;
 };
 
-// Prints a table of all scenes under FOLDER/tests/scenes, and writes pictures of those that are rejected. Returns the exit code: 1 if a
-// scene is rejected, otherwise 0. Throws InputError if there are no scenes.
+// Prints a table of all scenes under FOLDER/tests/scenes, and writes pictures of those that are rejected. Returns the exit code: 1
+// if a scene is rejected, otherwise 0. Throws InputError if there are no scenes.
 int conform_command(const ConformRequest& request);
 
 }  // namespace neumann

@@ -13,8 +13,8 @@ struct SpectrumRequest {
     bool csv = false;
 };
 
-// Prints the row sums of T, then for each channel norms, eigenvalues, bounces and rounding, then the eigenvalues on coarser patches and
-// with fewer rays. Returns the exit code, 0 also if the series diverges. Throws InputError.
+// Prints the row sums of T, then for each channel norms, eigenvalues, bounces and rounding, then the eigenvalues on coarser patches
+// and with fewer rays. Returns the exit code, 0 also if the series diverges. Throws InputError.
 int spectrum_command(const SpectrumRequest& request);
 
 }  // namespace neumann

@@ -17,7 +17,7 @@ struct ChannelSpectrum {
     const char* name = "";
     double largest_albedo = 0.0;
     OperatorNorms norms;
-    double one_error = 0.0, one_part = 0.0;  // ‖K‖₁: its standard error due to the rays, and its unknown's part of the total measure
+    double one_error = 0.0, one_part = 0.0;  // of ‖K‖₁: standard error by the rays, and its unknown's part of the measure
     Eigenpairs leading;
     double radius = 0.0, shift = 0.0;    // spectral radius, and how far it moves when patches or rays are quartered
     std::optional<RadiusBounds> bounds;  // of the radius, if the eigenvalues were not found

@@ -18,8 +18,8 @@ struct StressRequest {
 // All cases: those of operators/known, and those that need files.
 known::Cases stress_cases();
 
-// Prints a table of expected and measured values. Returns the exit code: 1 if a case fails, otherwise 0. Throws InputError if no case is
-// selected.
+// Prints a table of expected and measured values. Returns the exit code: 1 if a case fails, otherwise 0. Throws InputError if no
+// case is selected.
 int stress_command(const StressRequest& request);
 
 }  // namespace neumann

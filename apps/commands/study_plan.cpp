@@ -14,8 +14,8 @@ namespace neumann {
 
 namespace {
 
-// Limits for the runs that measure speed, in seconds. Shorter runs are too uncertain, and runs below this part of the largest budget are
-// too different from it. For methods whose time is linear in the samples, longer runs give no more information.
+// Limits for the runs that measure speed, in seconds. Shorter runs are too uncertain, and runs below this part of the largest
+// budget are too different from it. For methods whose time is linear in the samples, longer runs give no more information.
 constexpr double shortest_measurement = 0.05, part_of_budget = 0.25, longest_measurement = 2.0;
 // Without --budgets: the number of budgets, each twice the one before. The first one is at least this many seconds, and gives every
 // method 4 samples.

@@ -1,5 +1,5 @@
-// The reference of a study: an answer known exactly, the pictures of an earlier render, or a reference that it renders itself and caches
-// for later studies in $XDG_CACHE_HOME/neumann or ~/.cache/neumann.
+// The reference of a study: an answer known exactly, the pictures of an earlier render, or a reference that it renders itself and
+// caches for later studies in $XDG_CACHE_HOME/neumann or ~/.cache/neumann.
 #pragma once
 
 #include "apps/commands/study_plan.h"
@@ -25,8 +25,8 @@ struct ReferenceChoice {
 // Chooses by short runs of all methods that can make all paths of this scene. Returns nothing if interrupted.
 std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces);
 
-// The given answer or pictures; nothing if a method is to render the reference. Throws InputError if it is none of these, or if the size
-// differs.
+// The given answer or pictures; nothing if a method is to render the reference. Throws InputError if it is none of these, or if the
+// size differs.
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces);
 // Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted.
 std::optional<StudyReference> make_reference(const StudyRequest& request, std::uint64_t samples, const Scene& scene,

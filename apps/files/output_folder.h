@@ -11,13 +11,13 @@ namespace neumann {
 // Whether the program writes files of this name into an output folder: bounce_000.exr, run.json, …
 bool is_output_name(std::string_view name);
 
-// Files are written as ".NAME.partial" and renamed in commit(). Until then the files of an earlier run stay unchanged. Only one process
-// at a time writes to a folder.
+// Files are written as ".NAME.partial" and renamed in commit(). Until then the files of an earlier run stay unchanged. Only one
+// process at a time writes to a folder.
 class OutputFolder {
 public:
-    // Creates the folder, and those above it, if they are missing. Throws InputError if the folder cannot be written or another run is
-    // writing to it ("out/x: cannot be written: Permission denied"), and if it holds files of another command, which commit() would
-    // remove.
+    // Creates the folder, and those above it, if they are missing. Throws InputError if the folder cannot be written or another run
+    // is writing to it ("out/x: cannot be written: Permission denied"), and if it holds files of another command, which commit()
+    // would remove.
     OutputFolder(const std::filesystem::path& path, std::string_view command);
 
     // Without commit(), restores everything as it was.
@@ -33,8 +33,8 @@ public:
     // Throws InputError if fewer bytes are free, before time is spent on results that cannot be written.
     void expect_space(double bytes) const;
 
-    // Puts all files in place, run.json last, and removes the program's files of earlier runs that are not among them. If a folder has
-    // pictures but no run.json, commit() was interrupted.
+    // Puts all files in place, run.json last, and removes the program's files of earlier runs that are not among them. If a folder
+    // has pictures but no run.json, commit() was interrupted.
     void commit();
 
     const std::filesystem::path& path() const { return path_; }

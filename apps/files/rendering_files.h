@@ -34,8 +34,9 @@ struct WrittenRendering {
 // Writes all files and commits them. Throws RunError if not everything can be written.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
-// For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room, and
-// otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line for the user that says what was done.
+// For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room,
+// and otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line for the user that says what
+// was done.
 std::string keep_elsewhere(const Rendering& rendering, const std::string& output);
 
 }  // namespace neumann

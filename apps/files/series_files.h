@@ -24,7 +24,8 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
 // Approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation);
 
-// For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of those that do not fit.
+// For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of those that do not
+// fit.
 std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series);
 
 // The contents of series.csv and of convergence.csv.

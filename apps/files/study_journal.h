@@ -3,8 +3,8 @@
 //     study.journal   lines of JSON: what is studied, how it was planned, and then one line for each finished run
 //     study.pictures  the pictures of the runs, one after the other, float32
 //
-// Both are appended to, pictures first; an incomplete last line is ignored. There is no fsync, which would take longer than short runs:
-// nothing is lost if the program is killed, but something may be if the machine fails.
+// Both are appended to, pictures first; an incomplete last line is ignored. There is no fsync, which would take longer than short
+// runs: nothing is lost if the program is killed, but something may be if the machine fails.
 #pragma once
 
 #include "apps/commands/study_data.h"

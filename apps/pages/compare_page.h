@@ -6,9 +6,9 @@
 
 namespace neumann {
 
-// Writes index.html, and `figures` as compare.json, into the folder `output`. A and B are folders of renders with the same picture size.
-// Throws InputError if run.json or pictures are missing, if sizes differ, and if `output` holds files of another command, which would be
-// lost.
+// Writes index.html, and `figures` as compare.json, into the folder `output`. A and B are folders of renders with the same picture
+// size. Throws InputError if run.json or pictures are missing, if sizes differ, and if `output` holds files of another command,
+// which would be lost.
 void write_compare_page(const std::string& output, const std::string& a, const std::string& b,
                         const nlohmann::ordered_json& figures);
 

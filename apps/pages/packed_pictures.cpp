@@ -73,8 +73,8 @@ void add_errors(const char* kind, const Image& errors, PackedPicture& picture) {
     });
 }
 
-// zlib format (RFC 1950). Most bits are noise. Run-length matching finds the rest (black, unknown); it is four times as fast as a search
-// for repeated strings, and compresses better.
+// zlib format (RFC 1950). Most bits are noise. Run-length matching finds the rest (black, unknown); it is four times as fast as a
+// search for repeated strings, and compresses better.
 std::string deflated(const std::string& bytes) {
     z_stream stream{};
     if (deflateInit2(&stream, 6, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK) throw std::bad_alloc();

@@ -32,8 +32,8 @@ public:
     // Deflates what was added.
     void pack();
 
-    // Metadata for the page: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95% interval
-    // divided by its standard error; null: unknown), "independent" (pixels).
+    // Metadata for the page: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95%
+    // interval divided by its standard error; null: unknown), "independent" (pixels).
     nlohmann::ordered_json head() const;
     int factor() const { return factor_; }
     // A message for the user if the factor is above 1: "index.html shows the pictures at 1/2 of their size, …"

@@ -19,8 +19,8 @@ struct SheetHeadings {
     std::string terms = "bounces", sums = "sums";
 };
 
-// The layout with the largest thumbnails on a sheet of at most about 2400×2400 pixels, for pictures of `width` × `height` pixels. Small
-// pictures are enlarged by whole factors.
+// The layout with the largest thumbnails on a sheet of at most about 2400×2400 pixels, for pictures of `width` × `height` pixels.
+// Small pictures are enlarged by whole factors.
 SheetLayout layout_sheet(int terms, int sums, int width, int height);
 
 // A PNG file of the sheet: `terms` (at least one; "bounce 0", …, "rest"), then `sums` ("sum 0", "sum 0..1", …), all of one size and

@@ -20,13 +20,13 @@ struct LabelledPicture {
     double factor = 1.0;  // extra brightness factor, relative to the other pictures
 };
 
-// An image of `width` × `height` pixels with a text, centred or at the left; without a font it is blank. A text that is too wide is set
-// in a smaller size.
+// An image of `width` × `height` pixels with a text, centred or at the left; without a font it is blank. A text that is too wide is
+// set in a smaller size.
 DisplayImage caption(const std::string& text, int width, int height, int font_size, const std::optional<std::string>& font,
                      bool centred, std::uint8_t background = sheet_background);
 
-// The picture, multiplied by `exposure` and its factor and scaled to `width` × `height` pixels (smaller, or larger by a whole factor),
-// with its label below, label_height(label_size) high.
+// The picture, multiplied by `exposure` and its factor and scaled to `width` × `height` pixels (smaller, or larger by a whole
+// factor), with its label below, label_height(label_size) high.
 DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
                         const std::optional<std::string>& font);
 constexpr int label_height(int label_size) { return 5 * label_size / 3; }

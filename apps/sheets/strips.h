@@ -27,8 +27,8 @@ struct SeriesPictures {
 // Rows with the same number of pictures, one below the other.
 using Strip = std::vector<Pictures>;
 
-// Bounces 0 to 6, as far as they exist. The row below shows each multiplied by the largest power of two, at least 1, for which the 99th
-// percentile of its luminance is at most white at this exposure: "16 K^3 Le". Pixels where `emission` is not black are ignored
+// Bounces 0 to 6, as far as they exist. The row below shows each multiplied by the largest power of two, at least 1, for which the
+// 99th percentile of its luminance is at most white at this exposure: "16 K^3 Le". Pixels where `emission` is not black are ignored
 // (exposure_for).
 Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double exposure);
 // The sums up to bounce 0, …, 6, as far as they exist.

@@ -1,4 +1,5 @@
-// Lights without extent: rays cannot hit them, only light sampling finds them. They give the irradiance on a surface that faces them.
+// Lights without extent: rays cannot hit them, only light sampling finds them. They give the irradiance on a surface that faces
+// them.
 #pragma once
 
 #include "core/emitter/beam.h"

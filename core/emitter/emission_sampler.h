@@ -15,8 +15,8 @@ struct Emission {
     std::size_t distant = 0;  // index of the distant light; only set for these
 };
 
-// Chooses lights in proportion to their power, points on them uniformly, and directions from surfaces in proportion to the cosine. Keeps
-// references to the geometry and the emitters.
+// Chooses lights in proportion to their power, points on them uniformly, and directions from surfaces in proportion to the cosine.
+// Keeps references to the geometry and the emitters.
 class EmissionSampler {
 public:
     EmissionSampler(const Geometry& geometry, const Emitters& emitters);
@@ -25,8 +25,8 @@ public:
     bool empty() const { return table_.empty(); }
     Emission sample(const Vec2& place, const Vec2& direction) const;
 
-    // The density with which the edge from y to x is sampled: per area perpendicular to it at x, and per solid angle at x. `w` is the
-    // direction from x to y; y may be infinitely far away.
+    // The density with which the edge from y to x is sampled: per area perpendicular to it at x, and per solid angle at x. `w` is
+    // the direction from x to y; y may be infinitely far away.
     double density(const SurfacePoint& y, const Vec3& w) const {
         return y.is_infinite() ? environment_density(w) : density_of_shape_[y.shape];
     }

@@ -61,14 +61,14 @@ public:
     // Whether no emitter has a positive area and radiance.
     bool empty() const;
 
-    // Power divided by π, computed with the largest radiance: of each shape, then of the distant lights, which are the environment (if
-    // there is one) and the lights without extent. For an environment, the power that enters the sphere around the scene.
+    // Power divided by π, computed with the largest radiance: of each shape, then of the distant lights, which are the environment
+    // (if there is one) and the lights without extent. For an environment, the power that enters the sphere around the scene.
     const std::vector<double>& powers() const { return powers_; }
     // `index`: of a distant light.
     DistantSample sample_distant(std::size_t index, const Vec3& x, const Vec2& uv) const;
     DistantEmission send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const;
-    // The density with which emission towards x along w is sampled: per area perpendicular to w at x and, for an environment, per solid
-    // angle of w.
+    // The density with which emission towards x along w is sampled: per area perpendicular to w at x and, for an environment, per
+    // solid angle of w.
     double distant_density(std::size_t index, const Vec3& x, const Vec3& w) const;
     // The irradiance on a surface at x that faces the light, mean of the channels.
     double distant_irradiance(std::size_t index, const Vec3& x) const;

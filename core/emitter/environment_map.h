@@ -6,9 +6,9 @@
 //
 //     p(ω) = Y(ω) s(θ) / (sinθ ∫∫ Y s dθ dφ),
 //
-// where s is sinθ at the rows and linear between them; s / sinθ is 1 up to the square of the rows' spacing. p is positive wherever there
-// is light. Both angles are found by inverting cumulative distributions, which are piecewise cubic over rows, and piecewise quadratic
-// over the columns of the interpolated row.
+// where s is sinθ at the rows and linear between them; s / sinθ is 1 up to the square of the rows' spacing. p is positive wherever
+// there is light. Both angles are found by inverting cumulative distributions, which are piecewise cubic over rows, and piecewise
+// quadratic over the columns of the interpolated row.
 #pragma once
 
 #include "core/image/image.h"

@@ -24,9 +24,9 @@ enum class LightChoice {
     mixed,         // half by power, half uniformly; the environment with probability 1/2 at most if there are other lights
     uniform,       // all with equal probability
     power,         // in proportion to power, computed with the largest radiance
-    contribution,  // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in the
-                   // number of parts of lights
-    all            // every light once
+    contribution,  // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in
+                   // the number of parts of lights
+    all  // every light once
 };
 
 // How a light is sampled: uniformly by area, or uniformly by solid angle.
@@ -43,8 +43,8 @@ public:
     // Number of samples per point; their contributions add up.
     std::size_t asks() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
-    // Samples light for the point x: the first number chooses the light and is then reused, with the second, for the point on it. The
-    // density is that of pdf().
+    // Samples light for the point x: the first number chooses the light and is then reused, with the second, for the point on it.
+    // The density is that of pdf().
     LightSample sample(const Vec3& x, const Vec2& uv, std::size_t ask = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);

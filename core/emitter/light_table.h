@@ -30,7 +30,8 @@ public:
 
     enum class Rectangles { as_triangles, whole };
 
-    // `share`: the probability of each entry of Emitters::powers(). The table is empty if all are 0. Keeps a reference to the geometry.
+    // `share`: the probability of each entry of Emitters::powers(). The table is empty if all are 0. Keeps a reference to the
+    // geometry.
     LightTable(const Geometry& geometry, const Emitters& emitters, const std::vector<double>& share, Rectangles rectangles);
 
     bool empty() const { return cumulative_.empty(); }

@@ -1,5 +1,5 @@
-// The picture that a light projects: a function on the unit square, with (0, 0) the corner of its first pixel (Mitsuba's textures in
-// lights).
+// The picture that a light projects: a function on the unit square, with (0, 0) the corner of its first pixel (Mitsuba's textures
+// in lights).
 #pragma once
 
 #include "core/base/vec.h"

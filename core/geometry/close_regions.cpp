@@ -37,8 +37,8 @@ public:
     std::span<const Vec3> corners() const { return {corners_.data(), size_}; }
 
 private:
-    // A cut adds at most one corner, and there are up to 6 cuts for a box and 2 for a disc. After rounding the polygon may not be quite
-    // convex, which adds at most two more corners per cut.
+    // A cut adds at most one corner, and there are up to 6 cuts for a box and 2 for a disc. After rounding the polygon may not be
+    // quite convex, which adds at most two more corners per cut.
     static constexpr std::size_t capacity = 3 + 3 * 8;
     std::array<Vec3, capacity> corners_;
     std::size_t size_;

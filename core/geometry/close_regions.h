@@ -10,8 +10,8 @@ namespace neumann {
 
 struct CloseRegion {
     Bounds bounds;
-    // For a triangle: points whose barycentric weights are all at least `clear` are outside the region, and so are points outside the
-    // polygon, which is given by the weights of the second and third vertex.
+    // For a triangle: points whose barycentric weights are all at least `clear` are outside the region, and so are points outside
+    // the polygon, which is given by the weights of the second and third vertex.
     double clear;
     std::vector<Vec2> weights;
 };

@@ -190,8 +190,8 @@ bool Geometry::meet_giants(const Vec3& origin, const Vec3& direction, double dis
     return true;
 }
 
-// Recomputes each close hit of Embree in double, with all faces close to it, until the next hit of Embree is not close, or lies behind
-// a hit found in double.
+// Recomputes each close hit of Embree in double, with all faces close to it, until the next hit of Embree is not close, or lies
+// behind a hit found in double.
 bool Geometry::first_hit_past(const Vec3& start, const Vec3& origin, const Vec3& direction, double distance,
                               std::vector<Face> faces, SurfacePoint& hit) const {
     for (;;) {

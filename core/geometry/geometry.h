@@ -1,11 +1,11 @@
 // The shapes of a scene, and the two functions of them that light transport needs: ray tracing tr(p, ω) and visibility V(x, y).
 // Materials are not known here.
 //
-// Embree holds the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything else is in scene
-// units and double. Embree only finds which primitive is hit, with a ray whose origin is offset along the normal by the rounding error
-// of floats. The hit point is then computed in double, with the ray from the original point. The scale and position of the scene
-// therefore do not matter. Where surfaces are closer to each other than floats can resolve, everything is done in double (Neighbours),
-// and so are faces so large that they would make floats coarse for all others (Giants).
+// Embree holds the scene in floats, moved to the origin and scaled by a power of two to about unit size; everything else is in
+// scene units and double. Embree only finds which primitive is hit, with a ray whose origin is offset along the normal by the
+// rounding error of floats. The hit point is then computed in double, with the ray from the original point. The scale and position
+// of the scene therefore do not matter. Where surfaces are closer to each other than floats can resolve, everything is done in
+// double (Neighbours), and so are faces so large that they would make floats coarse for all others (Giants).
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -39,7 +39,8 @@ public:
     std::shared_ptr<const std::vector<Shape>> shared_shapes() const { return shapes_; }
     std::size_t degenerate_count() const { return degenerate_count_; }
 
-    // tr(p, ω) from a point in space, up to `distance`; ω has unit length. Returns false and leaves `hit` unchanged if nothing is hit.
+    // tr(p, ω) from a point in space, up to `distance`; ω has unit length. Returns false and leaves `hit` unchanged if nothing is
+    // hit.
     bool first_hit(const Vec3& origin, const Vec3& direction, double distance, SurfacePoint& hit) const;
     // tr(p, ω) from a surface: the first surface point seen from p along ω, on the side of p that ω points to. `hit` may be `from`.
     bool first_hit(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
@@ -115,7 +116,8 @@ public:
     // The origin of a ray that leaves p on the side of its normal (side > 0) or on the other: offset by the hit's rounding error.
     static Vec3 leave(const SurfacePoint& p, double side) { return p.position + p.normal * std::copysign(p.error, side); }
 
-    // For sampling uniformly by area: number of primitives of a shape, their areas, and the point at (u, v) ∈ [0,1)² of a primitive.
+    // For sampling uniformly by area: number of primitives of a shape, their areas, and the point at (u, v) ∈ [0,1)² of a
+    // primitive.
     std::uint32_t primitive_count(std::uint32_t shape) const;
     double area(std::uint32_t shape, std::uint32_t primitive) const;
     double area(std::uint32_t shape) const;

@@ -25,8 +25,8 @@ bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-// For two triangles that share a corner: whether b continues a beyond one of its edges without a sharp bend. Then a displaced ray that
-// starts beside a, or ends on either of them, is still on the right side of both.
+// For two triangles that share a corner: whether b continues a beyond one of its edges without a sharp bend. Then a displaced ray
+// that starts beside a, or ends on either of them, is still on the right side of both.
 bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
     constexpr double bend = 0.5, rounding = 1e-12;
     const Triangle &t = *faces.triangle(a), &other = *faces.triangle(b);

@@ -1,11 +1,12 @@
-// Faces that are closer together than Embree's floats can resolve (creases, thin gaps, surfaces that touch) are intersected in double.
+// Faces that are closer together than Embree's floats can resolve (creases, thin gaps, surfaces that touch) are intersected in
+// double.
 //
 // Embree holds faces that are displaced by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A
-// point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong one
-// of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset origin
-// sees past it what the point does not see. Which parts of a face are close is computed when the face is first hit, and cached; usually
-// these are strips along edges, a millionth of the scene wide. Rays of close points are intersected with the faces around them in
-// double, and with all others by Embree.
+// point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong
+// one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
+// origin sees past it what the point does not see. Which parts of a face are close is computed when the face is first hit, and
+// cached; usually these are strips along edges, a millionth of the scene wide. Rays of close points are intersected with the faces
+// around them in double, and with all others by Embree.
 #pragma once
 
 #include "core/geometry/double_faces.h"

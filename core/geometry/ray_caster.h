@@ -1,5 +1,5 @@
-// The only user of Embree (3.13 or 4): closest hits and occlusion, in floats and in coordinates of about unit size. Spheres, discs and
-// cylinders are intersected in double, so they are as exact as the ray.
+// The only user of Embree (3.13 or 4): closest hits and occlusion, in floats and in coordinates of about unit size. Spheres, discs
+// and cylinders are intersected in double, so they are as exact as the ray.
 #pragma once
 
 #include "core/geometry/face.h"
@@ -32,8 +32,8 @@ public:
     // Whether anything lies strictly between two points.
     bool occluded(const Vec3& from, const Vec3& to) const;
 
-    // The same for up to 8 rays at once, which is faster; bit i of the result is for ray i. Rays::alike is for coherent rays, such as
-    // those of one pixel.
+    // The same for up to 8 rays at once, which is faster; bit i of the result is for ray i. Rays::alike is for coherent rays, such
+    // as those of one pixel.
     static constexpr std::size_t packet_size = 8;
     enum class Rays { alike, any };
     class Packet;

@@ -12,7 +12,8 @@ struct Rectangle {
     Vec3 corner, a, b;
 };
 
-// The rectangle of triangles `first` and first + 1, up to rounding; triangle `first` has s + t ≤ 1. Nothing if they do not form one.
+// The rectangle of triangles `first` and first + 1, up to rounding; triangle `first` has s + t ≤ 1. Nothing if they do not form
+// one.
 std::optional<Rectangle> rectangle_of(const TriangleMesh& mesh, std::size_t first);
 
 }  // namespace neumann

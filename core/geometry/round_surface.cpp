@@ -18,8 +18,8 @@ auto visit_round(const Shape& shape, const F& f) {
     return f(std::get<Disk>(shape));
 }
 
-// Returns n, or a unit vector next to it, such that the sign of dot(w, n) is `sign`: −1 for a hit from the front, 1 from the back. A
-// ray that hits tangentially in floats may miss in double; n is then perpendicular to it up to rounding.
+// Returns n, or a unit vector next to it, such that the sign of dot(w, n) is `sign`: −1 for a hit from the front, 1 from the back.
+// A ray that hits tangentially in floats may miss in double; n is then perpendicular to it up to rounding.
 Vec3 met_by(const Vec3& w, double sign, const Vec3& n) {
     constexpr double least = 1e-9;
     const double cosine = sign * glm::dot(n, w);

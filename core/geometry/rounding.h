@@ -10,9 +10,9 @@ namespace neumann {
 
 inline double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-// A bound on float rounding in a scene of about unit size. It covers the ends and direction of a ray from anywhere in the scene, and
-// Embree's distance along the normal of a triangle of this size, which Embree computes from vertices relative to the ray's origin.
-// 2⁻²⁴ is half the spacing of floats at 1.
+// A bound on float rounding in a scene of about unit size. It covers the ends and direction of a ray from anywhere in the scene,
+// and Embree's distance along the normal of a triangle of this size, which Embree computes from vertices relative to the ray's
+// origin. 2⁻²⁴ is half the spacing of floats at 1.
 inline double float_rounding(double size) { return 0x1p-24 * 8.0 * (1.0 + size); }
 
 // A bound on the error of a distance computed from p and from coordinates up to `size`: 8 units in the last place.

@@ -1,4 +1,5 @@
-// A surface point with its shading frame (from interpolated normals) and, on demand, texture coordinates. Materials and lights use it.
+// A surface point with its shading frame (from interpolated normals) and, on demand, texture coordinates. Materials and lights use
+// it.
 #pragma once
 
 #include "core/base/frame.h"

@@ -15,8 +15,8 @@ double gaussian_slope(double u) {
     return boost::math::erf_inv(std::clamp(2.0 * u - 1.0, -largest, largest), Policy());
 }
 
-// Samples the slope visible from (sinθ, 0, cosθ), with density ∝ (cosθ − x sinθ)⁺ exp(−x²). Its cumulative distribution is inverted by
-// bracketed Newton iteration.
+// Samples the slope visible from (sinθ, 0, cosθ), with density ∝ (cosθ − x sinθ)⁺ exp(−x²). Its cumulative distribution is inverted
+// by bracketed Newton iteration.
 double visible_slope(double sine, double cosine, double u) {
     if (sine < 1e-9) return gaussian_slope(u);
     const auto distribution = [&](double x) {

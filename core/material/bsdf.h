@@ -24,17 +24,17 @@
 
 namespace neumann {
 
-// A closed set: to add a material, add a file beside diffuse.h and a name here. A Bsdf is for one side of a surface: ωo is always above
-// it, ωo.z > 0, and light is transmitted if ωi.z < 0. The other side of glass is another Bsdf. Radiance is L and not L/n²: it is n²
-// times as large within glass.
+// A closed set: to add a material, add a file beside diffuse.h and a name here. A Bsdf is for one side of a surface: ωo is always
+// above it, ωo.z > 0, and light is transmitted if ωi.z < 0. The other side of glass is another Bsdf. Radiance is L and not L/n²: it
+// is n² times as large within glass.
 struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Dielectric, ThinDielectric,
                            RoughDielectric<Ggx>, RoughDielectric<Beckmann>, Plastic, RoughPlastic<Ggx>, RoughPlastic<Beckmann>,
                            Principled, PrincipledThin, Null, Retroreflector, RoughRetroreflector, Mask, Blend, PerturbedNormal> {
     using variant::variant;
 };
 
-// std::visit for the innermost loops: with so many materials std::visit would call each through a table, but the simplest one should
-// be inlined.
+// std::visit for the innermost loops: with so many materials std::visit would call each through a table, but the simplest one
+// should be inlined.
 template <class F>
 auto visit_fast(const Bsdf& bsdf, const F& f) {
     if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) return f(*diffuse);

@@ -1,5 +1,5 @@
-// The Fresnel reflectance of a conductor with refractive index η + ik for unpolarised light, for each colour channel separately (Born
-// and Wolf, Principles of Optics, 14.2). With k = 0 it is that of a dielectric seen from outside, and with η = 0 it is 1.
+// The Fresnel reflectance of a conductor with refractive index η + ik for unpolarised light, for each colour channel separately
+// (Born and Wolf, Principles of Optics, 14.2). With k = 0 it is that of a dielectric seen from outside, and with η = 0 it is 1.
 #pragma once
 
 #include "core/base/vec.h"

@@ -18,8 +18,8 @@ public:
     // Along x and along y.
     explicit Ggx(const Vec2& alpha) : alpha_(alpha), product_(alpha.x * alpha.y), ratio_(alpha.y / alpha.x) {}
 
-    // D(m), sr⁻¹: the area of microfacets with normal m, per solid angle and per area of the surface. The sum is accurate for small α,
-    // where 1 + (α² − 1) cos²θ would not be.
+    // D(m), sr⁻¹: the area of microfacets with normal m, per solid angle and per area of the surface. The sum is accurate for small
+    // α, where 1 + (α² − 1) cos²θ would not be.
     double density(const Vec3& m) const {
         if (m.z <= 0.0) return 0.0;
         const double x = m.x * m.x * ratio_ + m.y * m.y / ratio_ + product_ * m.z * m.z;
@@ -31,8 +31,8 @@ public:
         const double x = alpha_.x * v.x, y = alpha_.y * v.y;
         return 0.5 * (v.z + std::sqrt(v.z * v.z + x * x + y * y));
     }
-    // Samples a visible normal with the pdf D(m) (v·m)⁺ / projected_area(v), per solid angle of m: Dupuy and Benyoub, Sampling Visible
-    // GGX Normals with Spherical Caps, 2023.
+    // Samples a visible normal with the pdf D(m) (v·m)⁺ / projected_area(v), per solid angle of m: Dupuy and Benyoub, Sampling
+    // Visible GGX Normals with Spherical Caps, 2023.
     Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
         const Vec3 w = glm::normalize(Vec3(alpha_.x * v.x, alpha_.y * v.y, v.z));
         const double height = (1.0 - u.y) * (1.0 + w.z);                      // z of the cap's point, plus w.z

@@ -4,8 +4,8 @@
 namespace neumann {
 
 struct Lobe {
-    // `diffuse`: fs does not depend on directions. `rough`: a glossy lobe of roughness α. `specular`: fs has a delta lobe, which eval()
-    // and pdf() do not include; only sample() returns it.
+    // `diffuse`: fs does not depend on directions. `rough`: a glossy lobe of roughness α. `specular`: fs has a delta lobe, which
+    // eval() and pdf() do not include; only sample() returns it.
     enum class Kind { diffuse, rough, specular };
     Kind kind = Kind::diffuse;
     double alpha = 1.0;  // 0 if specular, 1 if diffuse

@@ -1,5 +1,5 @@
-// A material with holes (Mitsuba's `mask`): the fraction `opacity` of the light is scattered by the nested material, and the rest goes
-// straight on, which counts as a bounce:
+// A material with holes (Mitsuba's `mask`): the fraction `opacity` of the light is scattered by the nested material, and the rest
+// goes straight on, which counts as a bounce:
 //
 //     fs(ωi → ωo) = o fs'(ωi → ωo) + (1 − o) δ(ωi + ωo) / |cos θi|.
 #pragma once

@@ -1,5 +1,5 @@
-// A material with a perturbed normal n': Mitsuba's `normalmap` and `bumpmap`. With primes for directions in the frame of n', and f' the
-// nested material,
+// A material with a perturbed normal n': Mitsuba's `normalmap` and `bumpmap`. With primes for directions in the frame of n', and f'
+// the nested material,
 //
 //     fs(ωi → ωo) |cosθi| = f'(ωi' → ωo') |cosθi'| G(ωi)    if cosθ and cosθ' have the same sign, otherwise 0.
 //
@@ -7,8 +7,8 @@
 // Problem, Ray Tracing Gems, 2019. A normal that faces away from ωo is mirrored at the surface's normal: Schüssler et al.,
 // Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, 2017.
 //
-// fs is not reciprocal. The albedo for ωo is at most that of f', which bounds R in L^∞. But of light from a single, grazing direction ωi
-// a diffuse f' reflects up to 2√2 cosτ (1 + cosτ) ρ, where τ is the tilt of n'; without G there is no bound.
+// fs is not reciprocal. The albedo for ωo is at most that of f', which bounds R in L^∞. But of light from a single, grazing
+// direction ωi a diffuse f' reflects up to 2√2 cosτ (1 + cosτ) ρ, where τ is the tilt of n'; without G there is no bound.
 #pragma once
 
 #include "core/material/bsdf_sample.h"

@@ -1,10 +1,10 @@
-// Reflects light back to where it came from, like a road sign: fs(ωi → ωo) |cos θi| = ρ δ(ωi − ωo). One-sided. A rough retroreflector
-// spreads light around that direction as a rough mirror does around the mirror direction:
+// Reflects light back to where it came from, like a road sign: fs(ωi → ωo) |cos θi| = ρ δ(ωi − ωo). One-sided. A rough
+// retroreflector spreads light around that direction as a rough mirror does around the mirror direction:
 //
 //     fs(ωi → ωo) = fr(M ωi → ωo),   M ωi the mirror image of ωi,  fr that of RoughConductor,
 //
-// which is reciprocal because fr is: ωi + M ωo is the mirror image of ωo + M ωi, and the distribution of facets is symmetric about the
-// normal.
+// which is reciprocal because fr is: ωi + M ωo is the mirror image of ωo + M ωi, and the distribution of facets is symmetric about
+// the normal.
 #pragma once
 
 #include "core/material/rough_conductor.h"

@@ -35,8 +35,8 @@ public:
         if (wo.z <= 0.0 || wi.z == 0.0) return Rgb(0.0);
         return scattered(p, At(*this, p, wo), wi) / std::abs(wi.z);
     }
-    // Normalised over the whole sphere. Facets may also reflect downwards and refract upwards, which is not part of fs; sample() gives
-    // such directions the weight that fs has there.
+    // Normalised over the whole sphere. Facets may also reflect downwards and refract upwards, which is not part of fs; sample()
+    // gives such directions the weight that fs has there.
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         if (wo.z <= 0.0) return 0.0;
         const At at(*this, p, wo);

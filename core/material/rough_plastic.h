@@ -3,9 +3,9 @@
 //
 //     fs(ωi → ωo) = s F(ωo·m) D(m) G1(ωi) G1(ωo) / (4 cosθi cosθo) + b T(cosθi) T(cosθo) / π,
 //
-// T the fraction of light from one direction that enters the layer, with single scattering by the facets, and F̄ in b the mean fraction
-// that the facets reflect inside. Both are Mitsuba's sums: T is interpolated linearly between 64 equidistant cosines, and F̄ is
-// 2/64 Σ R(μ) μ over these, 1.5% below the integral.
+// T the fraction of light from one direction that enters the layer, with single scattering by the facets, and F̄ in b the mean
+// fraction that the facets reflect inside. Both are Mitsuba's sums: T is interpolated linearly between 64 equidistant cosines, and
+// F̄ is 2/64 Σ R(μ) μ over these, 1.5% below the integral.
 #pragma once
 
 #include "core/material/beckmann.h"
@@ -83,8 +83,8 @@ public:
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const RoughPlastic& white() const { return *this; }
-    // At most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T. This is linear in T, so its
-    // maximum is at the smallest or the largest T.
+    // At most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T. This is linear in T, so
+    // its maximum is at the smallest or the largest T.
     Rgb largest_albedo() const {
         const Rgb s = specular_.upper_bound(), d = base_.upper_bound() * transmittance_->mean();
         const auto with = [&](double T) { return s * (1.0 - T) + d * T; };

@@ -11,8 +11,8 @@ namespace neumann {
 class SurfaceFunction {
 public:
     SurfaceFunction(const Rgb& constant) : constant_(constant) {}
-    // `upper_bound`: at least the function's largest value in each channel; used in the bounds on the series. `is_grey`: all channels
-    // are equal everywhere.
+    // `upper_bound`: at least the function's largest value in each channel; used in the bounds on the series. `is_grey`: all
+    // channels are equal everywhere.
     SurfaceFunction(std::function<Rgb(const ShadingPoint&)> f, const Rgb& upper_bound, bool is_grey = false)
         : constant_(upper_bound), function_(std::move(f)), is_grey_(is_grey) {}
 

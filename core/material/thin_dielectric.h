@@ -1,5 +1,5 @@
-// A pane so thin that light goes straight through it (Mitsuba's `thindielectric`), the same from both sides. Internal reflections are
-// added up: with F the Fresnel reflectance of one boundary,
+// A pane so thin that light goes straight through it (Mitsuba's `thindielectric`), the same from both sides. Internal reflections
+// are added up: with F the Fresnel reflectance of one boundary,
 //
 //     F + (1 − F)² F (1 + F² + F⁴ + …) = 2F / (1 + F)
 //

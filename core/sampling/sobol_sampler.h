@@ -1,8 +1,8 @@
-// Sobol' points with Owen's nested scrambling, in replicates: each run of `replicate_size` samples of a pixel is one scrambled net, and
-// replicates and pixels are independent of each other. The mean of a replicate is therefore an unbiased estimate, and the spread of
-// the replicates' means gives its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing: Laine and
-// Karras 2011 in the form of Vegdahl 2021. Only the first four dimensions, which are the best, are used: each further four are the same
-// points in another order (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
+// Sobol' points with Owen's nested scrambling, in replicates: each run of `replicate_size` samples of a pixel is one scrambled net,
+// and replicates and pixels are independent of each other. The mean of a replicate is therefore an unbiased estimate, and the
+// spread of the replicates' means gives its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing:
+// Laine and Karras 2011 in the form of Vegdahl 2021. Only the first four dimensions, which are the best, are used: each further
+// four are the same points in another order (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
 #pragma once
 
 #include "core/base/vec.h"
@@ -77,8 +77,8 @@ private:
         x = (x & 0x33333333u) << 2 | (x & 0xccccccccu) >> 2;
         return (x & 0x55555555u) << 1 | (x & 0xaaaaaaaau) >> 1;
     }
-    // Each bit of the result depends only on itself and the higher bits of the point (lower bits here, as they are reversed): a nested
-    // permutation.
+    // Each bit of the result depends only on itself and the higher bits of the point (lower bits here, as they are reversed): a
+    // nested permutation.
     static std::uint32_t scramble(std::uint32_t reversed, std::uint32_t seed) {
         std::uint32_t x = reversed;
         x ^= x * 0x3d20adeau;

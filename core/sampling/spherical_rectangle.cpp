@@ -15,8 +15,8 @@ SphericalRectangle::SphericalRectangle(const Vec3& corner, const Vec3& a, const 
     y0_ = glm::dot(corner, y_);
     x1_ = x0_ + glm::length(a);
     y1_ = y0_ + glm::length(b);
-    // The angle between the planes through the two sides at a corner, from its sine and cosine: the paper's arc cosine loses half of
-    // the digits if the rectangle is seen at a flat angle.
+    // The angle between the planes through the two sides at a corner, from its sine and cosine: the paper's arc cosine loses half
+    // of the digits if the rectangle is seen at a flat angle.
     const auto angle = [&](double x, double y, double sign) {
         return std::atan2(height_ * std::sqrt(x * x + y * y + height_ * height_), sign * x * y);
     };

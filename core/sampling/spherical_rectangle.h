@@ -1,5 +1,5 @@
-// Solid angle and uniform sampling of a rectangle seen from a point: Ureña, Fajardo and King, An Area-Preserving Parametrization for
-// Spherical Rectangles, 2013.
+// Solid angle and uniform sampling of a rectangle seen from a point: Ureña, Fajardo and King, An Area-Preserving Parametrization
+// for Spherical Rectangles, 2013.
 #pragma once
 
 #include "core/base/vec.h"
@@ -11,8 +11,8 @@ class SphericalRectangle {
 public:
     SphericalRectangle(const Vec3& corner, const Vec3& a, const Vec3& b);
 
-    // 0 if it is seen edge-on. The absolute error is about 10⁻¹⁵, or 10⁻¹⁶ divided by the distance to its plane if that is small, which
-    // is the effect of rounding the corner.
+    // 0 if it is seen edge-on. The absolute error is about 10⁻¹⁵, or 10⁻¹⁶ divided by the distance to its plane if that is small,
+    // which is the effect of rounding the corner.
     double solid_angle() const { return solid_angle_; }
     // A point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() > 0.
     Vec3 sample(const Vec2& u) const;

@@ -1,5 +1,5 @@
-// Maps from the unit square to directions and areas. The maps use no library function but the square root, so they give the same bits
-// on every machine; the inverse maps need atan2.
+// Maps from the unit square to directions and areas. The maps use no library function but the square root, so they give the same
+// bits on every machine; the inverse maps need atan2.
 #pragma once
 
 #include "core/base/vec.h"

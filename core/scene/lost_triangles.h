@@ -1,5 +1,6 @@
-// Finds triangles that are too thin for the size of the scene. Embree holds vertices as floats, in coordinates in which the scene has
-// about unit size. If rounding leaves next to nothing of a triangle, no ray hits it, although light sampling by area may still use it.
+// Finds triangles that are too thin for the size of the scene. Embree holds vertices as floats, in coordinates in which the scene
+// has about unit size. If rounding leaves next to nothing of a triangle, no ray hits it, although light sampling by area may still
+// use it.
 #pragma once
 
 #include "core/geometry/geometry.h"

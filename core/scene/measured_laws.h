@@ -1,5 +1,5 @@
-// Measures energy conservation and reciprocity of materials that guarantee neither (Disney's, and those under normal and bump maps), on
-// the shapes that use them.
+// Measures energy conservation and reciprocity of materials that guarantee neither (Disney's, and those under normal and bump
+// maps), on the shapes that use them.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -82,7 +82,8 @@ std::string albedo_text(double albedo) {
     return albedo > 1.0 && albedo < 1.0005 ? fmt::format("1 + {:.1g}", albedo - 1.0) : fmt::format("{:.3f}", albedo);
 }
 
-// Names the material with the largest albedo. For materials without guarantees the bound is measured plus 1%, and need not be reached.
+// Names the material with the largest albedo. For materials without guarantees the bound is measured plus 1%, and need not be
+// reached.
 void warn_of_gain(const Geometry& geometry, const Materials& materials, const std::vector<Origin>& origins, Warnings& warnings) {
     double largest = 1.0;
     std::uint32_t brightest = 0;

@@ -63,8 +63,8 @@ struct SceneParts : SceneNotes {
     Film film;
 };
 
-// Builds the acceleration structures, and warns of odd but accepted input: degenerate triangles, lights without area, no surfaces, no
-// light, albedo above 1. Throws InputError as Geometry does.
+// Builds the acceleration structures, and warns of odd but accepted input: degenerate triangles, lights without area, no surfaces,
+// no light, albedo above 1. Throws InputError as Geometry does.
 Scene make_scene(SceneParts parts);
 
 }  // namespace neumann

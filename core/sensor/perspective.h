@@ -5,8 +5,8 @@
 
 namespace neumann {
 
-// How a pinhole sees p through a plane given relative to the pinhole; nothing if p is not between the depths `near` and `far` along the
-// axis.
+// How a pinhole sees p through a plane given relative to the pinhole; nothing if p is not between the depths `near` and `far` along
+// the axis.
 std::optional<FilmPoint> see_through(const Vec3& pinhole, const FilmPlane& plane, const Vec3& axis, double near, double far,
                                      const Vec3& p);
 

@@ -1,12 +1,12 @@
-// Reconstruction filters with filter importance sampling (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006): a pixel's
-// samples are distributed like its filter, so pixels are independent of each other and need only a mean and a variance. The expected
-// picture is the same as with splatting,
+// Reconstruction filters with filter importance sampling (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006): a
+// pixel's samples are distributed like its filter, so pixels are independent of each other and need only a mean and a variance. The
+// expected picture is the same as with splatting,
 //
 //     ∫ f(x − centre) L(x) dx / ∫ f(x − centre) dx,
 //
 // over the film. For samples at given positions (light tracing), weight() is the normalised filter itself. A non-negative filter is
-// sampled exactly, and all samples have weight 1. A filter with negative lobes is sampled in proportion to |f|, and a sample has the
-// weight f / (pdf ∫ f).
+// sampled exactly, and all samples have weight 1. A filter with negative lobes is sampled in proportion to |f|, and a sample has
+// the weight f / (pdf ∫ f).
 #pragma once
 
 #include "core/base/vec.h"
@@ -62,8 +62,8 @@ private:
     double stddev_, radius_;
 };
 
-// A filter with negative lobes. Samples are distributed like a piecewise linear approximation of |f|, with cells so small that weights
-// are ±∫|f| / ∫f up to 1e-4, except near zeros of f. The weights use the exact f, so the expected picture is exact.
+// A filter with negative lobes. Samples are distributed like a piecewise linear approximation of |f|, with cells so small that
+// weights are ±∫|f| / ∫f up to 1e-4, except near zeros of f. The weights use the exact f, so the expected picture is exact.
 class SignedFilter {
 public:
     // Mitsuba's `mitchell`: Mitchell and Netravali, Reconstruction Filters in Computer Graphics, 1988. B and C from 0 to 1.
@@ -83,7 +83,7 @@ private:
     struct Table {
         Function f;
         double radius;
-        std::vector<double> size, cumulative_size, integral;  // at each node: |f|, and the integrals of the interpolated |f| and of f
+        std::vector<double> size, cumulative_size, integral;  // at each node: |f|, the integral of interpolated |f|, that of f
     };
     // `f` must be smooth between integers.
     SignedFilter(Function f, int radius);

@@ -2,8 +2,8 @@
 //
 //     power along ωo per projected area = fs(ωi → ωo) |cosθo| · power along ωi,
 //
-// with geometric cosines. fs is evaluated from ωo's side, so it need not be reciprocal. If shading normals differ from geometric ones,
-// R has |ωi·ns| in place of |ωi·ng|, and so must R* (Veach 1997, 5.3).
+// with geometric cosines. fs is evaluated from ωo's side, so it need not be reciprocal. If shading normals differ from geometric
+// ones, R has |ωi·ns| in place of |ωi·ng|, and so must R* (Veach 1997, 5.3).
 #pragma once
 
 #include "core/material/materials.h"
@@ -28,8 +28,8 @@ inline double camera_pdf(const Materials& materials, const SurfacePoint& x, cons
     return side.bsdf ? pdf(*side.bsdf, side.p, side.p.frame.to_local(wo), side.p.frame.to_local(wi)) : 0.0;
 }
 
-// Samples ωo for power that arrives from ωi, by BSDF sampling with the two directions exchanged. A BSDF that is not reciprocal might
-// never sample some of the directions needed, so with probability 1/2 the direction is cosine-distributed instead.
+// Samples ωo for power that arrives from ωi, by BSDF sampling with the two directions exchanged. A BSDF that is not reciprocal
+// might never sample some of the directions needed, so with probability 1/2 the direction is cosine-distributed instead.
 class AdjointReflection {
 public:
     struct Sample {
@@ -75,8 +75,8 @@ public:
     }
 
 private:
-    // The factor between the weight of a delta lobe for R* and that for radiance. `a` is ωi, for which the BSDF was sampled, and `b`
-    // the sampled direction. L/n² is conserved while the beam changes from dω(b) to dω(a) about the normal m of the mirror or
+    // The factor between the weight of a delta lobe for R* and that for radiance. `a` is ωi, for which the BSDF was sampled, and
+    // `b` the sampled direction. L/n² is conserved while the beam changes from dω(b) to dω(a) about the normal m of the mirror or
     // boundary, which follows from the two directions.
     static double only_direction(const Vec3& normal, const Vec3& a, const Vec3& b, double eta) {
         double beam = std::abs(glm::dot(normal, b) / glm::dot(normal, a));

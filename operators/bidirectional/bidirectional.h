@@ -1,6 +1,6 @@
 // Bidirectional path tracing: a subpath from the camera and one from a light, with every vertex of one connected to every vertex of
-// the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way, has s vertices from the light and
-// t from the camera, the first of which is on the lens, and makes paths of bounce s + t − 2:
+// the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way, has s vertices from the light
+// and t from the camera, the first of which is on the lens, and makes paths of bounce s + t − 2:
 //
 //     (0, t)  the camera subpath hits a light            (1, t)  its last vertex samples the lights
 //     (s, 1)  a light vertex is connected to the lens    (s, t)  two vertices are connected
@@ -32,10 +32,10 @@ struct BidirectionalWork {
 
 class Bidirectional {
 public:
-    // direct.direct and left_out of `settings` are ignored. The rest (bounces > N) is sampled with ways (0, t) and (1, t) alone. With
-    // splitting, the MIS weights are still those of one light sample and one walk; they add up to 1 anyway, because each way is
-    // averaged. `pixels`: number of pixels. There are as many light paths as camera paths in the whole picture, so each light vertex
-    // can be seen by that many pixels.
+    // direct.direct and left_out of `settings` are ignored. The rest (bounces > N) is sampled with ways (0, t) and (1, t) alone.
+    // With splitting, the MIS weights are still those of one light sample and one walk; they add up to 1 anyway, because each way
+    // is averaged. `pixels`: number of pixels. There are as many light paths as camera paths in the whole picture, so each light
+    // vertex can be seen by that many pixels.
     Bidirectional(const Scene& scene, const WalkSettings& settings, double pixels)
         : scene_(&scene),
           settings_(settings),
@@ -43,9 +43,9 @@ public:
           emission_(scene.geometry, scene.emitters),
           lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
 
-    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found) for contributions
-    // of path i to its own pixel, and splatted(i, position, Found) for contributions of its light subpath at a position on the film,
-    // times the number of pixels. `rays` has N + 2 entries. Returns the number of walks given up.
+    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found) for
+    // contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light subpath at a
+    // position on the film, times the number of pixels. `rays` has N + 2 entries. Returns the number of walks given up.
     template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
                                     std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,

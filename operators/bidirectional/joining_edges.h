@@ -48,7 +48,8 @@ inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emis
     return {light.point, {bounce, 1, value, weight}};
 }
 
-// (s, t), s ≥ 2: z is connected to the light vertex y; `bounce` counts the reflections of the camera subpath, the one at z included.
+// (s, t), s ≥ 2: z is connected to the light vertex y; `bounce` counts the reflections of the camera subpath, the one at z
+// included.
 inline JoiningEdge edge_to_vertex(const Scene& scene, Heuristic h, const CameraWalker& z, const SurfaceSide& side,
                                   const LightVertex& y, int bounce, int s) {
     const Vec3 d = y.x.position - z.x.position;

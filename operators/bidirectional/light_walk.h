@@ -51,9 +51,9 @@ inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, con
     return {.last = counted(h, asked / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
 }
 
-// Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, if these are needed. Calls
-// visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to count n rays. Returns the number of
-// paths given up.
+// Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, if these are needed.
+// Calls visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to count n rays. Returns the
+// number of paths given up.
 template <class Transport, class Sampler, class Visit, class CountRays, class Observer>
 std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
                                const Ending& ending, std::optional<Heuristic> weights, std::span<Sampler> samplers,

@@ -3,10 +3,10 @@
 //
 //     h(p_s) / Σ_k h(p_k),   h(p) = p (balance heuristic) or p² (power heuristic).
 //
-// The sum is split at the connecting edge, and each subpath updates its part of the sum as it is traced (van Antwerpen, Improving SIMD
-// Efficiency for Parallel Monte Carlo Light Transport on the GPU, 2011; Georgiev et al., Light Transport Simulation with Vertex
-// Connection and Merging, 2012). The last vertex of a subpath could also have been sampled from the other end, and so could the
-// vertices before it:
+// The sum is split at the connecting edge, and each subpath updates its part of the sum as it is traced (van Antwerpen, Improving
+// SIMD Efficiency for Parallel Monte Carlo Light Transport on the GPU, 2011; Georgiev et al., Light Transport Simulation with
+// Vertex Connection and Merging, 2012). The last vertex of a subpath could also have been sampled from the other end, and so could
+// the vertices before it:
 //
 //     Σ_{k<s} h(p_k / p_s) = h(p of the last vertex, from the other side) · (last + h(p of the one before, from the last) · before)
 #pragma once
@@ -18,14 +18,14 @@ namespace neumann {
 // h of a ratio of densities.
 inline double counted(Heuristic kind, double ratio) { return kind == Heuristic::power ? ratio * ratio : ratio; }
 
-// The partial sums of one subpath, at its last vertex. Densities of directions are per solid angle until the next vertex is known; the
-// density of the last vertex from the other subpath is per area.
+// The partial sums of one subpath, at its last vertex. Densities of directions are per solid angle until the next vertex is known;
+// the density of the last vertex from the other subpath is per area.
 struct PathWeights {
     double last = 0.0;    // term of the connection at the last vertex
     double before = 0.0;  // sum over connections at earlier edges
 
-    // Update after a direction was sampled with `pdf`; `cosine`: of its angle; `reverse_pdf`: of sampling the previous direction from
-    // it.
+    // Update after a direction was sampled with `pdf`; `cosine`: of its angle; `reverse_pdf`: of sampling the previous direction
+    // from it.
     void leave(Heuristic kind, double cosine, double pdf, double reverse_pdf) {
         before = counted(kind, cosine / pdf) * (before * counted(kind, reverse_pdf) + last);
         last = counted(kind, 1.0 / pdf);
@@ -41,8 +41,8 @@ struct PathWeights {
         before /= counted(kind, cosine);
     }
 
-    // Σ h(p_k / p_s) of this subpath. `density`: of the last vertex, sampled from the other subpath, per area; `reverse_pdf`: of the
-    // direction from the last vertex to the previous one, per solid angle.
+    // Σ h(p_k / p_s) of this subpath. `density`: of the last vertex, sampled from the other subpath, per area; `reverse_pdf`: of
+    // the direction from the last vertex to the previous one, per solid angle.
     double sum(Heuristic kind, double density, double reverse_pdf) const {
         return counted(kind, density) * (last + before * counted(kind, reverse_pdf));
     }

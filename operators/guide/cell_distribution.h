@@ -1,5 +1,6 @@
-// A density on the unit square, constant in each of k × k cells. u.y chooses the row and u.x the cell in the row, so stratified numbers
-// give stratified points. Probabilities are multiples of 2^-16: they add up to 1 exactly, and a uniform density is exactly uniform.
+// A density on the unit square, constant in each of k × k cells. u.y chooses the row and u.x the cell in the row, so stratified
+// numbers give stratified points. Probabilities are multiples of 2^-16: they add up to 1 exactly, and a uniform density is exactly
+// uniform.
 #pragma once
 
 #include "operators/patches/direction_cells.h"

@@ -19,8 +19,8 @@ constexpr std::uint64_t field_stream = 0x6775696465206bull, table_stream = 0x677
 // Number of terms of the series used; later ones are nearly isotropic.
 constexpr int most_terms = 16;
 
-// Checks the memory for the fields (also on coarser patches), work space, T and the tables. Called before the patch space exists, and
-// again when the number of unknowns is known.
+// Checks the memory for the fields (also on coarser patches), work space, T and the tables. Called before the patch space exists,
+// and again when the number of unknowns is known.
 void check_memory(const GuideSettings& settings, double unknowns, double facets) {
     check_patch_memory(settings.patches, settings.rays,
                        300.0 + unknowns * (32.0 + 15.0 * (most_terms + 2.0) + 4.0 * DirectionTables::most_tables) +

@@ -1,12 +1,12 @@
-// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2), with fields on
-// patches in place of photons. For each facet and each number of bounces still wanted there is a density of the next direction on a
-// grid of cells, a mixture of the cosine density and of what the facet's rays see:
+// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2), with fields
+// on patches in place of photons. For each facet and each number of bounces still wanted there is a density of the next direction
+// on a grid of cells, a mixture of the cosine density and of what the facet's rays see:
 //
 //     pdf(ω) = cosθ/π (α + (1 − α) w / mean w),     w² = Σ_k (K^k Le)² / m_k,   k = 1 … number of bounces still wanted
 //
-// m_k is the mean of K^k Le over the scene. The best density for a single bounce is proportional to K^k Le; for a sum of variances it
-// is the root of the sum of squares. The factor 1/m_k is a compromise between relative errors of each bounce (1/m_k²) and absolute
-// errors (1). Le is left out, because walks find it by light sampling. Any density above 0 leaves walks unbiased.
+// m_k is the mean of K^k Le over the scene. The best density for a single bounce is proportional to K^k Le; for a sum of variances
+// it is the root of the sum of squares. The factor 1/m_k is a compromise between relative errors of each bounce (1/m_k²) and
+// absolute errors (1). Le is left out, because walks find it by light sampling. Any density above 0 leaves walks unbiased.
 #pragma once
 
 #include "core/base/memory.h"
@@ -39,8 +39,8 @@ public:
     // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in memory.
     DirectionTables(const Scene& scene, const GuideSettings& settings);
 
-    // The table for the side of p on which `wo` is. `wanted` ≥ 1: number of bounces after the one that is sampled. Directions are in
-    // Frame(normal), with the normal of that side. Null if there is no table.
+    // The table for the side of p on which `wo` is. `wanted` ≥ 1: number of bounces after the one that is sampled. Directions are
+    // in Frame(normal), with the normal of that side. Null if there is no table.
     const CellDistribution* at(const SurfacePoint& p, const Vec3& wo, int wanted) const {
         const std::uint32_t facet = raster_.facet(p, glm::dot(p.normal, wo) > 0.0);
         if (facet == space_.facets().size()) return nullptr;

@@ -1,7 +1,7 @@
-// Fields on a patch space: exitant radiance, and incident radiance in the cells of directions, with one value per unknown. They have
-// different types, like functions (operators/pointwise/field.h): T maps exitant to incident fields and R maps them back. All colour
-// channels are stored together. C is 1 if the scene is grey, otherwise 4; the fourth channel is zero and makes a column one SIMD
-// load of doubles.
+// Fields on a patch space: exitant radiance, and incident radiance in the cells of directions, with one value per unknown. They
+// have different types, like functions (operators/pointwise/field.h): T maps exitant to incident fields and R maps them back. All
+// colour channels are stored together. C is 1 if the scene is grey, otherwise 4; the fourth channel is zero and makes a column one
+// SIMD load of doubles.
 #pragma once
 
 #include "core/base/vec.h"
@@ -30,8 +30,8 @@ Rgb to_rgb(const Channels<C>& c) {
         return Rgb(c[0], c[1], c[2]);
 }
 
-// One column per unknown, and a last one for PatchSpace::nothing(), which stays zero. Basic radiance, W·m⁻²·sr⁻¹. To change the side
-// of values, write it out: ExitantVector<C>(std::move(f).values()).
+// One column per unknown, and a last one for PatchSpace::nothing(), which stays zero. Basic radiance, W·m⁻²·sr⁻¹. To change the
+// side of values, write it out: ExitantVector<C>(std::move(f).values()).
 template <class Side, int C>
 class PatchField {
 public:

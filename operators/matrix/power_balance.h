@@ -1,6 +1,6 @@
-// Where the power of a field on patches goes. Of the power that leaves the unknowns, the rays of T that see them catch some, and the
-// rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R conserves power to rounding, T
-// only in expectation, because the rays that see a facet and the facet's own rays are two different estimates.
+// Where the power of a field on patches goes. Of the power that leaves the unknowns, the rays of T that see them catch some, and
+// the rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R conserves power to rounding,
+// T only in expectation, because the rays that see a facet and the facet's own rays are two different estimates.
 #pragma once
 
 #include "operators/matrix/ray_table.h"

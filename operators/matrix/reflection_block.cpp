@@ -17,8 +17,8 @@ using Index = Eigen::Index;
 
 }  // namespace
 
-// Minimises ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d and whose gradient vanishes at the solution: first a few sweeps, then
-// Newton's method, because the sweeps are slow for glass.
+// Minimises ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d and whose gradient vanishes at the solution: first a few sweeps,
+// then Newton's method, because the sweeps are slow for glass.
 void scale_symmetrically(ReflectionBlock::Matrix& A, const Eigen::VectorXd& row_sums) {
     constexpr int most_sweeps = 100, most_steps = 40;
     const Index n = A.rows();

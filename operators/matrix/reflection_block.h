@@ -5,8 +5,8 @@
 // Each row sums to the mean directional albedo of its cell, and B = Bᵀ, so R* = R. B is sampled; a symmetric scaling D B D keeps it
 // reciprocal.
 //
-// If the material transmits light, both sides of a patch share one block: first the cells of the front, then those of the back. Glass
-// conserves basic radiance L/n². With m_i the étendue of cell i, which is n²/k² up to a factor, m B is symmetric.
+// If the material transmits light, both sides of a patch share one block: first the cells of the front, then those of the back.
+// Glass conserves basic radiance L/n². With m_i the étendue of cell i, which is n²/k² up to a factor, m B is symmetric.
 #pragma once
 
 #include "core/material/bsdf.h"

@@ -2,8 +2,8 @@
 // depends on the materials alone, not on visibility.
 //
 // A diffuse facet has one cell, whose block is 1. A patch's reflectance is the mean over its points; rows then sum to the mean
-// directional albedo, so ‖R‖∞ is at most the largest albedo, and the white furnace test holds to rounding on any mesh. The two facets
-// of a patch that transmits light share a block.
+// directional albedo, so ‖R‖∞ is at most the largest albedo, and the white furnace test holds to rounding on any mesh. The two
+// facets of a patch that transmits light share a block.
 //
 // R is reciprocal: R*, which maps exitant to incident importance, has the same entries as R.
 #pragma once

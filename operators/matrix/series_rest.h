@@ -1,7 +1,7 @@
-// Σ_{k>N} K^k Le, the rest of a series, with few applications of K. Terms are added until t_{n+2} ≈ μ t_n; what follows is summed as a
-// geometric series, (t_{n+1} + t_{n+2}) μ/(1−μ). Every second term is compared because light between, for example, a lamp and the
-// ceiling makes neighbouring terms alternate. The error, about ‖t_{n+2} − μ t_n‖/(1−μ)², is below `closing_error` of the rest. This is
-// an estimate for pictures, not a bound.
+// Σ_{k>N} K^k Le, the rest of a series, with few applications of K. Terms are added until t_{n+2} ≈ μ t_n; what follows is summed
+// as a geometric series, (t_{n+1} + t_{n+2}) μ/(1−μ). Every second term is compared because light between, for example, a lamp and
+// the ceiling makes neighbouring terms alternate. The error, about ‖t_{n+2} − μ t_n‖/(1−μ)², is below `closing_error` of the rest.
+// This is an estimate for pictures, not a bound.
 #pragma once
 
 #include "operators/matrix/patch_field.h"

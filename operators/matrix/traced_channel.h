@@ -24,8 +24,8 @@ private:
     Vector reflectance_;
 };
 
-// T and R as sparse matrices, with the rays as their common index: T has a row per ray, R has a row per unknown and a column per ray,
-// and K = R T.
+// T and R as sparse matrices, with the rays as their common index: T has a row per ray, R has a row per unknown and a column per
+// ray, and K = R T.
 Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& table);
 Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R);
 // The number of entries of that R.

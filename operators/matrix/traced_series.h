@@ -36,8 +36,9 @@ struct TracedSeries {
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings);
 
-// The series of importance: We, K* We, …, m⁻²·sr⁻¹, each averaged over all directions of a side. If Le does not depend on direction,
-// ⟨K*^i We, Le⟩ is the mean over pixels of the picture of bounce i. In the coarser space K_c* = M K* P, because M is the adjoint of P.
+// The series of importance: We, K* We, …, m⁻²·sr⁻¹, each averaged over all directions of a side. If Le does not depend on
+// direction, ⟨K*^i We, Le⟩ is the mean over pixels of the picture of bounce i. In the coarser space K_c* = M K* P, because M is the
+// adjoint of P.
 TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                               const TracedSeriesSettings& settings);
 

@@ -1,6 +1,6 @@
-// The charts of all surfaces, and the chart of a point. Two triangles that form a plane convex quadrilateral share a chart. Any other
-// triangle has three charts, one at each corner, if it is larger than a patch, and otherwise one. A sphere, a cylinder or a disc has
-// one.
+// The charts of all surfaces, and the chart of a point. Two triangles that form a plane convex quadrilateral share a chart. Any
+// other triangle has three charts, one at each corner, if it is larger than a patch, and otherwise one. A sphere, a cylinder or a
+// disc has one.
 #pragma once
 
 #include "operators/patches/chart.h"

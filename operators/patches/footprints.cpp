@@ -11,9 +11,9 @@ namespace {
 // Limit on the pairs of charts and edges that are tested; in larger scenes patches are small anyway.
 constexpr std::size_t most_pairs = 20'000'000;
 
-// Bands reach depth_of_bands widths into a gap; if that is less than `near`, there are none. They end where they would be as wide as
-// the patches. The band at the mouth is a quarter as wide as the gap. The light that leaks out is then right to 2%; without bands it
-// is 17% too much (tests/matrix/gaps.cpp).
+// Bands reach depth_of_bands widths into a gap; if that is less than `near`, there are none. They end where they would be as wide
+// as the patches. The band at the mouth is a quarter as wide as the gap. The light that leaks out is then right to 2%; without
+// bands it is 17% too much (tests/matrix/gaps.cpp).
 constexpr double depth_of_bands = 16.0, largest_depth = 12.0, band_ratio = 0.8;
 
 struct Edge {

@@ -1,7 +1,7 @@
-// The finite-dimensional space on which T and R are matrices. Its unknowns are the exitant radiance of each side of each patch in each
-// of its cells of directions. Sides that neither reflect nor emit, and sides that face nothing, have no unknowns. The values are basic
-// radiance L/n², which refraction conserves; n is the refractive index of the medium that the side faces. This file knows geometry
-// only; operators/matrix/sides.h derives the cells and n of each side from the materials.
+// The finite-dimensional space on which T and R are matrices. Its unknowns are the exitant radiance of each side of each patch in
+// each of its cells of directions. Sides that neither reflect nor emit, and sides that face nothing, have no unknowns. The values
+// are basic radiance L/n², which refraction conserves; n is the refractive index of the medium that the side faces. This file knows
+// geometry only; operators/matrix/sides.h derives the cells and n of each side from the materials.
 #pragma once
 
 #include "core/base/frame.h"
@@ -68,8 +68,8 @@ public:
     // z points away from the facet's side.
     static Frame frame(const Facet& facet, const SurfacePoint& p) { return frame(facet.front, p); }
 
-    // The radiance that leaves p along w, interpolated linearly between patches: Σ weight · field[unknown]. The weight is 0 if there
-    // is no unknown.
+    // The radiance that leaves p along w, interpolated linearly between patches: Σ weight · field[unknown]. The weight is 0 if
+    // there is no unknown.
     struct Reading {
         std::array<std::uint32_t, 4> unknown;
         std::array<double, 4> weight;

@@ -61,8 +61,8 @@ public:
         return parts_[patch.part].point(*geometry_, chart, footprints_[patch.chart], patch.cell, patch.region, u);
     }
 
-    // Linear interpolation between the values at the patches' centres, extrapolated to the chart's edge: the value at a point is the
-    // sum of values times weights. There is no interpolation across charts.
+    // Linear interpolation between the values at the patches' centres, extrapolated to the chart's edge: the value at a point is
+    // the sum of values times weights. There is no interpolation across charts.
     struct Reading {
         std::array<std::uint32_t, 4> patch;
         std::array<double, 4> weight;

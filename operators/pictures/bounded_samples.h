@@ -1,8 +1,8 @@
 // Proves that the variance is finite, whatever the samples look like: it is if all samples are bounded.
 //
-// A path that samples the BSDFs and hits a light contributes Le Π fs |cosθ| / pdf. Every factor is bounded for all of our materials,
-// and the tables of `guided` mix in the BSDF with a share α. A light sample with the weight of the power or the balance heuristic
-// has the same bound: with p1 the pdf of light sampling and p2 that of BSDF sampling,
+// A path that samples the BSDFs and hits a light contributes Le Π fs |cosθ| / pdf. Every factor is bounded for all of our
+// materials, and the tables of `guided` mix in the BSDF with a share α. A light sample with the weight of the power or the balance
+// heuristic has the same bound: with p1 the pdf of light sampling and p2 that of BSDF sampling,
 //
 //     f/p1 · p1²/(p1² + p2²) ≤ f/(2 p2),     f/p1 · p1/(p1 + p2) ≤ f/p2,
 //
@@ -13,9 +13,9 @@
 
 namespace neumann {
 
-// True if the samples of bounces 0 … N are proven to be bounded; false proves nothing. 1/d² is unbounded if light samples alone find
-// a light that touches a surface, if vertices are sampled on surfaces that touch, and near a light without extent. The rest is not
-// judged.
+// True if the samples of bounces 0 … N are proven to be bounded; false proves nothing. 1/d² is unbounded if light samples alone
+// find a light that touches a surface, if vertices are sampled on surfaces that touch, and near a light without extent. The rest is
+// not judged.
 bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings);
 
 }  // namespace neumann

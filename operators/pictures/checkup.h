@@ -9,8 +9,8 @@
 
 namespace neumann {
 
-// Whether a ray hits the surface that it leaves: the hit lies in the plane of the starting point, within the rounding errors of both
-// points.
+// Whether a ray hits the surface that it leaves: the hit lies in the plane of the starting point, within the rounding errors of
+// both points.
 bool is_self_hit(const SurfacePoint& from, const SurfacePoint& to);
 
 struct SelfHit {

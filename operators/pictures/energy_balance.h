@@ -4,9 +4,9 @@
 //
 //     E β_i = E β_i (1 − ρ(x_i, ω_i)) + E β_{i+1} [nothing is hit] + E β_{i+1} [something is hit],   ρ = ∫ fs |cosθ| dω
 //
-// ρ is estimated with independent directions and from fs itself, not from the weights of sampled directions, so the two sides differ
-// if the weights of a material, a guide or roulette are wrong. (A sampling density that differs from the pdf is not noticed if the
-// mean weight stays the same.) Delta lobes have no value of fs; their sampled weight is used.
+// ρ is estimated with independent directions and from fs itself, not from the weights of sampled directions, so the two sides
+// differ if the weights of a material, a guide or roulette are wrong. (A sampling density that differs from the pdf is not noticed
+// if the mean weight stays the same.) Delta lobes have no value of fs; their sampled weight is used.
 #pragma once
 
 #include "core/sampling/independent_sampler.h"

@@ -1,10 +1,10 @@
-// A model of the errors of pictures from fields, fitted render by render. It predicts the errors of other settings, and the settings
-// that reach a given error.
+// A model of the errors of pictures from fields, fitted render by render. It predicts the errors of other settings, and the
+// settings that reach a given error.
 //
 //     error² = A / samples + B / rays + C / max(rays, cells) + (D patches^-order)²
 //
-// A is of camera samples, B and C of rays of T, D of patches. C is of sides with `cells` cells of directions, which have at least one
-// ray per cell.
+// A is of camera samples, B and C of rays of T, D of patches. C is of sides with `cells` cells of directions, which have at least
+// one ray per cell.
 #pragma once
 
 #include "operators/pictures/field_pictures.h"

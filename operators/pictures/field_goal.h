@@ -29,9 +29,9 @@ struct FieldRun {
     std::string why = {};  // why the search ended without reaching the error, in words
 };
 
-// No render starts that is predicted to exceed the time; one that exceeds it by a tenth and a second is dropped. Without an error to
-// reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the result of
-// the previous render; the first render is not stopped. Does not call watch.judge.
+// No render starts that is predicted to exceed the time; one that exceeds it by a tenth and a second is dropped. Without an error
+// to reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the
+// result of the previous render; the first render is not stopped. Does not call watch.judge.
 FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch);
 
 // A single render with these settings; nothing if it is interrupted.

@@ -9,7 +9,8 @@ struct FieldSizes {
     double patches = 0.0, unknowns = 0.0, rays = 0.0;  // `rays`: rays of T in one replicate
 };
 
-// Bytes of the fields: patches, T, the fields of all replicates and work space. Bytes of the pictures: the values of all replicates.
+// Bytes of the fields: patches, T, the fields of all replicates and work space. Bytes of the pictures: the values of all
+// replicates.
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes);
 double bytes_of_pictures(const FieldSettings& settings, const Film& film);
 

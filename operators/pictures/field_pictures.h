@@ -47,8 +47,8 @@ public:
     // The mean of term(i) alone, in floats.
     Image term_mean(std::size_t i) const;
 
-    // Means over pixels and channels. All pixels share the fields, so their errors are correlated; the standard errors come from the
-    // spread of whole replicates.
+    // Means over pixels and channels. All pixels share the fields, so their errors are correlated; the standard errors come from
+    // the spread of whole replicates.
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, i); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(0, i); }
     MeanWithError mean_of_rest() const { return mean(quantities_ - 1, quantities_ - 1); }
@@ -63,8 +63,8 @@ public:
     EnergyBalance power;  // power of light on the patches, W; replicates are the observations; without bounces for importance
     bool importance;      // the pictures show K*^i We, m⁻²·sr⁻¹, in place of K^i Le
     bool rest_converges = false;
-    std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; rays for all of them are counted for bounce 2, or for the
-                                      // rest if N < 2
+    std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; rays for all of them are counted for bounce 2, or for
+                                      // the rest if N < 2
     std::size_t patches = 0, unknowns = 0;
     std::map<std::uint32_t, std::size_t> sides;  // number of sides of patches by their number of cells of directions
     std::uint64_t samples = 0;                   // camera samples per pixel

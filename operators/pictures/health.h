@@ -24,8 +24,8 @@ struct SampleHealth {
     // Number of pixels whose samples are finite but whose mean overflows, and the first such pixel.
     std::uint64_t overflowed = 0;
     std::uint32_t first_overflowed = 0;
-    // The sample with the largest share of its pixel among the 1000 largest samples of the picture; fireflies are preferred. None if
-    // many samples are alike.
+    // The sample with the largest share of its pixel among the 1000 largest samples of the picture; fireflies are preferred. None
+    // if many samples are alike.
     std::optional<LargestShare> largest;
     // Number of these 1000 samples that are fireflies: the sample alone is more than half of its pixel's sum of all bounces, adds
     // more than the picture's mean to its pixel, and adds more than a quarter of the brightest pixel of this bounce (which samples

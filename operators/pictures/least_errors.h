@@ -6,11 +6,11 @@
 //           h = D/n        otherwise: one sample more or less. Replicates of stratified samples often meet something equally often
 //                          although their expectation lies a little higher, and their spread does not show that
 //
-// with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight neighbours.
-// If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an earlier
-// bounce; failing that, ‖Le‖∞ a^i. h is at most ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where it is known
-// that nothing is there: channels without light or albedo, bounces that the plan proves empty, and pixels around which no ray meets
-// a reflecting surface.
+// with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
+// neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an
+// earlier bounce; failing that, ‖Le‖∞ a^i. h is at most ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where
+// it is known that nothing is there: channels without light or albedo, bounces that the plan proves empty, and pixels around which
+// no ray meets a reflecting surface.
 #pragma once
 
 #include "operators/pictures/rendered_series.h"

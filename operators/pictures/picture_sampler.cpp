@@ -45,7 +45,8 @@ Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q
     return sum;
 }
 
-// Writes the means of one pixel's samples in a replicate into work.sum, and the range of the samples of each quantity into `ranges`.
+// Writes the means of one pixel's samples in a replicate into work.sum, and the range of the samples of each quantity into
+// `ranges`.
 void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_weights,
              const std::optional<glm::dmat3>& colors, std::span<SampleRange> ranges, Workspace& work) {
     const std::size_t quantities = work.sum.size();

@@ -29,8 +29,8 @@ public:
 
     // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
     // which holds the earlier replicates, unless the work is dropped. `watch` is called from any thread with the number of pixels
-    // done; if it returns true, the work is dropped. `memory` is reused for the node: fresh pages for every block would cost as much
-    // as the moments themselves.
+    // done; if it returns true, the work is dropped. `memory` is reused for the node: fresh pages for every block would cost as
+    // much as the moments themselves.
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch = {},
                                    std::vector<double> memory = {}) const;
 

@@ -4,9 +4,9 @@
 //
 //     SE ≥ σ/n,   σ the standard deviation of the values that the rays return.
 //
-// A pixel reads rows of T, and each row has the rays of one facet. The rows are scrambled independently, so for the mean of a picture
-// all M rays count: if they all agree, up to 3/M of them could differ (95%), which is about the width of an interval with three
-// degrees of freedom.
+// A pixel reads rows of T, and each row has the rays of one facet. The rows are scrambled independently, so for the mean of a
+// picture all M rays count: if they all agree, up to 3/M of them could differ (95%), which is about the width of an interval with
+// three degrees of freedom.
 #pragma once
 
 #include "operators/matrix/traced_series.h"

@@ -9,8 +9,8 @@
 
 namespace neumann {
 
-// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit; 0 if none reflects. The same bits on any
-// number of threads.
+// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit; 0 if none reflects. The same bits on
+// any number of threads.
 Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed);
 
 // For each pixel, the largest radiance of sampled points on lights that the camera sees there. This finds lights that are too small

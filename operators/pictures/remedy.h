@@ -1,5 +1,5 @@
-// What else to try against a firefly. The answer depends on which reflections of its path are by a delta lobe (mirror, glass, hole),
-// where no other strategy can make the path.
+// What else to try against a firefly. The answer depends on which reflections of its path are by a delta lobe (mirror, glass,
+// hole), where no other strategy can make the path.
 #pragma once
 
 #include "operators/pictures/picture_sampler.h"
@@ -15,8 +15,8 @@ enum class Remedy {
     more_bounces    // the rest is sampled from the camera alone, so a larger N helps
 };
 
-// The remedies that scene and path allow for a sample of a quantity (bounce 0 … N or the rest); several are to be combined. Empty if
-// every method makes such a path by chance only.
+// The remedies that scene and path allow for a sample of a quantity (bounce 0 … N or the rest); several are to be combined. Empty
+// if every method makes such a path by chance only.
 std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity);
 
 }  // namespace neumann

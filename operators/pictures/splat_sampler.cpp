@@ -41,8 +41,8 @@ SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
       light_points_(light_net),
       filter_radius_(radius(scene.film.filter)) {}
 
-// Adds a contribution to the pixels whose filter covers `position`. `value` is radiance times the number of pixels, for one path per
-// pixel.
+// Adds a contribution to the pixels whose filter covers `position`. `value` is radiance times the number of pixels, for one path
+// per pixel.
 void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,
                           Workspace& work) const {
     const Film& film = scene_->film;

@@ -1,5 +1,5 @@
-// Estimators of all terms along camera rays with one interface: estimator(rays, samplers, workspace, result). Walks can report to an
-// observer (operators/walk/observer.h).
+// Estimators of all terms along camera rays with one interface: estimator(rays, samplers, workspace, result). Walks can report to
+// an observer (operators/walk/observer.h).
 #pragma once
 
 #include "operators/pictures/sampling_settings.h"

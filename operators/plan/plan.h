@@ -1,5 +1,5 @@
-// Which parts of the program a scene needs, found from the scene before anything runs. Parts that it does not need are left out. This
-// does not change the expected picture; except for LeftOut::questions, it changes no bit of the picture.
+// Which parts of the program a scene needs, found from the scene before anything runs. Parts that it does not need are left out.
+// This does not change the expected picture; except for LeftOut::questions, it changes no bit of the picture.
 //
 // The cases are listed in plan.cpp.
 #pragma once

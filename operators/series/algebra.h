@@ -3,8 +3,8 @@
 //     (A B) f = A(B f)   (A + B) f = A f + B f   (a A) f = a (A f)   I f = f
 //     (A B)* = B* A*     (A + B)* = A* + B*      (a A)* = a A*       I* = I
 //
-// The types allow only what makes sense: T maps exitant fields to incident ones and R maps incident ones to exitant ones, so T T and
-// R R do not compile.
+// The types allow only what makes sense: T maps exitant fields to incident ones and R maps incident ones to exitant ones, so T T
+// and R R do not compile.
 #pragma once
 
 #include <concepts>
@@ -36,8 +36,8 @@ auto adjoint(const A& a) {
     return a.adjoint();
 }
 
-// An operator on numbered unknowns with access to its entries: for_row(u, each) calls each(v, a) so that (A f)_u = Σ a f_v. An entry
-// may be reported in several parts.
+// An operator on numbered unknowns with access to its entries: for_row(u, each) calls each(v, a) so that (A f)_u = Σ a f_v. An
+// entry may be reported in several parts.
 template <class A>
 concept HasRows = Operator<A> && requires(const A a, void (*each)(std::uint32_t, double)) {
     a.for_row(std::uint32_t{}, each);

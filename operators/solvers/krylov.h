@@ -22,8 +22,8 @@ SolverResult solve_conjugate_gradients(const Problem&);
 // counted.
 SolverResult solve_gmres(const Problem&, int restart = 50);
 
-// BiCGSTAB (Eigen) in the same norm: two applications per step and little memory. Estimates in the history are ‖Δx‖∞/‖x‖∞, except the
-// last one, which is as for GMRES.
+// BiCGSTAB (Eigen) in the same norm: two applications per step and little memory. Estimates in the history are ‖Δx‖∞/‖x‖∞, except
+// the last one, which is as for GMRES.
 SolverResult solve_bicgstab(const Problem&);
 
 }  // namespace neumann

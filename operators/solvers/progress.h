@@ -22,9 +22,9 @@ public:
     // Whether all allowed applications are used up, not counting those of diverges().
     bool exhausted() const { return result_.applications - evidence_.applications() >= static_cast<double>(problem_.most); }
 
-    // Error of x estimated from its residual r = Le + K x − x: ‖r‖∞ / (1 − radius) / ‖x‖∞. If the radius is not given, the larger of
-    // ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate) replaces 1 / (1 − radius); both are lower bounds of the norm of (I − K)⁻¹. The result is at
-    // least the rounding error of x.
+    // Error of x estimated from its residual r = Le + K x − x: ‖r‖∞ / (1 − radius) / ‖x‖∞. If the radius is not given, the larger
+    // of ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate) replaces 1 / (1 − radius); both are lower bounds of the norm of (I − K)⁻¹. The result is
+    // at least the rounding error of x.
     double from_residual(const Vector& r, const Vector& x, double rate = 0.0) const;
     // ε / (1 − q): the error, relative to x, of rounding each term or change by ε if they fall like q^n. q is the radius if it is
     // known to be below 1, and otherwise `rate`.

@@ -14,9 +14,9 @@ struct DecayFit {
     std::size_t first = 0, last = 0;  // range of the fitted bounces
 };
 
-// Least squares in log mean over the second half of the bounces, with weights (mean / error)². Bounces that are zero or lost in noise
-// (error above half the mean) are left out; bounces without error get the largest weight of the others. There is no fit with fewer
-// than two bounces. The bounces of a render come from the same walks and are correlated, so the fit has no interval.
+// Least squares in log mean over the second half of the bounces, with weights (mean / error)². Bounces that are zero or lost in
+// noise (error above half the mean) are left out; bounces without error get the largest weight of the others. There is no fit with
+// fewer than two bounces. The bounces of a render come from the same walks and are correlated, so the fit has no interval.
 std::optional<DecayFit> fit_decay(std::span<const MeanWithError> bounces);
 
 }  // namespace neumann

@@ -27,8 +27,8 @@ std::vector<std::size_t> finite_in_both(const Image& test, const Image& referenc
 
 double ratio(double error, double scale) { return error == 0.0 ? 0.0 : error / scale; }
 
-// Sums of squared standard errors, for Welch and Satterthwaite's degrees of freedom. Pictures may be as bright as 1e±100, so squares
-// are relative to the largest.
+// Sums of squared standard errors, for Welch and Satterthwaite's degrees of freedom. Pictures may be as bright as 1e±100, so
+// squares are relative to the largest.
 class ErrorOfSum {
 public:
     void add(double standard_error, double degrees_of_freedom) {

@@ -8,9 +8,9 @@
 
 namespace neumann {
 
-// Means are over all channels of all pixels; x is the value in the picture and r in the reference. The terms with ε keep dark pixels
-// from dominating; they scale with the picture, so its brightness does not matter. A term with x = r is 0, also in two black pictures.
-// Against a black reference, relMSE and MAPE of any other picture are infinite.
+// Means are over all channels of all pixels; x is the value in the picture and r in the reference. The terms with ε keep dark
+// pixels from dominating; they scale with the picture, so its brightness does not matter. A term with x = r is 0, also in two black
+// pictures. Against a black reference, relMSE and MAPE of any other picture are infinite.
 //
 //     RMSE    √ mean (x − r)²
 //     relMSE  mean (x − r)² / (r² + ε·mean(r)²)
@@ -30,8 +30,8 @@ struct Metrics {
 // Throws InputError if the sizes differ: "64×64 pixels against 32×32".
 Metrics compare(const Image& test, const Image& reference);
 
-// √ mean (SE_x² + SE_r²): the RMSE that noise alone causes if both pictures estimate the same thing. An empty standard_error counts as
-// zero.
+// √ mean (SE_x² + SE_r²): the RMSE that noise alone causes if both pictures estimate the same thing. An empty standard_error counts
+// as zero.
 double expected_rmse(const Estimate& test, const Estimate& reference);
 
 // The mean over all pixels, its difference from that of the reference, and the error of the difference. If a picture's means have
@@ -51,8 +51,8 @@ struct MeanDifferences {
 
 constexpr double exact_degrees_of_freedom = std::numeric_limits<double>::infinity();
 
-// A picture, and the degrees of freedom of the standard error of each pixel. An empty standard_error means that the picture is known
-// exactly.
+// A picture, and the degrees of freedom of the standard error of each pixel. An empty standard_error means that the picture is
+// known exactly.
 struct ComparedPicture {
     const Estimate& picture;
     double degrees_of_freedom = exact_degrees_of_freedom;

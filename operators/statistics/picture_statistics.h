@@ -11,8 +11,8 @@ struct MeanWithError {
     double interval() const;
 };
 
-// Mean over pixels and channels. A pixel's channels, and pixels that are not independent, are treated as fully correlated, which can
-// only overestimate the error. Degrees of freedom by Welch and Satterthwaite.
+// Mean over pixels and channels. A pixel's channels, and pixels that are not independent, are treated as fully correlated, which
+// can only overestimate the error. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
 // Means of each channel over pixels, and of all channels.

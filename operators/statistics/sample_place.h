@@ -1,5 +1,5 @@
-// The name of a sample, with which it can be traced again, and the pixel to which it contributed. Pixels are numbered row by row within
-// the crop.
+// The name of a sample, with which it can be traced again, and the pixel to which it contributed. Pixels are numbered row by row
+// within the crop.
 #pragma once
 
 #include <compare>

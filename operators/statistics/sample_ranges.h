@@ -1,5 +1,5 @@
-// The smallest and the largest sample of every pixel, quantity and channel. The ranges do not depend on the order in which samples are
-// added or parts are merged.
+// The smallest and the largest sample of every pixel, quantity and channel. The ranges do not depend on the order in which samples
+// are added or parts are merged.
 #pragma once
 
 #include "core/base/vec.h"

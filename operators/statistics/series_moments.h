@@ -1,8 +1,8 @@
 // Means and variances of all pictures of a series: for every pixel the mean of each term and the second central moments of each
 // term and of each partial sum, over replicates.
 //
-// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k). The rounding
-// therefore does not depend on how a run was divided: any ranges that cover the same replicates merge to the same bits.
+// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k). The
+// rounding therefore does not depend on how a run was divided: any ranges that cover the same replicates merge to the same bits.
 // Two sets are joined by Chan, Golub and LeVeque's formula (1983), under which equal means leave the variance exactly zero.
 #pragma once
 

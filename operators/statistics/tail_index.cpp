@@ -12,8 +12,8 @@ namespace {
 bool larger(const LargestSamples::Sample& a, const LargestSamples::Sample& b) { return a.value > b.value; }
 
 // Hill's estimate from the k largest samples in decreasing order, and the statistic k (X_k / X_1)^α: the expected number of samples
-// above the largest one if the tail is a power law, in which case it exceeds x with probability e^−x (Aban, Meerschaert and Panorska,
-// Parameter Estimation for the Truncated Pareto Distribution, 2006).
+// above the largest one if the tail is a power law, in which case it exceeds x with probability e^−x (Aban, Meerschaert and
+// Panorska, Parameter Estimation for the Truncated Pareto Distribution, 2006).
 struct Hill {
     double alpha, upper, missing;
 

@@ -1,5 +1,5 @@
-// Judges from the largest samples whether the variance is finite: if P(X > x) ~ x^−α with α ≤ 2 it is not, and intervals computed from
-// a variance do not hold.
+// Judges from the largest samples whether the variance is finite: if P(X > x) ~ x^−α with α ≤ 2 it is not, and intervals computed
+// from a variance do not hold.
 #pragma once
 
 #include "operators/statistics/sample_place.h"

@@ -25,8 +25,8 @@ constexpr int largest_effort = 30;
 
 Effort sampling_effort(int level);
 Effort field_effort(double level);
-// A method with the patches and rays of an effort filled in, if it has these options and leaves them open; and whether it leaves the
-// patches open.
+// A method with the patches and rays of an effort filled in, if it has these options and leaves them open; and whether it leaves
+// the patches open.
 Method with_effort(Method method, const Effort& effort);
 bool patches_are_given(const Method& method);
 // An effort with these samples per pixel, and the patches and rays of the level with the nearest number of samples.
@@ -36,15 +36,15 @@ Effort field_effort_of_samples(std::uint64_t samples);
 // (rendered_series.h), and neighbouring ones differ by at most an eighth.
 std::uint64_t whole_nets(double samples);
 
-// The level, at least 0, that takes this many seconds. `measured`: seconds of levels 0, 1, …, at least one. Between these the logarithm
-// is interpolated; beyond them each level is assumed to take `growth` > 1 times as long as the previous one.
+// The level, at least 0, that takes this many seconds. `measured`: seconds of levels 0, 1, …, at least one. Between these the
+// logarithm is interpolated; beyond them each level is assumed to take `growth` > 1 times as long as the previous one.
 double affordable_level(std::span<const double> measured, double growth, double seconds);
 
 // The growth factor per level of the times of fields, from the measured ones; their rays double with every second level.
 double field_growth(std::span<const double> measured);
 
-// Between two integer levels of fields only the patches grow, which takes less time than interpolation predicts. Given that this level
-// took `seconds`, returns the level below the next integer one that takes the budget.
+// Between two integer levels of fields only the patches grow, which takes less time than interpolation predicts. Given that this
+// level took `seconds`, returns the level below the next integer one that takes the budget.
 double corrected_level(double level, double seconds, double budget);
 
 // Whether the time differs from the budget by more than a tenth, too much for an equal-time comparison.

@@ -31,8 +31,8 @@ bool is_resolved(const ErrorPoint& point, double shared_error);
 // work.
 std::optional<ErrorSlope> error_slope(std::span<const ErrorPoint> points, double shared_error = 0.0);
 
-// The work at which the RMSE reaches `rmse`, by log-log interpolation between neighbouring points. below: the first point is already
-// better, and `work` is its work. Nothing if no point is as good.
+// The work at which the RMSE reaches `rmse`, by log-log interpolation between neighbouring points. below: the first point is
+// already better, and `work` is its work. Nothing if no point is as good.
 struct WorkToError {
     double work = 0.0;
     bool below = false;

@@ -50,8 +50,8 @@ struct StudiedPoint {
 // `reference_size`: √⟨r̂²⟩. Biases below the rounding of floats count as 0.
 PictureSummary summarise(std::span<const StudiedPoint> points, double reference_size);
 
-// An RMSE that all methods reach: the largest of the RMSEs at each method's largest budget. Only methods of finite variance count, if
-// there are any.
+// An RMSE that all methods reach: the largest of the RMSEs at each method's largest budget. Only methods of finite variance count,
+// if there are any.
 double error_reached_by_all(std::span<const PictureSummary> methods);
 void find_seconds_to_error(PictureSummary& summary, double rmse, std::span<const StudiedPoint> points);
 

@@ -87,9 +87,9 @@ double PictureErrors::reference_size() const {
     return compare(reference_.mean, Image(reference_.mean.width, reference_.mean.height)).rmse;
 }
 
-// The standard error of ⟨η²⟩ − ⟨v⟩ − 2⟨b, η⟩ with b = E x − r. For normal η, and v estimated with n degrees of freedom, a channel of a
-// pixel has the variance 2v² (1 + 1/n) + 4b²v. Channels of a pixel share their samples, and pixels may; they are then treated as fully
-// correlated.
+// The standard error of ⟨η²⟩ − ⟨v⟩ − 2⟨b, η⟩ with b = E x − r. For normal η, and v estimated with n degrees of freedom, a channel
+// of a pixel has the variance 2v² (1 + 1/n) + 4b²v. Channels of a pixel share their samples, and pixels may; they are then treated
+// as fully correlated.
 double PictureErrors::reference_error() const {
     const double n = reference_.degrees_of_freedom;
     const double estimated = n > 0.0 ? 2.0 * (1.0 + 1.0 / n) : 2.0;

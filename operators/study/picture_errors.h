@@ -7,8 +7,8 @@
 //     bias²  = mean_{j≠k} G_jk − ⟨v⟩        E = ⟨E x − r, E x − r⟩; a U-statistic, so it may come out negative
 //     V      = MSE − bias²                  E = the variance of a picture, averaged over it
 //
-// The expected noise of the reference is subtracted. What remains of it is common to all repeats, and to everything that is compared
-// with this reference; its error is reported separately from the error over repeats.
+// The expected noise of the reference is subtracted. What remains of it is common to all repeats, and to everything that is
+// compared with this reference; its error is reported separately from the error over repeats.
 #pragma once
 
 #include "core/image/image.h"

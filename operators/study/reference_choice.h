@@ -1,5 +1,5 @@
-// Chooses which of two unbiased methods renders the reference: the one that, at equal cost, is less far behind the other in its worst
-// bounce. With V_i the variance of bounce i, averaged over the picture, and C the cost of all bounces together
+// Chooses which of two unbiased methods renders the reference: the one that, at equal cost, is less far behind the other in its
+// worst bounce. With V_i the variance of bounce i, averaged over the picture, and C the cost of all bounces together
 //
 //     ρ_i = V_i C / (V'_i C')        the first method over the second
 //
@@ -13,8 +13,9 @@
 
 namespace neumann {
 
-// V_i C of every bounce, in radiance² · rays; the cost is in rays, because these, unlike seconds, are the same on any machine. Infinite
-// if the tail index says that V is, and if all samples are zero, so that V is unknown. Throws InputError for a single replicate.
+// V_i C of every bounce, in radiance² · rays; the cost is in rays, because these, unlike seconds, are the same on any machine.
+// Infinite if the tail index says that V is, and if all samples are zero, so that V is unknown. Throws InputError for a single
+// replicate.
 std::vector<double> variance_times_rays(const BounceSeries& series);
 
 struct VarianceRatio {
@@ -25,7 +26,8 @@ struct VarianceRatio {
     bool takes_first() const { return !(least * most > 1.0); }
 };
 
-// Compares the variance_times_rays() of two methods, for the same number of bounces, at least one. Two infinite values count as equal.
+// Compares the variance_times_rays() of two methods, for the same number of bounces, at least one. Two infinite values count as
+// equal.
 VarianceRatio variance_ratio(std::span<const double> first, std::span<const double> second);
 
 }  // namespace neumann

@@ -3,8 +3,8 @@
 //
 //     Var U = 4 (R−2) / (R (R−1)) ζ₁ + 2 / (R (R−1)) ζ₂,    ζ₁ = Cov(G_jk, G_jl),  ζ₂ = Var G_jk
 //
-// Both terms are needed, because ζ₁ vanishes if there is no bias. ζ₁ and ζ₂ are estimated without bias, from products of elements with
-// no index or one index in common. A negative estimate of ζ₁ is replaced by 0, which can only enlarge the error.
+// Both terms are needed, because ζ₁ vanishes if there is no bias. ζ₁ and ζ₂ are estimated without bias, from products of elements
+// with no index or one index in common. A negative estimate of ζ₁ is replaced by 0, which can only enlarge the error.
 #pragma once
 
 #include <cstddef>

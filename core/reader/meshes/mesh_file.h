@@ -1,5 +1,5 @@
-// Readers of OBJ, PLY and Mitsuba's serialized files. They are written by hand because vertices must be in double precision and errors
-// need file:line:column; the available libraries (tinyobjloader as packaged, assimp) read floats and report no position.
+// Readers of OBJ, PLY and Mitsuba's serialized files. They are written by hand because vertices must be in double precision and
+// errors need file:line:column; the available libraries (tinyobjloader as packaged, assimp) read floats and report no position.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -23,9 +23,9 @@ struct MeshFile {
 // normals gets its geometric normal, of length 1, or 0 if it has no area, and one without coordinates (0, 0).
 MeshFile read_obj(const std::string& path);
 
-// ASCII and binary of both byte orders. Texture coordinates are the properties u and v, texture_u and texture_v, or s and t of a vertex.
-// The named attributes (mesh_ply_header.h) are read if the file has them; whole numbers are divided by the largest number of their type
-// and decoded as sRGB. Other elements and properties are skipped.
+// ASCII and binary of both byte orders. Texture coordinates are the properties u and v, texture_u and texture_v, or s and t of a
+// vertex. The named attributes (mesh_ply_header.h) are read if the file has them; whole numbers are divided by the largest number
+// of their type and decoded as sRGB. Other elements and properties are skipped.
 MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes = {});
 
 // Versions 3 and 4, in single or double precision; `index` counts the meshes of a file from 0. Vertex colours are skipped. Errors

@@ -43,8 +43,8 @@ public:
         std::size_t line = 1, column = 1;
     };
 
-    // In OBJ syntax a backslash at the end of a line continues it, and a token that begins with # ends the line. The text must outlive
-    // the cursor.
+    // In OBJ syntax a backslash at the end of a line continues it, and a token that begins with # ends the line. The text must
+    // outlive the cursor.
     enum class Syntax { plain, obj };
     MeshText(std::string file, std::string_view text, Syntax syntax);
 
@@ -95,8 +95,8 @@ public:
     // `expected` names it: "expected an integer, found '1.5'".
     template <class Integer>
     Integer integer(const char* expected);
-    // Reads a number as a prefix of a token; returns false and does not move if there is none. begin_token() skips blanks and marks the
-    // token.
+    // Reads a number as a prefix of a token; returns false and does not move if there is none. begin_token() skips blanks and marks
+    // the token.
     void begin_token() { at_line_end(); }
     bool integer_prefix(std::int64_t& value) {
         const auto [next, error] = std::from_chars(at_, end_, value);

@@ -8,9 +8,9 @@
 namespace neumann::reader {
 
 // A negative colour is a problem of the parameter and gives black. Spectra become colours as in Mitsuba's RGB modes: a list of
-// wavelengths is integrated, a reflectance under D65 and a radiance under equal energy; both are clipped to the gamut of sRGB, and a
-// reflectance to at most 1. A spectrum of one value is a grey reflectance, or a radiance of equal energy, which is not white. <rgb>
-// and <float> are used unchanged.
+// wavelengths is integrated, a reflectance under D65 and a radiance under equal energy; both are clipped to the gamut of sRGB, and
+// a reflectance to at most 1. A spectrum of one value is a grey reflectance, or a radiance of equal energy, which is not white.
+// <rgb> and <float> are used unchanged.
 Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings);
 // η or k of a metal, channel by channel: a list of wavelengths is integrated under D65, and only clipped at 0.
 Rgb parse_metal_index(Properties& p, const std::string& name, const Element& e, Warnings& warnings);

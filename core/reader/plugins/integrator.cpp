@@ -18,8 +18,8 @@ void read_course_of_work(Properties& p) {
     p.number("timeout");
 }
 
-// Integrators that estimate the light of all paths up to a length. Some start at the lights (`ptracer`) or handle media, which do not
-// exist here; the expected picture is the same.
+// Integrators that estimate the light of all paths up to a length. Some start at the lights (`ptracer`) or handle media, which do
+// not exist here; the expected picture is the same.
 const std::vector<std::string> path_types = {"path", "ptracer", "volpath", "volpathmis"};
 
 Integrator read_path(Properties& p) {

@@ -1,7 +1,7 @@
 // Reads all shapes of a scene: files are read in parallel, and groups are expanded at their instances.
 //
-// An instance becomes shapes of its own. Patches, area sampling and the choice of lights then treat it like any other surface, and a
-// hit identifies it by its shape alone; the price is memory for every copy, which is checked before it is allocated.
+// An instance becomes shapes of its own. Patches, area sampling and the choice of lights then treat it like any other surface, and
+// a hit identifies it by its shape alone; the price is memory for every copy, which is checked before it is allocated.
 #pragma once
 
 #include "core/reader/plugins/shapes.h"

@@ -1,5 +1,5 @@
-// <emitter> of the kinds without a shape: `constant` and `envmap`, which surround the scene, and `directional`, `point`, `projector` and
-// `spot`, which have no extent.
+// <emitter> of the kinds without a shape: `constant` and `envmap`, which surround the scene, and `directional`, `point`,
+// `projector` and `spot`, which have no extent.
 #pragma once
 
 #include "core/emitter/emitters.h"

@@ -15,14 +15,14 @@ struct Document {
     bool lost_folder = false;          // a <path> could not be read, so the search path is incomplete
     LostIds lost;
 
-    // The file that an attribute names, searched in the folders and next to the file that contains the attribute. Throws InputError if
-    // there is none.
+    // The file that an attribute names, searched in the folders and next to the file that contains the attribute. Throws InputError
+    // if there is none.
     std::string find_file(const Attribute& name) const;
 };
 
-// Upgrades of files of older versions are noted in `warnings`. Unused definitions are a problem, unless they are `optional`. Errors are
-// added to `problems`, and the elements are marked as broken in the document. Throws InputError if the main file cannot be read as a
-// scene at all.
+// Upgrades of files of older versions are noted in `warnings`. Unused definitions are a problem, unless they are `optional`. Errors
+// are added to `problems`, and the elements are marked as broken in the document. Throws InputError if the main file cannot be read
+// as a scene at all.
 Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
                        Problems& problems, bool optional = false);
 

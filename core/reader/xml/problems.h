@@ -1,5 +1,5 @@
-// Collects all errors of a scene, so that they are reported at once. The reader of an element catches InputError, adds it, and goes on
-// with a neutral replacement. Elements that depend on a broken one report no errors of their own because of it.
+// Collects all errors of a scene, so that they are reported at once. The reader of an element catches InputError, adds it, and goes
+// on with a neutral replacement. Elements that depend on a broken one report no errors of their own because of it.
 #pragma once
 
 #include "core/base/error.h"
@@ -22,7 +22,8 @@ public:
 // May be added to from several threads at once.
 class Problems {
 public:
-    // `near` is the element that was being read. Problems that name no line of a scene file, such as those of meshes, are listed there.
+    // `near` is the element that was being read. Problems that name no line of a scene file, such as those of meshes, are listed
+    // there.
     void add(const InputError& problem, const Location& near);
 
     // Calls f and returns its result, or nothing if it throws InputError. If f returns void: whether it did not throw.

@@ -1,5 +1,5 @@
-// The parameters and nested objects of one object. A plugin asks for those that it knows; finish() then refuses all others, so nothing
-// is skipped silently. The list of allowed names in messages consists of the names asked for.
+// The parameters and nested objects of one object. A plugin asks for those that it knows; finish() then refuses all others, so
+// nothing is skipped silently. The list of allowed names in messages consists of the names asked for.
 //
 // A wrong parameter is added to the problems and counts as missing, so that the others are checked as well; finish() then throws. A
 // plugin uses its parameters only after finish().

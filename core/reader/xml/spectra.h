@@ -6,8 +6,8 @@
 
 namespace neumann::reader {
 
-// Replaces a spectrum given by a file or an object by its list or number, so that later code needs to handle <spectrum name value> and
-// <float name value> only. A list that comes from `blackbody` keeps its type.
+// Replaces a spectrum given by a file or an object by its list or number, so that later code needs to handle <spectrum name value>
+// and <float name value> only. A list that comes from `blackbody` keeps its type.
 void write_out_spectrum(Element& e, Document& document, Problems& problems);
 
 }  // namespace neumann::reader

@@ -1,6 +1,6 @@
-// Upgrades scene files of Mitsuba 0.4 to 0.6 to the names of Mitsuba 3, as Mitsuba 3 does. It also upgrades some features that Mitsuba 3
-// refuses although their meaning is clear: `ldrfilm`, removed samplers and texture filters, `strictNormals`, `extEta`, `gamma`.
-// Everything else is left unchanged, and refused by name where it is read.
+// Upgrades scene files of Mitsuba 0.4 to 0.6 to the names of Mitsuba 3, as Mitsuba 3 does. It also upgrades some features that
+// Mitsuba 3 refuses although their meaning is clear: `ldrfilm`, removed samplers and texture filters, `strictNormals`, `extEta`,
+// `gamma`. Everything else is left unchanged, and refused by name where it is read.
 #pragma once
 
 #include "core/base/warnings.h"
