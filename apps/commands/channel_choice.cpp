@@ -18,13 +18,13 @@ constexpr double most_for_bounds = 1000.0;
 
 struct Radius {
     double value = 0.0, applications = 0.0;
-    std::string why;  // it was not found
+    std::string why;  // why it was not found
 };
 
 Radius find_radius(const PatchScene& scene, int c) {
     const TracedChannel K = scene.system().channel(c);
     double applications = 0.0;
-    // Light that total reflection keeps within glass goes round in many ways, among which no search finds its way.
+    // Light trapped in glass by total reflection has many eigenvectors with eigenvalue 1, so that searches do not converge.
     if (has_glass(scene.system().space())) {
         const RadiusBounds bounds = radius_bounds(K, most_for_bounds, [] { return !interrupted(); });
         applications += bounds.applications;

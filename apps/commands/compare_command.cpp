@@ -69,7 +69,7 @@ Row compare_pictures(const std::string& name, const std::string& path_a, const s
     }
 }
 
-// The pictures of a series in its order: bounces, sums, rest, each by number.
+// Sorts the pictures of a series: bounces, sums, rest, each by number.
 struct SeriesOrder {
     bool operator()(const std::string& a, const std::string& b) const { return key(a) < key(b); }
     static std::tuple<int, std::size_t, std::string> key(const std::string& name) {
@@ -94,7 +94,7 @@ Comparison compare_folders(const std::string& a, const std::string& b) {
     Comparison out;
     std::set_difference(in_a.begin(), in_a.end(), in_b.begin(), in_b.end(), std::back_inserter(out.only_in_a), SeriesOrder());
     std::set_difference(in_b.begin(), in_b.end(), in_a.begin(), in_a.end(), std::back_inserter(out.only_in_b), SeriesOrder());
-    // Where series end at different bounces, their rests are not the same light.
+    // If the series end at different bounces, their rests differ.
     const auto last_bounce = [](const auto& names) {
         const auto end = names.lower_bound("sum_");
         return end == names.begin() ? std::string() : fs::path(*std::prev(end)).stem().string();
@@ -117,7 +117,7 @@ bool is_folder(const std::string& path) {
     return fs::is_directory(status);
 }
 
-// A file says that an error is unknown by infinity: so after a single replicate.
+// In files, infinity means that an error is unknown, for example after a single replicate.
 std::string interval_text(const Row& row, const MeanDifference& d) {
     if (!row.has_error()) return "no standard error in the file";
     if (row.infinite_variance) return "none: infinite variance";
@@ -191,7 +191,7 @@ nlohmann::ordered_json json_of(const Row& row, const MeanDifference& d) {
     return j;
 }
 
-// What is infinite or not a number is null, as JSON has neither.
+// Infinity and NaN become null, because JSON has neither.
 nlohmann::ordered_json json_of(const Row& row) {
     const Metrics& m = row.metrics;
     nlohmann::ordered_json j = {{"name", row.name},

@@ -11,8 +11,8 @@ struct CompareRequest {
     bool json = false;
 };
 
-// Prints how far A is from B: two pictures, or two folders, of which the bounces, sums and rest that both have are compared and the
-// others named. Returns the exit code, 0. Throws InputError for what cannot be read or compared.
+// Prints the error metrics of A against B: of two pictures, or of the bounces, sums and rest that two folders both have; the others
+// are named. Returns the exit code, 0. Throws InputError for pictures that cannot be read or compared.
 int compare_command(const CompareRequest& request);
 
 }  // namespace neumann

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Mitsuba's script that makes the references takes so many without being told otherwise; the files do not say.
+// The default samples per pixel of Mitsuba's script that makes the references; the files do not contain the number.
 constexpr std::uint64_t reference_samples = 32'000;
 
 struct ConformScene {
@@ -36,11 +36,11 @@ struct ConformScene {
 
 struct ConformResult {
     std::string name;
-    std::string why_not;  // it could not be judged
+    std::string why_not;  // why it could not be judged
     std::uint64_t samples = 0;
     double seconds = 0.0;
     Conformity by_reference, by_error;
-    double brightness = 0.0;  // of the picture's mean Y, over the reference's
+    double brightness = 0.0;  // the picture's mean Y divided by the reference's
 
     bool judged() const { return why_not.empty(); }
     bool rejected() const { return judged() && !(by_reference.conforms() && by_error.conforms()); }
@@ -79,11 +79,11 @@ double mean_y(const Image& xyz) {
     return sum / static_cast<double>(xyz.pixels.size());
 }
 
-// The sum of all bounces that the file asks for, in XYZ.
+// Renders the sum of all bounces that the file asks for, in XYZ.
 std::optional<Estimate> picture_of(const Scene& scene, std::uint64_t samples, std::uint64_t seed, const glm::dmat3& xyz_from_rgb) {
     method::Walk walk;
     walk.sampler = SamplerKind::independent;
-    // Single samples, of which Student's t needs as many as there are.
+    // Each sample is a replicate: Student's t needs many.
     const Goal goal{.samples = samples,
                     .replicates = static_cast<std::uint32_t>(samples),
                     .seed = seed,

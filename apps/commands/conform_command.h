@@ -8,16 +8,16 @@ namespace neumann {
 
 struct ConformRequest {
     std::string folder;
-    std::string only;  // scenes whose path holds this
+    std::string only;  // only scenes whose path contains this
     std::string output = "out/conform";
-    std::uint64_t budget = 2'000'000;  // samples, over the pixels of a scene
+    std::uint64_t budget = 2'000'000;  // total samples per scene, over all pixels
     std::uint64_t seed = 0;
     int threads = 0;  // 0: all
     bool json = false;
 };
 
 // Prints a table of all scenes under FOLDER/tests/scenes, and writes pictures of those that are rejected. Returns the exit code: 1
-// where a scene is rejected, else 0. Throws InputError where there are no scenes.
+// if a scene is rejected, otherwise 0. Throws InputError if there are no scenes.
 int conform_command(const ConformRequest& request);
 
 }  // namespace neumann

@@ -7,7 +7,7 @@
 
 namespace neumann {
 
-// Throws InputError for what is not of this form.
+// Throws InputError for texts that are not of this form.
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& texts);
 
 }  // namespace neumann

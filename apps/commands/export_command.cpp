@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A ray's entry while a matrix is put together and turned into text.
+// Approximate memory of a ray's entry while a matrix is assembled and converted to text.
 constexpr double bytes_of_entry = 90.0;
 
-// A run replaces what an earlier one left in its folder; pictures are not to go that way.
+// Throws InputError if the folder holds a render, because a run replaces the files of earlier runs.
 void check_folder(const std::string& output) {
     std::error_code error;
     if (fs::exists(fs::path(output) / "bounce_000.exr", error))
@@ -28,7 +28,7 @@ void check_folder(const std::string& output) {
                          ": holds the pictures of a render, which the matrices would replace; name another folder with -o");
 }
 
-// Files of an export, with what they are called in Python.
+// The files of an export, with their names in Python.
 class Export {
 public:
     Export(const std::string& output, bool quiet) : folder_(output, "export"), quiet_(quiet) {}

@@ -13,14 +13,14 @@ struct ExportRequest {
     bool with_K = false;
 };
 
-// Throws InputError where T and R of the system are too large to be held as matrices.
+// Throws InputError if T and R of the system are too large for memory as matrices.
 void check_matrix_memory(const PatchOptions& options, const TracedSystem& system);
 // patches.csv: a row for each side of a patch, with its first unknown.
 std::string patches_table(const PatchSpace& space);
-// n² times area times projected solid angle, of each ray.
+// The étendue of each ray: n² times area times projected solid angle.
 Vector ray_measures(const RayTable& table);
 
-// All files or none. Exit code 0. Throws InputError, and RunError where a disk is full or Ctrl-C ended it.
+// Writes all files or none. Returns the exit code, 0. Throws InputError, and RunError if the disk is full or Ctrl-C was pressed.
 int export_command(const ExportRequest& request);
 
 }  // namespace neumann

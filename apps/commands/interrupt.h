@@ -1,11 +1,11 @@
-// Ctrl-C, once asks for an orderly end, twice ends the program as usual.
+// Handles Ctrl-C: the first asks for an orderly end, the second ends the program as usual.
 #pragma once
 
 namespace neumann {
 
 void catch_interrupts();
 bool interrupted();
-// The same from within: where another program has its own hands on the signals, as Python has.
+// Sets the flag directly, for host programs that handle signals themselves, such as Python.
 void set_interrupted(bool now);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// What a command may take of the machine.
+// Limits on the memory and the threads of a command.
 #pragma once
 
 #include <memory>
@@ -6,10 +6,10 @@
 
 namespace neumann {
 
-// Bytes, of so many GiB; half of what there is without them.
+// Converts GiB to bytes; without a value, half of the machine's memory.
 double memory_limit(const std::optional<double>& gibibytes);
 
-// While it lives there are at most so many threads; all with 0.
+// Limits the number of threads during its lifetime; 0: all.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads);

@@ -1,4 +1,4 @@
-// What the commands that take a scene as matrices share: their options, and how a scene becomes space, table, R and channels.
+// Shared by the commands that treat a scene as matrices: their options, and the construction of space, table, R and channels.
 #pragma once
 
 #include "apps/commands/limits.h"
@@ -19,7 +19,7 @@ struct PatchOptions {
     std::string scene;
     std::vector<std::string> definitions;  // -D name=value
     std::uint64_t patches = 2000;
-    std::uint64_t rays = 64;  // of a facet
+    std::uint64_t rays = 64;  // per facet
     std::uint64_t seed = 0;
     int threads = 0;               // 0: all
     std::optional<double> memory;  // GiB
@@ -28,12 +28,12 @@ struct PatchOptions {
     std::string command_line;  // as typed
 };
 
-// The scene of a command, read and traced; while it lives it holds the number of threads.
+// The scene of a command, read and traced. During its lifetime it limits the number of threads.
 class PatchScene {
 public:
-    // Throws InputError, with the option or the scene that is wrong, and what would do.
+    // Throws InputError that names the wrong option or scene, and what is allowed.
     explicit PatchScene(const PatchOptions& options);
-    // Of a scene that was read before, with these definitions.
+    // Uses a scene that was read before, with these definitions.
     PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions);
 
     const Scene& scene() const { return *scene_; }
@@ -58,7 +58,7 @@ private:
     std::unique_ptr<TracedSystem> system_;
 };
 
-// On stderr, unless `quiet`.
+// Prints to stderr, unless `quiet`.
 void print_warnings(const std::vector<std::string>& warnings, bool quiet);
 std::vector<std::string> texts(const Warnings& warnings);
 

@@ -1,4 +1,4 @@
-// `neumann plan`: what a scene needs of the machinery, what is left out, and why.
+// `neumann plan`: which parts of the program a scene needs, which are left out, and why.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// One line on a terminal that is written over again while work goes on.
+// A progress line on a terminal, overwritten as work goes on.
 #pragma once
 
 #include "operators/pictures/watch.h"
@@ -19,7 +19,7 @@ public:
     explicit ProgressLine(bool quiet);
     ~ProgressLine();
 
-    // From any thread; most calls do nothing.
+    // May be called from any thread; most calls do nothing.
     void show(const RenderProgress& progress);
     void show(const std::function<std::string()>& text);
     void clear();

@@ -10,7 +10,7 @@ namespace neumann {
 struct RenderRequest {
     std::string scene;
     std::vector<std::string> definition_texts;       // -D name=value, as typed
-    std::map<std::string, std::string> definitions;  // likewise, read
+    std::map<std::string, std::string> definitions;  // the same, parsed
     std::string output;                              // a folder; empty: out/NAME
     MethodText method;
     Goal goal;
@@ -22,10 +22,10 @@ struct RenderRequest {
     std::string command_line;  // as typed, for run.json
 };
 
-// Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
+// Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 
-// The same, from a scene in memory to pictures in memory. `watch` without a judge. Throws InputError and RunError.
+// The same for a scene in memory, with the pictures kept in memory. `watch` must not have a judge. Throws InputError and RunError.
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch);
 
 }  // namespace neumann

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What run.json tells of a render, in so far as it decides about its samples.
+// The settings of a render in run.json that determine its samples.
 struct RecordedRun {
     std::string scene, hash, version;
     std::map<std::string, std::string> definitions;
@@ -32,7 +32,7 @@ struct RecordedRun {
     double rest_probability = 0.0;
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
-    Json named;  // samples of the health report
+    Json named;  // the samples that the health report names
 };
 
 RecordedRun read_run(const std::string& folder) {
@@ -111,7 +111,7 @@ SamplingSettings settings_of(const RecordedRun& run, const Scene& scene, const P
 
 std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
-// The only direction has an infinite density on purpose.
+// Delta directions have the pdf ∞ by convention; other values must be finite.
 bool is_sound(const ReplayedStep& s) {
     const PathStep& step = s.step;
     if (!is_finite(step.w) || !is_finite(step.beta) || !(std::isfinite(step.pdf) || step.pdf == delta_pdf)) return false;

@@ -10,13 +10,13 @@ namespace neumann {
 
 struct ReplayRequest {
     std::string folder;
-    std::optional<std::uint64_t> number;  // of a sample that the health report names
-    std::vector<int> pixel;               // or its pixel x, y
-    std::optional<std::uint64_t> sample;  // and number there
+    std::optional<std::uint64_t> number;  // number of a sample in the health report
+    std::vector<int> pixel;               // or the sample's pixel x, y
+    std::optional<std::uint64_t> sample;  // and its number in the pixel
     bool json = false;
 };
 
-// Throws InputError where the folder, its run.json or the sample is not there, and where the method has no paths.
+// Throws InputError if the folder, its run.json or the sample does not exist, and if the method has no paths.
 int replay_command(const ReplayRequest& request);
 
 }  // namespace neumann

@@ -43,7 +43,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     return result;
 }
 
-// What is the same for several solvers is said once.
+// Prints notes, each once if it is the same for several solvers.
 void print_notes(const SideBySide& all) {
     const auto other = [](const SolverRow& a, const SolverRow& b) {
         return a.result.verdict != b.result.verdict || a.result.why != b.result.why;

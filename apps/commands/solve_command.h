@@ -1,4 +1,4 @@
-// `neumann solve SCENE`: the series beside all other solvers of L = Le + K L.
+// `neumann solve SCENE`: compares the series with all other solvers of L = Le + K L.
 #pragma once
 
 #include "apps/commands/channel_choice.h"
@@ -12,7 +12,7 @@ struct SolveRequest {
     PatchOptions patches;
     std::string channel;  // r, g, b; empty: the one with the largest spectral radius
     double tolerance = 1e-6;
-    int most = 10000;  // applications of K
+    int most = 10000;  // largest number of applications of K
     bool csv = false;
 };
 
@@ -20,11 +20,11 @@ struct SolvedScene {
     ChosenChannel chosen;
     SideBySide all;
 };
-// `histories`: with true errors at each step. Throws InputError.
+// `histories`: record true errors at each step. Throws InputError.
 SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories);
 nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved);
 
-// Prints for each solver what it cost, how far it is from LU, and how it ended. Exit code 0, whatever the solvers say. Throws
+// Prints for each solver its cost, its distance from LU, and how it ended. Returns the exit code, 0 whatever the verdicts. Throws
 // InputError.
 int solve_command(const SolveRequest& request);
 

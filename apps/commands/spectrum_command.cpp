@@ -18,7 +18,7 @@ namespace neumann {
 
 namespace {
 
-// Where the bounces are counted to, well below what is asked for.
+// Bounces are counted until this part of the power is left, well below what is asked for.
 constexpr double power_left = 1e-6;
 
 constexpr const char* trapped_light =
@@ -29,13 +29,13 @@ constexpr double most_for_bounds = 1000.0;
 
 using Tell = std::function<void(const std::function<std::string()>&)>;
 
-// The time that a report may take, and its parts of it.
+// The time limit of a report, and of its parts.
 class Limits {
 public:
     Limits(const SpectrumRequest& request, const Tell& tell) : request_(request), tell_(tell) {}
 
     double left() const { return std::max(request_.seconds - watch_.seconds(), 0.0); }
-    // For a part that may take so much of what is left.
+    // Limits for a part that may take this fraction of the time left.
     EigenLimits part(double part, const std::string& what) const {
         const double end = watch_.seconds() + part * left();
         return {static_cast<double>(request_.most), [this, end, what](const EigenStep& step) {
@@ -109,7 +109,7 @@ SpectrumReport spectrum_report(const PatchScene& scene, const SpectrumRequest& r
     report.emits = !scene.scene().emitters.empty();
     report.warnings = scene.warnings();
     const int channels = system.channels();
-    // As much for each channel as for all comparisons.
+    // Each channel gets as much time as all comparisons together.
     for (int c = 0; c < channels; ++c)
         report.channels.push_back(
             channel_spectrum(scene, c, request.eigenvalues, limits.part(1.0 / (channels - c + 1), scene.channel_name(c))));

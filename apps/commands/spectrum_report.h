@@ -1,4 +1,4 @@
-// What `neumann spectrum` finds out, before it is printed in one form or another.
+// The results of `neumann spectrum`, before they are printed.
 #pragma once
 
 #include "apps/commands/spectrum_command.h"
@@ -17,13 +17,13 @@ struct ChannelSpectrum {
     const char* name = "";
     double largest_albedo = 0.0;
     OperatorNorms norms;
-    double one_error = 0.0, one_part = 0.0;  // of ‖K‖₁: standard error by the rays, and the part of all measure of that unknown
+    double one_error = 0.0, one_part = 0.0;  // of ‖K‖₁: standard error by the rays, and its unknown's part of the measure
     Eigenpairs leading;
-    double radius = 0.0, shift = 0.0;    // and how far it moves when patches or rays are quartered
-    std::optional<RadiusBounds> bounds;  // of the radius, where the eigenvalues were not found
+    double radius = 0.0, shift = 0.0;    // spectral radius, and how far it moves when patches or rays are quartered
+    std::optional<RadiusBounds> bounds;  // of the radius, if the eigenvalues were not found
     Convergence convergence = Convergence::undecided;
-    std::array<std::optional<int>, 3> bounces;       // until the part `remaining` is left
-    bool bounces_stopped = false;                    // out of time, before they were known
+    std::array<std::optional<int>, 3> bounces;       // number of bounces until the part `remaining` is left
+    bool bounces_stopped = false;                    // time ran out before they were known
     std::array<double, 2> rounding{}, stagnation{};  // in float and in double
 };
 
@@ -32,7 +32,7 @@ struct SpectrumReport {
     static constexpr int most_bounces = 10000;
 
     double row_min = 0.0, row_mean = 0.0, row_max = 0.0;  // sums of rows of T
-    double rays_without_hit = 0.0;                        // part of all
+    double rays_without_hit = 0.0;                        // fraction of all rays
     double reciprocity_defect = 0.0;
     bool emits = false;
     std::vector<ChannelSpectrum> channels;
@@ -40,7 +40,7 @@ struct SpectrumReport {
     std::vector<std::string> warnings;
 };
 
-// `tell`: how far it is, from time to time. Out of time, or interrupted, it has what was found until then, and warns.
+// Calls `tell` with the progress from time to time. If out of time or interrupted, returns what was found so far, with a warning.
 SpectrumReport spectrum_report(
     const PatchScene& scene, const SpectrumRequest& request,
     const std::function<void(const std::function<std::string()>&)>& tell = [](const auto&) {});

@@ -41,7 +41,7 @@ std::string expected(const Figure& f) {
     constexpr const char* marks[] = {"", "<= ", ">= "};
     return marks[static_cast<std::size_t>(f.relation)] + text(f.expected);
 }
-// An error that has no size, as of words, is left out.
+// Empty for errors without a size, such as of messages.
 std::string size(double x) { return std::isnan(x) ? "" : fmt::format("{:.2g}", x); }
 
 void print_figure(const Figure& f) {
@@ -108,7 +108,7 @@ Json as_json(const Outcome& outcome) {
             {"figures", std::move(figures)}};
 }
 
-// Only where both are terminals would the line and the table meet; the line is gone before the table goes on.
+// A progress line. If line and table go to the same terminal, the line is erased before the table continues.
 class CaseLine {
 public:
     CaseLine() : active_(isatty(STDERR_FILENO)) {}

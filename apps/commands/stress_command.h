@@ -1,4 +1,4 @@
-// `neumann stress`: all cases with known answers, expected beside measured.
+// `neumann stress`: runs all test cases with known answers.
 #pragma once
 
 #include "operators/known/cases.h"
@@ -9,7 +9,7 @@
 namespace neumann {
 
 struct StressRequest {
-    std::string only;  // of the cases' names; empty: all
+    std::string only;  // part of the cases' names; empty: all cases
     std::uint64_t seed = known::default_seed;
     int threads = 0;  // 0: all
     bool list = false, json = false;
@@ -18,8 +18,8 @@ struct StressRequest {
 // All cases: those of operators/known, and those that need files.
 known::Cases stress_cases();
 
-// Prints a table of what was expected and what was measured. Returns the exit code: 1 where a case fails, else 0. Throws InputError
-// where no case is asked for.
+// Prints a table of expected and measured values. Returns the exit code: 1 if a case fails, otherwise 0. Throws InputError if no
+// case is selected.
 int stress_command(const StressRequest& request);
 
 }  // namespace neumann

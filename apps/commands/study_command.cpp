@@ -46,7 +46,7 @@ void expect_growing(const char* option, const auto& values) {
                                          static_cast<double>(values[i - 1])));
 }
 
-// What must be the same to go on with a study that was cut off.
+// Everything that must be unchanged to resume an interrupted study.
 Json identity(const StudyRequest& request, const Scene& scene) {
     Json json;
     json["scene"] = scene.hash;
@@ -96,7 +96,7 @@ void expect_sense(const StudyRequest& request) {
     expect_growing("--samples", request.samples);
 }
 
-// On a terminal, what is being done.
+// Shows on a terminal what is being done.
 class Status {
 public:
     explicit Status(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}

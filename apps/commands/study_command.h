@@ -15,10 +15,10 @@ struct StudyRequest {
     std::map<std::string, std::string> definitions;
     std::string output;
     std::vector<std::string> methods;  // as read_method() reads them
-    std::string reference;             // a method that makes one, a folder of an earlier render, or values:…; empty: chosen
+    std::string reference;             // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
     std::optional<std::uint64_t> reference_samples;
-    std::vector<double> budgets;         // seconds of a run; empty: chosen
-    std::vector<std::uint64_t> samples;  // instead of them
+    std::vector<double> budgets;         // seconds per run; empty: chosen
+    std::vector<std::uint64_t> samples;  // budgets in samples per pixel, in place of seconds
     std::size_t repeats = 16;
     std::optional<int> bounces;
     std::optional<double> error;  // relative RMSE, for the time to a given error
@@ -28,7 +28,7 @@ struct StudyRequest {
     std::string command_line;
 };
 
-// Exit code 0, also when Ctrl-C ended it early. Throws InputError and RunError.
+// Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
 int study_command(const StudyRequest& request);
 
 }  // namespace neumann

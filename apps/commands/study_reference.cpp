@@ -75,7 +75,7 @@ StudyReference from_folder(const std::string& folder, const Film& film, int boun
     };
     for (int i = 0; i <= bounces; ++i) add(bounce_file(static_cast<std::size_t>(i)));
     add(sum_file(static_cast<std::size_t>(bounces)));
-    // What is in it tells it from another one.
+    // A hash of the contents identifies it.
     XXH64_hash_t hash = 0;
     for (const Estimate& e : result.pictures)
         for (const Image* image : {&e.mean, &e.standard_error})
@@ -109,7 +109,7 @@ bool is_cached(const fs::path& folder, const Json& identity) {
     return file && Json::parse(file, nullptr, false) == identity;
 }
 
-// The pictures as in a folder of a render, and the identity as its run.json.
+// Stores the pictures as in a render's folder, and the identity as its run.json.
 void keep(const fs::path& path, const Json& identity, const StudyReference& reference, double degrees_of_freedom) {
     OutputFolder folder(path, "render");
     const std::size_t N = reference.pictures.size() - 2;
@@ -156,7 +156,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
         return reference;
     };
     const std::optional<fs::path> cache = cache_folder();
-    // As speed is never measured alike, half as many samples do as well; more do anyway.
+    // The measured speed varies, so a cached reference with half as many samples is accepted, and so is one with more.
     std::vector<std::uint64_t> enough{wanted};
     if (!request.reference_samples && !request.resume)
         enough = {16 * wanted, 8 * wanted, 4 * wanted, 2 * wanted, wanted, wanted / 2};
@@ -183,7 +183,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
         const Json identity = made_identity(request, wanted, scene, bounces);
         try {
             keep(cache_path(*cache, identity), identity, made, run->degrees_of_freedom);
-            // Rounded as it will be when it is read again.
+            // Read back, so that the pictures are rounded as in later studies that read them from the cache.
             made = from_folder(cache_path(*cache, identity).string(), scene.film, bounces);
         } catch (const std::runtime_error& e) {
             made.warnings.push_back(fmt::format("the reference is not kept: {}", e.what()));

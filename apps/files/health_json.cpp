@@ -77,7 +77,7 @@ std::string bounce_text(const Health& health, std::size_t q) {
     return q + 1 == health.bounces.size() ? "the rest" : fmt::format("bounce {}", q);
 }
 
-// `of`: what there were so many of.
+// `of`: the name of what `count` counts.
 Json balance_json(const EnergyBalance& balance, const char* unit, const char* of, std::uint64_t count) {
     Json bounces = Json::array();
     for (std::size_t i = 0; i < balance.bounces.size(); ++i) {
@@ -106,7 +106,7 @@ void complain_of(const EnergyBalance& balance, const char* what, std::vector<std
             "bounce {}: of {:.6g} {} that arrive, {:.6g} are absorbed, {:.6g} leave the scene and {:.6g} go on: {:.3g} ± {:.2g} {}",
             bounce, b.arrived.mean, what, b.absorbed.mean, b.left.mean, b.went_on.mean, std::abs(b.imbalance.mean),
             b.imbalance.interval(), b.imbalance.mean > 0.0 ? "are missing" : "are too much"));
-        return;  // the bounces after it inherit it
+        return;  // later bounces inherit the error, so only the first is reported
     }
 }
 

@@ -1,4 +1,4 @@
-// The health part of run.json, and what is said of it where something is sick.
+// The health part of run.json, and messages about problems.
 #pragma once
 
 #include "operators/methods/bounce_series.h"
@@ -10,19 +10,19 @@
 
 namespace neumann {
 
-// What is sick and where, a line each; `folder`: for how to replay it.
+// Messages, one line each, that say what is wrong and where. `folder`: named in the command that replays it.
 std::vector<std::string> complaints(const Health& health, const Scene& scene, const std::string& folder);
 
 nlohmann::ordered_json as_json(const Health& health, const Scene& scene, const std::string& folder);
 
-// The same of fields on patches, which have no samples to replay.
+// The same for fields on patches, which have no samples to replay.
 std::vector<std::string> complaints(const EnergyBalance& power);
 nlohmann::ordered_json as_json(const EnergyBalance& power);
 
-// Of either; null where the render was not looked at.
+// The health of paths or fields; null if the render was not checked.
 nlohmann::ordered_json health_json(const BounceSeries& series, const Scene& scene, const std::string& folder);
 
-// Where a shape comes from: "shape 'cube' of bsdf 'diffuse', scene.xml:12:5".
+// A shape's origin: "shape 'cube' of bsdf 'diffuse', scene.xml:12:5".
 std::string name_of_shape(const Scene& scene, std::uint32_t shape);
 
 }  // namespace neumann

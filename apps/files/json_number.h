@@ -1,4 +1,4 @@
-// A number in JSON.
+// Converts a number to JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace neumann {
 
-// JSON has no infinity: null.
+// Infinity and NaN become null, because JSON has neither.
 inline nlohmann::ordered_json json_number(double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }

@@ -1,4 +1,4 @@
-// What was sampled is not lost with the disk that cannot take it.
+// Keeps the results of a render if the output disk is full.
 #include "apps/files/rendering_files.h"
 
 #include "apps/files/series_files.h"
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A new folder for temporary files, if so many bytes are free there.
+// A new temporary folder, if this many bytes are free there.
 std::optional<fs::path> temporary_folder(double bytes) {
     std::error_code error;
     const fs::path all = fs::temp_directory_path(error);
@@ -28,7 +28,7 @@ std::optional<fs::path> temporary_folder(double bytes) {
     return name;
 }
 
-// "out/x-incomplete", or, where that is taken, "out/x-incomplete-2" ….
+// "out/x-incomplete" or, if that exists, "out/x-incomplete-2" ….
 fs::path folder_beside(fs::path output) {
     if (!output.has_filename()) output = output.parent_path();
     const std::string first = output.string() + "-incomplete";
@@ -48,7 +48,7 @@ std::string keep_elsewhere(const Rendering& rendering, const std::string& output
             OutputFolder folder(*path, "render");
             write_rendering(rendering, folder);
             return fmt::format("All of it is in {} instead; move it to where it is to stay", path->string());
-        } catch (const std::exception&) {  // is as full
+        } catch (const std::exception&) {  // that disk is full, too
             std::error_code error;
             fs::remove(*path, error);
         }

@@ -1,4 +1,4 @@
-// A method in JSON, option by option as operators/methods describes them; read back it is the same.
+// A method in JSON, option by option as in operators/methods/method_options.h. Reading it back gives the same method.
 #pragma once
 
 #include "operators/methods/method.h"
@@ -9,7 +9,7 @@ namespace neumann {
 
 // {"method": "walk", "direct": "mis", …}
 nlohmann::ordered_json as_json(const Method& method);
-// Of an object that may hold other things as well. Throws InputError, and what JSON throws where there is no method.
+// The object may have other members as well. Throws InputError, or the JSON library's exception if there is no method.
 Method method_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace neumann

@@ -57,7 +57,7 @@ int write_file(const fs::path& path, std::string_view bytes) {
     return written != 0 ? written : closed;
 }
 
-// The names in `folder` that `wanted` takes.
+// The file names in `folder` for which `wanted` is true.
 template <typename Predicate>
 std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
     std::vector<std::string> names;
@@ -69,7 +69,7 @@ std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
     return names;
 }
 
-// The command that writes a file of this name; "any" of several.
+// The command that writes files of this name; "any" if several do.
 std::optional<std::string_view> writer_of(std::string_view name) {
     static const std::map<std::string_view, std::vector<std::string_view>> names = {
         {"any", {"run.json", "index.html"}},
@@ -146,7 +146,7 @@ void OutputFolder::create() {
 void OutputFolder::lock() {
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor_ < 0) throw InputError(cannot_be_written(path_, errno));
-    // File systems without locks are taken as they are.
+    // File systems without locks are accepted.
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         throw InputError(path_.string() + ": another run is writing there");
     }
@@ -164,7 +164,7 @@ void OutputFolder::remove_leftovers() {
 void OutputFolder::discard() noexcept {
     for (const std::string& name : written_) ::unlink(partial(name).c_str());
     written_.clear();
-    // Folders that hold anything stay.
+    // Folders that are not empty stay.
     for (auto folder = created_.rbegin(); folder != created_.rend() && ::rmdir(folder->c_str()) == 0; ++folder) {
     }
     created_.clear();

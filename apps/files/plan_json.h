@@ -1,4 +1,4 @@
-// A plan in JSON.
+// Converts a plan to JSON.
 #pragma once
 
 #include "operators/plan/plan.h"

@@ -1,4 +1,4 @@
-// The pictures of an earlier render, to judge another one by.
+// The pictures of an earlier render, used as the reference of another one.
 #pragma once
 
 #include "apps/files/rendered_picture.h"
@@ -12,9 +12,9 @@ namespace neumann {
 
 class Reference {
 public:
-    // Bounces 0 … N and their sum. Throws InputError.
+    // Reads bounces 0 … N and their sum. Throws InputError.
     Reference(const std::string& folder, int bounces, const Film& film);
-    // Watch::judge.
+    // The function for Watch::judge.
     void judge(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint& checkpoint) const;
 
 private:
@@ -22,10 +22,10 @@ private:
     Image sum_;
 };
 
-// A picture of an earlier render, of the size of this film. Throws InputError.
+// Reads a picture of an earlier render. Throws InputError also if its size is not that of the film.
 RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film);
 
-// What makes the reference of no use for this series, by what its run.json says, where it has one.
+// Warns if, according to the reference's run.json (if there is one), it is of no use for this series.
 void warn_of_reference(const std::string& folder, const BounceSeries& series, Warnings& warnings);
 
 }  // namespace neumann

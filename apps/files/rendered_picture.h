@@ -1,4 +1,4 @@
-// A picture that a render wrote, with what its file says of its error.
+// A picture written by a render, with the errors that its file contains.
 #pragma once
 
 #include "core/image/image_io.h"
@@ -11,16 +11,16 @@
 namespace neumann {
 
 struct RenderedPicture {
-    PixelEstimate picture;  // its degrees of freedom are 0 where the file does not say them
+    PixelEstimate picture;  // its degrees of freedom are 0 if the file does not contain them
     std::optional<double> degrees_of_freedom;
-    std::optional<PictureMeans> means;  // where the file holds them
-    bool infinite_variance = false;     // so that its standard errors give no interval
+    std::optional<PictureMeans> means;  // if the file contains them
+    bool infinite_variance = false;     // if true, standard errors give no valid interval
 
     bool has_error() const { return !picture.standard_error.pixels.empty(); }
 };
 
-// What a header says of a picture's means: neumann:mean, neumann:mean_stderr and neumann:mean_degrees_of_freedom over pixels and
-// channels, and with .R, .G and .B behind it of a channel.
+// The header attributes of a picture's means: neumann:mean, neumann:mean_stderr and neumann:mean_degrees_of_freedom over pixels and
+// channels, and the same names followed by .R, .G and .B for each channel.
 Attributes mean_attributes(const PictureMeans& means);
 
 // Throws InputError as read_exr().

@@ -1,4 +1,4 @@
-// A finished render, and all that `neumann render` leaves of it in its folder.
+// A finished render, and the files that `neumann render` writes for it.
 #pragma once
 
 #include "apps/files/output_folder.h"
@@ -18,24 +18,25 @@ struct Rendering {
     std::map<std::string, std::string> definitions;
     std::shared_ptr<const Scene> scene;
     BounceSeries series;
-    double seconds = 0.0;  // that it took, before anything is written
+    double seconds = 0.0;  // total time before writing
 
     // Of the scene and of the render.
     Warnings warnings() const;
-    // What is sick, a line each; `folder`: for how to replay it.
+    // Messages about problems, one line each; `folder`: named in the command that replays them.
     std::vector<std::string> complaints(const std::string& folder) const;
 };
 
 struct WrittenRendering {
-    Warnings warnings;  // those of the files too
+    Warnings warnings;  // including those about the files
     nlohmann::ordered_json run;
 };
 
-// Writes and commits it. Throws RunError where not all of it reaches the disk.
+// Writes all files and commits them. Throws RunError if not everything can be written.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
-// Then, so that nothing that was sampled is lost: all of it in a new folder where temporary files go, if there is room, and
-// otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns what was done, a line for the user.
+// For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room,
+// and otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line for the user that says what
+// was done.
 std::string keep_elsewhere(const Rendering& rendering, const std::string& output);
 
 }  // namespace neumann

@@ -109,7 +109,7 @@ Json samples_json(const BounceSeries& series) {
         json.update({{"replicate_size", paths->replicate_size}, {"replicates", paths->replicates}});
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},
-                                                  {"expected_vertices", walk.vertices},  // null where infinite
+                                                  {"expected_vertices", walk.vertices},  // null if infinite
                                                   {"second_moment_of_sum", walk.second_moment}});
     } else {
         const auto& fields = std::get<FieldRecord>(series.record);

@@ -52,7 +52,7 @@ std::string rest_exr(const BounceSeries& series) {
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation) {
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height, pictures = 2.0 * bounces + 3.0;
     const double exr = pictures * pixels * sizeof(float) * (has_discretisation ? 9.0 : 6.0);
-    // The page holds half floats in base 64; the slides and what pages are made of do not grow with the film.
+    // index.html holds half floats in base 64; the size of the slides and of the page's code does not depend on the film.
     return 1.25 * exr + 0x1p20;
 }
 
@@ -99,7 +99,7 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
         term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
     for (std::size_t i = 0; i < sums.size(); ++i)
         sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
-    // All that is seen has importance at once.
+    // For importance all visible surfaces are "emitters", so the sum is used.
     const Image& emission = report.importance ? sums.back() : terms.front();
     const double exposure = exposure_for(sums.back(), emission);
     const auto font = find_label_font();

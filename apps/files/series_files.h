@@ -1,4 +1,4 @@
-// A rendered series as the files that a user finds in the output folder.
+// Writes a rendered series into the output folder.
 #pragma once
 
 #include "apps/files/output_folder.h"
@@ -13,22 +13,22 @@
 namespace neumann {
 
 struct WrittenPictures {
-    std::string warning;    // where labels were left out, or nothing
-    double exposure = 1.0;  // of the sheet, the strips and the flip-book
+    std::string warning;    // says that labels were left out; empty otherwise
+    double exposure = 1.0;  // of the contact sheet, the strips and the flip-book
 };
 
-// bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png …; and the pictures for the page,
-// packed.
+// Writes bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png …, and packs the pictures for
+// index.html.
 WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed);
 
-// About as many bytes as a render writes, were its EXR files not compressed.
+// Approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation);
 
-// For a disk that does not take everything: series.csv and those of bounce_000.exr … and rest.exr that fit. Returns the names of
-// those that do not.
+// For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of those that do not
+// fit.
 std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series);
 
-// series.csv, and convergence.csv.
+// The contents of series.csv and of convergence.csv.
 std::string series_table(const SeriesReport& report);
 std::string convergence_table(const std::vector<Checkpoint>& convergence);
 

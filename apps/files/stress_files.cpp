@@ -42,7 +42,7 @@ private:
     fs::path path_;
 };
 
-// What is said of a scene, without the folder's name.
+// The message for a scene, without the folder's name.
 std::string answer(const TemporaryFolder& folder, const std::string& shapes) {
     folder.write("scene.xml", "<scene version='3.0.0'>\n<sensor type='perspective'><float name='fov' value='45'/></sensor>\n" +
                                   shapes + "</scene>");

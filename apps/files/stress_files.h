@@ -1,11 +1,11 @@
-// Cases with known answers that begin with files: what must be refused, and in which words.
+// Test cases with files that must be refused, and the expected messages.
 #pragma once
 
 #include "operators/known/cases.h"
 
 namespace neumann {
 
-// Files are written to a folder of their own among the temporary ones, and removed.
+// The files are written to a temporary folder and removed afterwards.
 known::Cases stress_file_cases();
 
 }  // namespace neumann

@@ -1,10 +1,10 @@
-// What a study has done, on disk as it goes on, so that one that is cut off can be resumed.
+// The journal of a study on disk, so that an interrupted study can be resumed.
 //
-//     study.journal   a line of JSON each: what is studied and how it was planned, then every run as it ends
+//     study.journal   lines of JSON: what is studied, how it was planned, and then one line for each finished run
 //     study.pictures  the pictures of the runs, one after the other, float32
 //
-// Both are appended to, pictures first; a last line that is cut off is not taken. Neither is forced to the disk, which would take
-// longer than short runs: a program that is killed loses nothing, a machine that fails may.
+// Both are appended to, pictures first; an incomplete last line is ignored. There is no fsync, which would take longer than short
+// runs: nothing is lost if the program is killed, but something may be if the machine fails.
 #pragma once
 
 #include "apps/commands/study_data.h"
@@ -15,25 +15,25 @@ namespace neumann {
 
 class StudyJournal {
 public:
-    // In a folder that exists. Throws InputError where there is one and it is not to be resumed, or none although it is.
+    // The folder must exist. Throws InputError if it has a journal and `resume` is false, or has none and `resume` is true.
     StudyJournal(const std::filesystem::path& folder, bool resume);
     ~StudyJournal();
     StudyJournal(const StudyJournal&) = delete;
     StudyJournal& operator=(const StudyJournal&) = delete;
 
-    // What was studied, and how it was planned; null where nothing was begun.
+    // What was studied, and how it was planned; null for a new journal.
     nlohmann::ordered_json study, plan;
-    // Throws InputError that names what is not as it was.
+    // Throws InputError that names the differences, if `study` is not the study of the journal.
     void expect_same(const nlohmann::ordered_json& study) const;
 
     void begin(const nlohmann::ordered_json& study, const nlohmann::ordered_json& plan);
-    // In their order.
+    // The finished runs, in order.
     std::vector<StudyRun> runs;
 
-    // `pictures`: of all bounces and the sum.
+    // `pictures`: all bounces and the sum.
     void add(const StudyRun& run, const std::vector<Image>& pictures);
     Image picture(std::size_t run, std::size_t picture, int width, int height, std::size_t pictures) const;
-    // All is done and written elsewhere.
+    // Removes the journal after the study is finished and its results are written.
     void remove();
 
 private:

@@ -1,4 +1,4 @@
-// study.json: everything a study found, and what is needed to repeat it.
+// study.json: all results of a study, and everything needed to repeat it.
 #include "apps/commands/study_data.h"
 #include "apps/files/json_number.h"
 #include "core/geometry/ray_caster.h"

@@ -1,4 +1,4 @@
-// What a study prints: for each bounce, and for the sum, the methods in their order.
+// The table that a study prints: for each bounce, and for the sum, the methods in order of rank.
 #include "apps/commands/study_data.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ std::string seconds_text(const std::optional<WorkToError>& seconds) {
     return fmt::format("{}{:.3g}", seconds->below ? "< " : "", seconds->work);
 }
 
-// Signed, relative to MSE.
+// bias² relative to MSE, with its sign.
 std::string bias_text(const PointSummary& p) {
     const double mse = p.rmse.value * p.rmse.value;
     if (!(mse > 0.0) || !std::isfinite(p.bias_half_width)) return "-";
@@ -25,7 +25,7 @@ std::string bias_text(const PointSummary& p) {
                        p.biased ? " *" : "");
 }
 
-// Beside what it was to be, where that is something else.
+// The time taken, with the budget if it differs.
 std::string taken_text(const StudyData& data, const StudiedMethod& method) {
     const auto missed = data.missed_budget(*data.points_of(method.method).back());
     const double seconds = method.summary.points.back().seconds.value;

@@ -1,4 +1,4 @@
-// The pictures and the table of every way to make a bounce.
+// Writes the pictures and the table of all ways (s, t) to make a bounce.
 #pragma once
 
 #include "apps/files/output_folder.h"
@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-// way_s1_t3.exr …, way_s1_t3_unweighted.exr …, and ways.png with all of them.
+// Writes way_s1_t3.exr …, way_s1_t3_unweighted.exr …, and ways.png with all of them.
 void write_ways(OutputFolder& folder, const Ways& ways);
 std::string ways_table(const Ways& ways);
 nlohmann::ordered_json as_json(const Ways& ways);

@@ -26,7 +26,7 @@ std::string text_of(const fs::path& path) {
     return text.str();
 }
 
-// What the page shows has to be there.
+// Throws InputError if run.json lacks something that the page shows.
 Json read_run(const fs::path& path) {
     Json run;
     try {
@@ -68,7 +68,7 @@ struct RenderedFolder {
     std::size_t pictures() const { return bounces() + (has_rest() ? 1 : 0); }
 };
 
-// With as many pixels as a page holds of `pictures`.
+// Reads a run for the page; pictures are reduced so that `pictures` of them fit.
 ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
     ExploredRun out{folder.run, text_of(folder.path / "convergence.csv"), 1.0,
                     PackedSeries(folder.size.width, folder.size.height, pictures), folder.has_rest()};

@@ -1,4 +1,4 @@
-// index.html of a render, and of two that are compared: their pictures, bounce by bounce.
+// index.html of a render, or of two renders that are compared: their pictures, bounce by bounce.
 #pragma once
 
 #include "apps/pages/packed_pictures.h"
@@ -11,12 +11,12 @@ namespace neumann {
 struct ExploredRun {
     nlohmann::ordered_json run;  // run.json
     std::string convergence;     // convergence.csv
-    double exposure = 1.0;       // that the page begins with
+    double exposure = 1.0;       // initial exposure of the page
     PackedSeries pictures;       // packed: bounces 0 … N, and the rest if `has_rest`
     bool has_rest = false;
 };
 
-// One run, or A and B with what `neumann compare` says of them (compare --json).
+// `runs`: one run, or A and B; `comparison`: for two runs, the output of `neumann compare --json`.
 std::string explorer_page(const std::vector<const ExploredRun*>& runs, const nlohmann::ordered_json& comparison = nullptr);
 
 }  // namespace neumann

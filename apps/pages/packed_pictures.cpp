@@ -29,7 +29,7 @@ void for_values(const Image& image, const Function& what) {
     });
 }
 
-// The largest power of two below which the largest value lies; halves end at 2¹⁶.
+// The exponent of the power of two that scales the largest value into the range of half floats, which ends at 2¹⁶.
 int exponent_of(const Image& mean) {
     double largest = 0.0;
     for (const Rgb& p : mean.pixels)
@@ -73,8 +73,8 @@ void add_errors(const char* kind, const Image& errors, PackedPicture& picture) {
     });
 }
 
-// RFC 1950. Most bits are noise: run lengths find what is not (black, unknown), and are four times as fast as a search for repeats,
-// which finds less.
+// zlib format (RFC 1950). Most bits are noise. Run-length matching finds the rest (black, unknown); it is four times as fast as a
+// search for repeated strings, and compresses better.
 std::string deflated(const std::string& bytes) {
     z_stream stream{};
     if (deflateInit2(&stream, 6, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK) throw std::bad_alloc();
@@ -90,7 +90,7 @@ std::string deflated(const std::string& bytes) {
     return out;
 }
 
-// RFC 4648. Boost's encoders are a detail of another library (Beast) or iterators that know no padding (Serialization).
+// Base 64 (RFC 4648). Boost's encoders are an implementation detail of Beast, or iterators of Serialization that do not pad.
 std::string base64(const std::string& bytes) {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;

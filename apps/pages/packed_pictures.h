@@ -1,4 +1,4 @@
-// The pictures of a series as a page holds them: small enough to be part of it, exact enough for what is read from a screen.
+// The pictures of a series in a compact format for embedding in a page, precise enough for the screen.
 #pragma once
 
 #include "core/image/pixel_estimate.h"
@@ -24,20 +24,19 @@ struct PackedPicture {
 
 class PackedSeries {
 public:
-    // Pictures of `width` × `height`. Where `pictures` of them are more than the page shall hold (page_pixels), each is reduced by
-    // the same whole factor.
+    // Pictures of `width` × `height`. If `pictures` of them exceed the limit page_pixels, each is reduced by the same whole factor.
     PackedSeries(int width, int height, std::size_t pictures);
 
-    // The next bounce: its term, with the errors of its sum; or the rest, which has none.
+    // Adds the next bounce: its term, with the errors of its sum; or the rest, which has no sum.
     void add(const PixelEstimate& term, const PixelEstimate* sum);
     // Deflates what was added.
     void pack();
 
-    // What a page says of them: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95%
-    // interval over its standard error; null: unknown), "independent" (pixels).
+    // Metadata for the page: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95%
+    // interval divided by its standard error; null: unknown), "independent" (pixels).
     nlohmann::ordered_json head() const;
     int factor() const { return factor_; }
-    // Of a factor above 1, what to tell: "index.html shows the pictures at 1/2 of their size, …"
+    // A message for the user if the factor is above 1: "index.html shows the pictures at 1/2 of their size, …"
     std::string reduction() const;
     int width() const { return (full_width_ + factor_ - 1) / factor_; }
     int height() const { return (full_height_ + factor_ - 1) / factor_; }
@@ -50,7 +49,7 @@ private:
     std::vector<PackedPicture> pictures_;
 };
 
-// Pixels of all pictures together that a page holds. 256² × 17 noisy ones make 13 MB, so it has at most about 100 MB.
+// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make 13 MB, so a page has at most about 100 MB.
 constexpr std::size_t page_pixels = std::size_t{8} << 20;
 
 }  // namespace neumann

@@ -27,7 +27,7 @@ std::string page(std::string_view name, std::string_view data) {
     return out;
 }
 
-// A "<" may begin what ends the element or hides its end; in JSON it is inside of a string.
+// A "<" could end the script element or begin a comment. In JSON it only occurs in strings, so it can be escaped.
 std::string for_script(const nlohmann::ordered_json& json) {
     std::string text = json.dump();
     for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");

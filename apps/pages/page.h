@@ -1,4 +1,4 @@
-// Pages that need no other file: scripts, styles and data become part of them.
+// Builds self-contained HTML pages, with scripts, styles and data inlined.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ std::string_view embedded_file(std::string_view name);
 // The page `name` with each /*include FILE*/ replaced by that file, and /*data*/ by `data`.
 std::string page(std::string_view name, std::string_view data);
 
-// JSON as it may stand in a script element.
+// JSON, escaped for a script element.
 std::string for_script(const nlohmann::ordered_json& json);
 
 }  // namespace neumann

@@ -15,11 +15,11 @@ namespace neumann {
 namespace {
 
 std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOptions options) {
-    options.threads = 0;  // the job holds them
+    options.threads = 0;  // the job limits them
     return std::make_shared<const PatchScene>(options, loaded.scene, loaded.definitions);
 }
 
-// A scene on patches, for one channel of it.
+// One channel of a scene on patches.
 struct Patched {
     std::shared_ptr<const PatchScene> scene;
     ChosenChannel chosen;

@@ -1,4 +1,4 @@
-// Pictures as arrays, files, and for the screen; and how far one is from another.
+// Pictures as arrays, as files and for display, and error metrics between two pictures.
 #include "apps/files/rendered_picture.h"
 #include "apps/python/module.h"
 #include "core/image/image_io.h"
@@ -95,7 +95,7 @@ py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stde
     d["reference_mean"] = m.reference_mean;
     d["mean_difference"] = m.mean_difference;
     d["mean_difference_interval95"] = py::none();
-    // Which errors go together a picture alone does not tell.
+    // A picture without means does not say which of its errors are correlated.
     const bool known = (a_stderr.is_none() || !a_means.is_none()) && (b_stderr.is_none() || !b_means.is_none());
     if (known && m.not_finite == 0 && !(a_stderr.is_none() && b_stderr.is_none())) {
         const PictureMeans of_a = picture_means(a_means), of_b = picture_means(b_means);
@@ -107,7 +107,7 @@ py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stde
     return d;
 }
 
-// At most so many pixels high; small pictures are enlarged by whole factors, so that pixels stay square and equal.
+// A PNG at most `height` pixels high; small pictures are enlarged by whole factors, so that pixels stay square and equal.
 py::bytes png(const Array& array, double exposure, int height) {
     Image image = as_image(array);
     const double scale = image.height > height ? static_cast<double>(height) / image.height : height / image.height;

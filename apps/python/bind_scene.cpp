@@ -1,4 +1,4 @@
-// Scenes: read, and looked at.
+// Reads scenes and returns information about them.
 #include "apps/commands/patch_scene.h"
 #include "apps/files/plan_json.h"
 #include "apps/python/module.h"

@@ -1,6 +1,6 @@
-// Work that goes on in a thread of its own while Python does something else: waits, shows how far it is, answers Ctrl-C.
+// Work in a thread of its own, while Python waits, shows progress and handles Ctrl-C.
 //
-// The thread never takes the interpreter's lock. One job works at a time, for each uses all processors; others wait for it.
+// The thread never takes the interpreter's lock. Only one job runs at a time, because each uses all processors; others wait.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -17,23 +17,23 @@ namespace neumann {
 
 class Job {
 public:
-    // Makes the Python object that comes out; holds nothing of Python's before it is called.
+    // Makes the Python object of the result. It must not hold Python objects before it is called.
     using Finish = std::function<pybind11::object()>;
     using Work = std::function<Finish(Job&)>;
 
-    // Begins at once, on so many threads; 0: all.
+    // Starts at once, with this many threads; 0: all.
     Job(int threads, Work work);
-    // Stops it and waits, and lets go of the interpreter's lock meanwhile.
+    // Stops the work and waits for it, without holding the interpreter's lock.
     ~Job();
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
 
-    // Whether it is done, after so many seconds at most.
+    // Waits at most this many seconds; returns whether the work is done.
     bool wait(double seconds);
-    // As Ctrl-C does with the command: asks for an orderly end.
+    // Asks for an orderly end, like Ctrl-C in the command.
     void stop();
 
-    // From the work, on any thread: what is being done, and which part of it is.
+    // Called by the work, on any thread: what is being done, and the fraction done.
     void tell(std::string text, std::optional<double> fraction = std::nullopt);
     struct Progress {
         std::string text;
@@ -41,13 +41,13 @@ public:
     };
     Progress progress() const;
 
-    // Once it is done, with the interpreter's lock. Throws what the work threw.
+    // Call it when the work is done, with the interpreter's lock. Rethrows the exception of the work.
     pybind11::object result() const;
 
 private:
     void run(int threads, const Work& work);
 
-    mutable std::mutex mutex_;  // of all below
+    mutable std::mutex mutex_;  // protects all members below
     std::condition_variable ended_;
     Progress progress_;
     bool stopped_ = false, working_ = false, done_ = false;

@@ -1,4 +1,4 @@
-// The parts of the compiled module _neumann, and what they share. The package `neumann` is made of it.
+// The parts of the compiled module _neumann, and their shared helpers. The package `neumann` wraps the module.
 #pragma once
 
 #include "apps/command_line/commands.h"
@@ -24,7 +24,7 @@ struct LoadedScene {
     std::string path;
     std::map<std::string, std::string> definitions;
     std::shared_ptr<const Scene> scene;
-    double seconds = 0.0;  // that reading it took
+    double seconds = 0.0;  // time to read it
 };
 
 void bind_scene(py::module_& m);
@@ -36,18 +36,18 @@ void bind_study(py::module_& m);
 
 // (height, width, 3), row 0 at the top; float32, as in files.
 py::array_t<float> as_array(const Image& image);
-// The same, or None where it is empty.
+// The same, or None if the image is empty.
 py::object as_array_or_none(const Image& image);
-// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of red, green, blue and all; None for what
-// there is not.
+// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of red, green, blue and all; None for
+// missing parts.
 py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMeans>& means);
-// Of any numbers of this shape. Throws InputError.
+// Takes any numeric array of this shape. Throws InputError.
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array);
 
-// The command of the same meaning.
+// The equivalent command line.
 std::string command_line(const std::string& command, const LoadedScene& scene, const std::vector<std::string>& arguments);
 
-// Keywords, given as options of a command, read by the code that reads the command line. Throws InputError with what it says.
+// Parses keyword arguments, given as options of a command, with the command line's parser. Throws InputError with its message.
 template <class Request>
 Request parse(const std::string& command, CLI::App* (*add)(CLI::App&, Request&), const LoadedScene& scene,
               const std::vector<std::string>& arguments) {

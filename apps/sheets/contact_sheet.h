@@ -19,12 +19,12 @@ struct SheetHeadings {
     std::string terms = "bounces", sums = "sums";
 };
 
-// The layout with the largest thumbnails on a sheet of at most about 2400×2400 pixels; pictures are of `width` × `height` pixels.
+// The layout with the largest thumbnails on a sheet of at most about 2400×2400 pixels, for pictures of `width` × `height` pixels.
 // Small pictures are enlarged by whole factors.
 SheetLayout layout_sheet(int terms, int sums, int width, int height);
 
 // A PNG file of the sheet: `terms` (at least one; "bounce 0", …, "rest"), then `sums` ("sum 0", "sum 0..1", …), all of one size and
-// times `exposure`, which is written on the sheet. Without a font (find_label_font) the sheet has no labels.
+// multiplied by `exposure`, which is printed on the sheet. Without a font (find_label_font) the sheet has no labels.
 std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<const LabelledPicture> sums, double exposure,
                           const std::optional<std::string>& font, const SheetHeadings& headings = {});
 

@@ -24,7 +24,7 @@ std::vector<std::string> compressed(std::span<const DisplayImage> frames) {
 }  // namespace
 
 double affordable_scale(int width, int height, std::size_t pictures, double seconds) {
-    constexpr double pixels_a_second = 1e6;  // of a core
+    constexpr double pixels_a_second = 1e6;  // compressed per core
     return std::sqrt(seconds * pixels_a_second / (static_cast<double>(width) * height * static_cast<double>(pictures)));
 }
 

@@ -1,4 +1,4 @@
-// Pictures of a series one after another, as animated GIFs.
+// Animated GIFs of the pictures of a series.
 #pragma once
 
 #include "apps/sheets/labelled_picture.h"
@@ -10,15 +10,15 @@
 
 namespace neumann {
 
-// Pictures are compressed once, whatever books they are in.
+// Each picture is compressed once, even if it is part of several GIFs.
 class FlipBook {
 public:
-    // At least one picture, all of one size and at one exposure; they are shown at most 512 pixels long, fewer where there are so
-    // many that compressing them would take long, and small ones are enlarged by whole factors. Without a font (find_label_font)
-    // they have no labels.
+    // Takes at least one picture, all of one size and at one exposure. They are shown at most 512 pixels long, or smaller if there
+    // are so many that compression would take long; small ones are enlarged by whole factors. Without a font (find_label_font)
+    // there are no labels.
     FlipBook(std::vector<LabelledPicture> pictures, double exposure, const std::optional<std::string>& font);
 
-    // A GIF file of these of its pictures, or of all: endless, three in two seconds.
+    // A GIF file of all pictures, or of the chosen ones: an endless loop with three pictures in two seconds.
     std::string gif(std::span<const LabelledPicture> chosen) const;
     std::string gif() const { return gif(pictures_); }
 
@@ -27,10 +27,10 @@ private:
     std::vector<std::string> pages_;
 };
 
-// A GIF file of frames of one size, likewise; at least one.
+// The same for frames of one size, at least one.
 std::string flip_book(std::span<const DisplayImage> frames);
 
-// The scale at which `pictures` of this size compress within the time that a render can spare.
+// The scale at which `pictures` pictures of this size compress within `seconds`.
 double affordable_scale(int width, int height, std::size_t pictures, double seconds);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// A picture with its name, as the contact sheet, the strips and the flip-book show it.
+// A picture with a label, for the contact sheet, the strips and the flip-book.
 #pragma once
 
 #include "core/image/display.h"
@@ -8,31 +8,31 @@
 
 namespace neumann {
 
-// Of sheets with several pictures, pixels: around all of them, and between two.
+// Margin around all pictures of a sheet, and gap between two of them, in pixels.
 inline constexpr int sheet_margin = 24, sheet_gap = 12;
 
 constexpr std::uint8_t sheet_background = 34;
 
-// `picture` is in scene-linear radiance and outlives this.
+// `picture` is in scene-linear radiance and must outlive this object.
 struct LabelledPicture {
     std::string label;
     const Image* picture = nullptr;
-    double factor = 1.0;  // by which it is brighter than those beside it
+    double factor = 1.0;  // extra brightness factor, relative to the other pictures
 };
 
-// A strip of `width` × `height` pixels with a text on it, centred or at the left; empty without a font. A text that is too wide is
-// set smaller.
+// An image of `width` × `height` pixels with a text, centred or at the left; without a font it is blank. A text that is too wide is
+// set in a smaller size.
 DisplayImage caption(const std::string& text, int width, int height, int font_size, const std::optional<std::string>& font,
                      bool centred, std::uint8_t background = sheet_background);
 
-// The picture, times `exposure` and its factor, at `width` × `height` pixels, smaller than it is or by a whole factor larger, and
-// its label below, label_height(label_size) high.
+// The picture, multiplied by `exposure` and its factor and scaled to `width` × `height` pixels (smaller, or larger by a whole
+// factor), with its label below, label_height(label_size) high.
 DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
                         const std::optional<std::string>& font);
 constexpr int label_height(int label_size) { return 5 * label_size / 3; }
 
-// At which scale pictures of this size are shown where there is room for `fitting`. Small ones grow until they are easily seen,
-// eight times or to 128 pixels, and by whole factors, so that pixels stay square and equal.
+// The scale for pictures of this size if the scale `fitting` fits. Small pictures are enlarged up to eight times or to 128 pixels,
+// whichever is larger, by whole factors, so that pixels stay square and equal.
 double scale_shown(int width, int height, double fitting);
 
 }  // namespace neumann

@@ -14,9 +14,9 @@ constexpr std::size_t last_in_strip = 6;
 constexpr int slide_width = 1920, largest_picture = 480, strip_label_size = 20;
 constexpr double gif_seconds = 0.6;
 
-// By which power of two a term is too dark.
+// The power of two by which to brighten a term.
 double brightening(const Image& term, const Image& emission, double exposure) {
-    // Down to a power of two, so that it is no brighter than that; 1e-3 for the rounding of a pixel's value.
+    // Rounded down to a power of two, so that the term is not too bright; 1e-3 allows for the rounding of pixel values.
     const double factor = std::exp2(std::floor(std::log2(exposure_for(term, emission) / exposure) + 1e-3));
     const bool black = std::all_of(term.pixels.begin(), term.pixels.end(), [](const Rgb& p) { return is_black(p); });
     return black ? 1.0 : std::max(1.0, factor);

@@ -12,33 +12,33 @@ namespace neumann {
 
 using Pictures = std::vector<LabelledPicture>;
 
-// All pictures of a series, in scene-linear radiance, of one size; they outlive this.
+// All pictures of a series, in scene-linear radiance, of one size; they must outlive this object.
 struct SeriesPictures {
     std::span<const Image> terms, sums;  // of bounces 0 to N
-    const Image* rest = nullptr;         // of all others, and the sum of all, where they are known
+    const Image* rest = nullptr;         // the sum of all later bounces and (`limit`) of all bounces, if they are known
     const Image* limit = nullptr;
     std::string K = "K", Le = "Le";  // or "K*", "We"
-    std::string kind = {};           // ", some paths", where labels say so
+    std::string kind = {};           // appended to labels, such as ", some paths"
 
     // "Le", "K Le", "K^2 Le", …, "rest, beyond 6", "bounce 0", "bounces 0 to 1", …, "all bounces".
     Pictures all() const;
 };
 
-// Rows of as many pictures, below one another.
+// Rows with the same number of pictures, one below the other.
 using Strip = std::vector<Pictures>;
 
-// Bounces 0 to 6, as far as there are any; below each times the largest power of two, at least 1, at which the 99th percentile
-// of its luminance is no brighter than white at this exposure: "16 K^3 Le". Pixels where `emission` is not black do not vote
+// Bounces 0 to 6, as far as they exist. The row below shows each multiplied by the largest power of two, at least 1, for which the
+// 99th percentile of its luminance is at most white at this exposure: "16 K^3 Le". Pixels where `emission` is not black are ignored
 // (exposure_for).
 Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double exposure);
-// The sums up to bounce 0 to 6, likewise.
+// The sums up to bounce 0, …, 6, as far as they exist.
 Strip strip_of_sums(const SeriesPictures& series);
-// Up to bounce 1, 2, 4, 8 and 16; where the series ends before, its limit follows. May be empty.
+// The sums up to bounce 1, 2, 4, 8 and 16. If the series ends before, its limit follows. May be empty.
 Strip strip_of_doubling(const SeriesPictures& series);
 
-// A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. The strip is not empty.
+// A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. The strip must not be empty.
 std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font);
-// A GIF file: column after column, the pictures of each beside one another.
+// A GIF file: each frame is a column of the strip, with its pictures side by side.
 std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font);
 
 }  // namespace neumann

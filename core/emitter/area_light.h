@@ -9,7 +9,7 @@ namespace neumann {
 
 struct AreaLight {
     AreaLight(const Rgb& radiance) : largest(radiance) {}
-    // `largest`: at least the function's largest value in each channel; it enters the bounds and the choice of lights.
+    // `largest_value`: at least the function's largest value in each channel; used in the bounds and for the choice of lights.
     AreaLight(std::function<Rgb(const ShadingPoint&, const Vec3& w)> f, const Rgb& largest_value)
         : largest(largest_value), function(std::move(f)) {}
 

@@ -1,14 +1,14 @@
-// What a light without extent sends to a point, and what such lights have to know of the scene.
+// The light that a light without extent sends to a point, and the scene data that such lights need.
 #pragma once
 
 #include "core/base/vec.h"
 
 namespace neumann {
 
-// What arrives at a point from such a light.
+// The light that arrives at a point.
 struct Beam {
-    Vec3 from;            // a point of the light; of one infinitely far away, beyond the scene
-    Rgb irradiance{0.0};  // per area across the beam, W·m⁻²
+    Vec3 from;            // position of the light; if it is infinitely far away, a point beyond the scene
+    Rgb irradiance{0.0};  // on a surface perpendicular to the beam, W·m⁻²
 };
 
 // The sphere around a scene.

@@ -1,4 +1,5 @@
-// Lights without extent: no ray finds them, they have to be asked. What they bring is the irradiance on a surface that faces them.
+// Lights without extent: rays cannot hit them, only light sampling finds them. They give the irradiance on a surface that faces
+// them.
 #pragma once
 
 #include "core/emitter/beam.h"
@@ -19,12 +20,12 @@ public:
         const Vec3 d = at - position_;
         return {position_, intensity_ / glm::dot(d, d)};
     }
-    // The power in all, over π: what a surface of as much area times radiance gives off.
+    // The total power divided by π, which is area times radiance of a diffuse emitter of the same power.
     double brightness(const Surroundings&) const { return 4.0 * mean_component(intensity_); }
     bool is_grey() const { return neumann::is_grey(intensity_); }
 
     const Vec3& position() const { return position_; }
-    // A direction to shine in, with the density direction_pdf(), per solid angle.
+    // Samples a direction of emission with the pdf direction_pdf(), per solid angle.
     Vec3 sample_direction(const Vec2& u) const { return uniform_sphere(u); }
     double direction_pdf(const Vec3&) const { return 0.25 * inv_pi; }
 

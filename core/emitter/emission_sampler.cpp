@@ -10,7 +10,7 @@ namespace neumann {
 EmissionSampler::EmissionSampler(const Geometry& geometry, const Emitters& emitters)
     : geometry_(&geometry), emitters_(&emitters), table_(geometry, emitters, emitters.powers(), LightTable::Rectangles::as_triangles) {
     const double all = std::accumulate(emitters.powers().begin(), emitters.powers().end(), 0.0);
-    // Of the place 1/A, of the direction |cosθ|/π, of the solid angle that x sees d²/|cosθ| and of the area at x 1/d².
+    // 1/A for the point times |cosθ|/π for the direction; d²/|cosθ| to the solid angle at x times 1/d² to the area at x: 1/(π A).
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
         const double power = emitters.powers()[shape];
         density_of_shape_.push_back(power > 0.0 ? power / all / geometry.area(shape) * inv_pi : 0.0);

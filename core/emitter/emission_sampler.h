@@ -1,4 +1,4 @@
-// How light sets out: a point on a light and a direction, the first ray of a path from the light (source shooting).
+// Samples emission: a point on a light and a direction, the first ray of a path from a light.
 #pragma once
 
 #include "core/emitter/light_table.h"
@@ -6,31 +6,31 @@
 namespace neumann {
 
 struct Emission {
-    SurfacePoint from;     // of a light infinitely far away, before the scene; of one without extent, where it stands
-    Vec3 w;                // in which the light travels
-    Rgb weight{0.0};       // Le |cosθ| over the densities of the place and of w: power
-    double density = 0.0;  // of a first edge: EmissionSampler::density(); of a point that shines, at the distance 1
+    SurfacePoint from;     // on the light; for a light infinitely far away, a point outside the scene
+    Vec3 w;                // direction in which the light travels
+    Rgb weight{0.0};       // power: Le |cosθ| divided by the densities of the point and of w
+    double density = 0.0;  // of the first edge, see EmissionSampler::density(); for a point light, at distance 1
     bool is_point = false;
-    bool is_delta = false;    // no ray meets the light
-    std::size_t distant = 0;  // which of the lights that no surface gives off; of those and of no other
+    bool is_delta = false;    // no ray can hit the light
+    std::size_t distant = 0;  // index of the distant light; only set for these
 };
 
-// Lights are chosen by the power they give off, places on them uniformly, and directions from surfaces by their cosine. Refers to
-// the geometry and the emitters.
+// Chooses lights in proportion to their power, points on them uniformly, and directions from surfaces in proportion to the cosine.
+// Keeps references to the geometry and the emitters.
 class EmissionSampler {
 public:
     EmissionSampler(const Geometry& geometry, const Emitters& emitters);
 
-    // No light can be drawn.
+    // Whether there is no light to sample.
     bool empty() const { return table_.empty(); }
     Emission sample(const Vec2& place, const Vec2& direction) const;
 
-    // With which density the edge from y to x is drawn: per area across it at x, and per solid angle in which x sees y. `w`, from x
-    // to y, which may be infinitely far away.
+    // The density with which the edge from y to x is sampled: per area perpendicular to it at x, and per solid angle at x. `w` is
+    // the direction from x to y; y may be infinitely far away.
     double density(const SurfacePoint& y, const Vec3& w) const {
         return y.is_infinite() ? environment_density(w) : density_of_shape_[y.shape];
     }
-    // The same for a light without extent, but for the solid angle: the beam at x.
+    // The same for a light without extent, per area perpendicular to the beam at x alone.
     double density_of_delta(std::size_t distant, const Vec3& x, const Vec3& w) const;
 
 private:
@@ -41,7 +41,7 @@ private:
     const Geometry* geometry_;
     const Emitters* emitters_;
     LightTable table_;
-    std::vector<double> density_of_shape_;  // 0 where it is none
+    std::vector<double> density_of_shape_;  // 0 if the shape is not a light
 };
 
 }  // namespace neumann

@@ -51,7 +51,7 @@ DistantSample Emitters::sample_distant(std::size_t index, const Vec3& x, const V
 
 DistantEmission Emitters::send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const {
     const double radius = surroundings_.radius;
-    // A point before the scene, from where a ray along w meets a disc across it through the middle.
+    // A point outside the scene, such that its ray along w hits a sampled point of the disc through the centre, perpendicular to w.
     const auto from_afar = [&](const Vec3& w) {
         const Frame across(w);
         const Vec2 disk = uniform_disk(place) * radius;
@@ -79,7 +79,7 @@ DistantEmission Emitters::send_distant(std::size_t index, const Vec2& place, con
                 sent.from = light.position();
                 sent.w = light.sample_direction(direction);
                 sent.pdf = light.direction_pdf(sent.w);
-                // Intensity is the irradiance at the distance 1; at the scene's distance it has more digits.
+                // The intensity is the irradiance at distance 1, computed at the scene's distance for accuracy.
                 if (sent.pdf > 0.0)
                     sent.light = light.beam(sent.from + sent.w * radius, surroundings_).irradiance * (radius * radius / sent.pdf);
             }

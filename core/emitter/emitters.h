@@ -1,4 +1,4 @@
-// All that gives off light: Le(p, ω) of surfaces and from infinitely far away.
+// All lights: Le(p, ω) of surfaces and from infinitely far away, and lights without extent.
 #pragma once
 
 #include "core/emitter/area_light.h"
@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// The lights of a scene, as the reader and the tests put them together.
+// The lights of a scene, from which Emitters is made.
 struct Lights {
     std::vector<AreaLight> area = {};
     std::vector<int> of_shape = {};  // for each shape an index into `area`, or Emitters::none
@@ -20,22 +20,22 @@ struct Lights {
     std::vector<DeltaLight> delta = {};
 };
 
-// Light from a light that no surface gives off.
+// A sample of a distant light, that is, of the environment or of a light without extent.
 struct DistantSample {
-    Vec3 from;         // a point of the light; of one infinitely far away, beyond the scene
-    Vec3 w;            // towards it
-    Rgb light{0.0};    // radiance over pdf, or what a light without extent brings to a surface that faces it
+    Vec3 from;         // position of the light; if it is infinitely far away, a point beyond the scene
+    Vec3 w;            // direction towards it
+    Rgb light{0.0};    // radiance / pdf, or for a light without extent the irradiance on a surface that faces it
     double pdf = 0.0;  // of w, per solid angle, or delta_pdf
 };
 
-// A ray of such a light on its way into the scene.
+// A sample of the emission of a distant light.
 struct DistantEmission {
-    Vec3 from;         // of a light infinitely far away, before the scene
-    Vec3 w;            // in which it travels
-    Rgb light{0.0};    // power over pdf
-    double pdf = 0.0;  // of w per solid angle, where the light has several, times that per area across w, where it is infinitely
-                       // far away
-    bool is_point = false, is_delta = false;  // it stands somewhere; no ray meets it
+    Vec3 from;         // position of the light; if it is infinitely far away, a point outside the scene
+    Vec3 w;            // direction in which the light travels
+    Rgb light{0.0};    // power / pdf
+    double pdf = 0.0;  // of w, per solid angle, unless the light has a single direction; if the light is infinitely far away, times
+                       // the density of the point, per area perpendicular to w
+    bool is_point = false, is_delta = false;  // the light has a position; no ray can hit it
 };
 
 class Emitters {
@@ -58,34 +58,34 @@ public:
     bool has_environment() const { return lights_.environment.has_value(); }
     bool has_delta_lights() const { return !lights_.delta.empty(); }
 
-    // No emitter has a positive area and radiance.
+    // Whether no emitter has a positive area and radiance.
     bool empty() const;
 
-    // What is given off, of the largest radiance, over π: by each shape, then by the distant lights, which are the environment, if
-    // there is one, and those without extent. Of an environment, on the sphere around the scene.
+    // Power divided by π, computed with the largest radiance: of each shape, then of the distant lights, which are the environment
+    // (if there is one) and the lights without extent. For an environment, the power that enters the sphere around the scene.
     const std::vector<double>& powers() const { return powers_; }
     // `index`: of a distant light.
     DistantSample sample_distant(std::size_t index, const Vec3& x, const Vec2& uv) const;
     DistantEmission send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const;
-    // The density with which light is sent to x along w, per area across w at x, and per solid angle of w where it comes from an
-    // environment.
+    // The density with which emission towards x along w is sampled: per area perpendicular to w at x and, for an environment, per
+    // solid angle of w.
     double distant_density(std::size_t index, const Vec3& x, const Vec3& w) const;
-    // The mean of the channels that it brings to a surface at x that faces it.
+    // The irradiance on a surface at x that faces the light, mean of the channels.
     double distant_irradiance(std::size_t index, const Vec3& x) const;
-    // The density per solid angle of a direction of sample_distant() where there is an environment.
+    // The pdf, per solid angle, of a direction of sample_distant() for the environment, which must exist.
     double environment_pdf(const Vec3& w) const { return neumann::pdf(*lights_.environment, w); }
 
-    // ‖Le‖∞ for each channel; infinite where a light has no extent.
+    // ‖Le‖∞ for each channel; infinite if a light has no extent.
     const Rgb& largest_radiance() const { return largest_radiance_; }
-    // All channels of all lights are known to be alike.
+    // Whether the channels of all lights are known to be alike.
     bool is_grey() const;
-    // Each shape that shines is known to give off the same radiance everywhere and in all directions.
+    // Whether each emitting shape is known to have constant radiance over its surface and over directions.
     bool shapes_shine_evenly() const;
-    // Shapes that are meant to emit and have no area.
+    // Number of emitting shapes without area.
     std::size_t without_area() const { return without_area_; }
 
 private:
-    // By the index of a distant light.
+    // `index`: of a distant light.
     const DeltaLight& delta_light(std::size_t index) const { return lights_.delta[index - (lights_.environment ? 1 : 0)]; }
 
     Lights lights_;

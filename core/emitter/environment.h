@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// The same from everywhere (Mitsuba's `constant`).
+// The same radiance from all directions (Mitsuba's `constant`).
 class ConstantEnvironment {
 public:
     explicit ConstantEnvironment(const Rgb& radiance) : radiance_(radiance) {}
@@ -26,22 +26,22 @@ private:
 
 using Environment = std::variant<ConstantEnvironment, EnvironmentMap>;
 
-// What arrives from direction w.
+// The radiance that arrives from direction w.
 inline Rgb radiance(const Environment& e, const Vec3& w) {
     return std::visit([&](const auto& x) { return x.radiance(w); }, e);
 }
-// A direction to look in, with the density pdf(), per solid angle.
+// Samples a direction towards the environment with the pdf pdf(), per solid angle.
 inline Vec3 sample(const Environment& e, const Vec2& u) {
     return std::visit([&](const auto& x) { return x.sample(u); }, e);
 }
 inline double pdf(const Environment& e, const Vec3& w) {
     return std::visit([&](const auto& x) { return x.pdf(w); }, e);
 }
-// At least the largest radiance in each channel.
+// An upper bound of the radiance in each channel.
 inline Rgb largest(const Environment& e) {
     return std::visit([](const auto& x) { return x.largest(); }, e);
 }
-// The mean radiance over all directions, in a weighting of the channels; positive where there is light.
+// The mean radiance over all directions, as a weighted mean of the channels; positive if there is light.
 inline double brightness(const Environment& e) {
     return std::visit([](const auto& x) { return x.brightness(); }, e);
 }

@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// Where the integral of the straight line from a to b over 0 … 1 is the part u of the whole.
+// The t in [0, 1] up to which the integral of the straight line from a to b is the fraction u of the whole.
 double invert_line(double a, double b, double u) {
     const double root = std::sqrt(a * a + u * (b * b - a * a));
     return a + root > 0.0 ? std::min(u * (a + b) / (a + root), 1.0) : u;
@@ -19,7 +19,7 @@ double mix(double a, double b, double t) { return (1.0 - t) * a + t * b; }
 
 }  // namespace
 
-// Y s on the way from one row to the next: the polynomial with these Bernstein coefficients, none of them negative.
+// Y s between two rows: a polynomial with these Bernstein coefficients, which are not negative.
 struct EnvironmentMap::Quadratic {
     double b0, b1, b2;
 
@@ -32,7 +32,7 @@ struct EnvironmentMap::Quadratic {
         const double r = 1.0 - t;
         return t * (b0 * r * r + (b0 + b1) * r * t + integral() * t * t);
     }
-    // Where the integral is the part u of the whole: Newton's method, kept in a bracket by bisection.
+    // The position up to which the integral is the fraction u of the whole: Newton's method with bisection.
     double invert(double u) const {
         const double target = u * integral();
         double low = 0.0, high = 1.0, t = 0.5;

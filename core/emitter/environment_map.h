@@ -2,13 +2,13 @@
 // first and the last row the poles. In the map's own space +y is up, the middle of the picture looks along +z and its left quarter
 // along +x. Between pixels the radiance is bilinear in the angles.
 //
-// Directions are drawn with a density proportional to the luminance of what they show,
+// Directions are sampled in proportion to luminance,
 //
 //     p(ω) = Y(ω) s(θ) / (sinθ ∫∫ Y s dθ dφ),
 //
-// exactly so but for s, which is sinθ at the rows and linear between them; its quotient by sinθ is 1 but for the rows' spacing
-// squared. So p is positive wherever there is light. Both angles are found by inverting cumulative distributions: of rows, by
-// cubics; and of columns, by parabolas, for the row that interpolation makes of its two neighbours.
+// where s is sinθ at the rows and linear between them; s / sinθ is 1 up to the square of the rows' spacing. p is positive wherever
+// there is light. Both angles are found by inverting cumulative distributions, which are piecewise cubic over rows, and piecewise
+// quadratic over the columns of the interpolated row.
 #pragma once
 
 #include "core/image/image.h"
@@ -28,12 +28,12 @@ public:
     Vec3 sample(const Vec2& u) const;
     double pdf(const Vec3& w) const;
     const Rgb& largest() const { return largest_; }
-    // As luminance weighs the channels, so that it is 0 only where there is no light.
+    // The mean luminance; it is 0 only if there is no light.
     double brightness() const { return total_ * scale_ / (4.0 * pi); }
     bool is_grey() const { return is_grey_; }
 
 private:
-    // Between columns x and x + 1, the first after the last, and between rows y and y + 1: parts of the way.
+    // A position between columns x and x + 1 (the last is followed by the first) and between rows y and y + 1, with fractions.
     struct Place {
         int x, y;
         double right, down;
@@ -45,8 +45,8 @@ private:
         // Luminance added up along each row by the trapezoidal rule, from the middle of its first pixel on: width + 1 numbers a
         // row.
         std::vector<double> along_row;
-        std::vector<double> up_to_row;  // the part of the whole that is above a row
-        std::vector<double> sine;       // of the rows' θ
+        std::vector<double> up_to_row;  // the fraction of the total above each row
+        std::vector<double> sine;       // sinθ of each row
 
         double along(int y, int x) const;
         // At column x of the row that is `down` of the way from row y to the next.

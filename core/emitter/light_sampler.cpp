@@ -11,7 +11,8 @@ namespace neumann {
 
 namespace {
 
-// Of the light with this index, where there are others: directions of the material find an environment anyway.
+// Limits the probability of the light with this index to 1/2 if there are others, because BSDF sampling finds an environment
+// anyway.
 void limit_to_half(std::vector<double>& share, std::size_t index) {
     const double others = 1.0 - share[index];
     if (share[index] <= 0.5 || others <= 0.0) return;
@@ -19,8 +20,8 @@ void limit_to_half(std::vector<double>& share, std::size_t index) {
     share[index] = 0.5;
 }
 
-// Half as their power, half alike: a dim light may be the one that a place sees, and a bright one may be found by the material's
-// directions.
+// `mixed`: half in proportion to power, half uniformly, because a point may see only a dim light, and BSDF sampling may already
+// find the bright ones.
 std::vector<double> probabilities(const Emitters& emitters, LightChoice choice, std::size_t shapes) {
     const std::vector<double>& powers = emitters.powers();
     const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
@@ -140,7 +141,7 @@ std::array<Vec3, 3> LightSampler::corners(const Part& part, const Vec3& x) const
     return {mesh.vertices[t[0]] - x, mesh.vertices[t[1]] - x, mesh.vertices[t[2]] - x};
 }
 
-// Of a part of a mesh; 0 from behind.
+// The solid angle of a part of a mesh; 0 from behind.
 double LightSampler::solid_angle_from_front(const Part& part, const Vec3& x) const {
     if (part.is_rectangle()) {
         const Rectangle& r = table_.rectangle(part);
@@ -150,7 +151,8 @@ double LightSampler::solid_angle_from_front(const Part& part, const Vec3& x) con
     return glm::dot(a, glm::cross(b - a, c - a)) < 0.0 ? solid_angle(a, b, c) : 0.0;
 }
 
-// Small ones are as good as flat, and what is left of their angles' sum over multiples of π has few digits.
+// Parts with a small solid angle are sampled by area: that is nearly uniform, and their solid angle is a difference with few
+// digits.
 double LightSampler::sampled_solid_angle(const Part& part, const Vec3& x) const {
     constexpr double smallest = 1e-4;
     if (!std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape])) return 0.0;
@@ -158,7 +160,7 @@ double LightSampler::sampled_solid_angle(const Part& part, const Vec3& x) const 
     return angle > smallest ? angle : 0.0;
 }
 
-// An estimate for round shapes, positive wherever they may be seen.
+// For round shapes this is an estimate, positive wherever they may be seen.
 double LightSampler::contribution(const Part& part, const Vec3& x) const {
     const double radiance = emitters_->powers()[part.shape] / geometry_->area(part.shape);
     return std::visit(

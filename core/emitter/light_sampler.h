@@ -1,4 +1,4 @@
-// How a point asks for light: which light it looks at, and where on it (next-event estimation).
+// Light sampling (next-event estimation): chooses a light and a point or direction on it.
 #pragma once
 
 #include "core/emitter/light_table.h"
@@ -10,40 +10,41 @@
 namespace neumann {
 
 struct LightSample {
-    SurfacePoint point;  // where it comes from; of an infinitely distant light, a point beyond the scene
-    Vec3 w;              // towards it
-    Rgb weight{0.0};     // the radiance that arrives from there unless something stands between, over pdf
-    double pdf = 0.0;    // of w, per solid angle, or delta_pdf where the light has no extent
-    // Of a light that no surface gives off: which of the distant ones, and the probability with which an ask picks it.
+    SurfacePoint point;  // on the light; for an infinitely distant light, a point beyond the scene
+    Vec3 w;              // direction towards it
+    Rgb weight{0.0};     // unoccluded radiance / pdf
+    double pdf = 0.0;    // of w, per solid angle, or delta_pdf if the light has no extent
+    // For a distant light: its index, and the probability with which a sample chooses it.
     std::size_t distant = 0;
     double probability = 0.0;
 };
 
-// Which light.
+// How lights are chosen.
 enum class LightChoice {
-    mixed,         // half by power, half alike, an environment at most every other time
-    uniform,       // alike
-    power,         // by the power it gives off, of its largest radiance
-    contribution,  // by what it would bring to the point if nothing stood between: radiance times solid angle, of each of its
-                   // parts, all of which are looked at for that
-    all            // each once
+    mixed,         // half by power, half uniformly; the environment with probability 1/2 at most if there are other lights
+    uniform,       // all with equal probability
+    power,         // in proportion to power, computed with the largest radiance
+    contribution,  // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in
+                   // the number of parts of lights
+    all  // every light once
 };
 
-// Where on it: uniform on its surface, or in the directions in which it is seen.
+// How a light is sampled: uniformly by area, or uniformly by solid angle.
 enum class LightPlace { area, solid_angle };
 
-// Refers to the geometry and the emitters.
+// Keeps references to the geometry and the emitters.
 class LightSampler {
 public:
     explicit LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice = LightChoice::mixed,
                           LightPlace place = LightPlace::area);
 
-    // No light can be asked.
+    // Whether there is no light to sample.
     bool empty() const { return table_.empty(); }
-    // How often a point asks; the samples of all asks add up.
+    // Number of samples per point; their contributions add up.
     std::size_t asks() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
-    // Light for the point x: u picks a light, and what is left of it is, with v, the place there. The same density as pdf() tells.
+    // Samples light for the point x: the first number chooses the light and is then reused, with the second, for the point on it.
+    // The density is that of pdf().
     LightSample sample(const Vec3& x, const Vec2& uv, std::size_t ask = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
@@ -51,15 +52,14 @@ public:
             choice_ == LightChoice::all ? table_.choose_of(table_.lights()[ask], uv.x) : table_.choose(uv.x);
         return sample_chosen(chosen, x, uv.y);
     }
-    // The density, per solid angle, with which an ask for x finds the light that a ray from x along w ends at; y may be infinitely
-    // far away.
+    // The pdf, per solid angle, with which a sample for x finds y, the hit of a ray from x along w; y may be infinitely far away.
     double pdf(const Vec3& x, const Vec3& w, const SurfacePoint& y) const {
         if (choice_ != LightChoice::contribution && place_ == LightPlace::area && !y.is_infinite())
             return density_of_shape_[y.shape] * per_solid_angle(y.position - x, y.normal, w);
         return pdf_in_general(x, w, y);
     }
 
-    // The probability with which an ask for x picks that one of the distant lights.
+    // The probability with which a sample for x chooses a distant light.
     double probability_of_distant(std::size_t distant, const Vec3& x) const;
 
 private:
@@ -67,7 +67,7 @@ private:
                  const std::vector<double>& share);
 
     using Part = LightTable::Part;
-    // What a density per area becomes per solid angle: d² / |cosθ|.
+    // The factor from a density per area to one per solid angle: d² / |cosθ|.
     static double per_solid_angle(const Vec3& d, const Vec3& normal, const Vec3& w) {
         return glm::dot(d, d) / std::abs(glm::dot(normal, w));
     }
@@ -102,10 +102,10 @@ private:
     double pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const;
 
     double solid_angle_from_front(const Part& part, const Vec3& x) const;
-    // The solid angle of a part whose directions are sampled, or 0 where its points are.
+    // The solid angle of a part if it is sampled by solid angle, or 0 if it is sampled by area.
     double sampled_solid_angle(const Part& part, const Vec3& x) const;
     double contribution(const Part& part, const Vec3& x) const;
-    // Of all parts and distant lights, added up.
+    // Cumulative contributions of all parts and distant lights.
     std::vector<double> contributions(const Vec3& x) const;
     std::array<Vec3, 3> corners(const Part& part, const Vec3& x) const;
 
@@ -114,7 +114,7 @@ private:
     LightChoice choice_;
     LightPlace place_;
     LightTable table_;
-    std::vector<double> density_of_shape_;  // per area, of an ask
+    std::vector<double> density_of_shape_;  // density of a sample, per area
 };
 
 }  // namespace neumann

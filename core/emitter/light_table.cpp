@@ -35,7 +35,7 @@ LightTable::LightTable(const Geometry& geometry, const Emitters& emitters, const
         add(share[i]);
         if (share[i] > 0.0) lights_.push_back({cumulative_.size() - 1, cumulative_.size()});
     }
-    // Sums of rounded numbers; the last is 1.
+    // Normalises the sums, which have rounding errors, so that the last is 1.
     const double all = cumulative_.back();
     for (double& c : cumulative_) c /= all;
 }

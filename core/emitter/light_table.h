@@ -1,4 +1,4 @@
-// All that shines, in parts that can be drawn: the primitives of shapes, then the lights that no surface gives off.
+// A table of all lights for sampling: the primitives of emitting shapes, then the distant lights.
 #pragma once
 
 #include "core/emitter/emitters.h"
@@ -12,7 +12,7 @@ namespace neumann {
 
 class LightTable {
 public:
-    // A primitive, or two triangles that are a rectangle, from `primitive` on.
+    // A primitive, or two triangles (`primitive` and the next) that form a rectangle.
     struct Part {
         static constexpr std::uint32_t no_rectangle = 0xffffffffu;
         std::uint32_t shape, primitive, rectangle = no_rectangle;
@@ -22,7 +22,7 @@ public:
     struct Range {
         std::size_t first, end;
     };
-    // What is drawn. `left`: uniform in [0, 1), for the place on it.
+    // A chosen part or distant light. `left`: a random number that is still uniform in [0, 1), for the point on it.
     struct Choice {
         std::size_t index;
         double probability, left;
@@ -30,26 +30,27 @@ public:
 
     enum class Rectangles { as_triangles, whole };
 
-    // `share`: the probability of each of Emitters::powers(). None can be drawn where all are 0. Refers to the geometry.
+    // `share`: the probability of each entry of Emitters::powers(). The table is empty if all are 0. Keeps a reference to the
+    // geometry.
     LightTable(const Geometry& geometry, const Emitters& emitters, const std::vector<double>& share, Rectangles rectangles);
 
     bool empty() const { return cumulative_.empty(); }
     std::size_t size() const { return cumulative_.size(); }
-    // The part of a surface, or which of the distant lights it is.
+    // The parts of surfaces; choices beyond them are distant lights.
     std::span<const Part> parts() const { return parts_; }
     bool is_distant(std::size_t index) const { return index >= parts_.size(); }
     std::size_t distant(std::size_t index) const { return index - parts_.size(); }
-    // Lights of a share above 0.
+    // Lights with a positive probability.
     std::span<const Range> lights() const { return lights_; }
     double probability(std::size_t index) const { return cumulative_[index] - (index == 0 ? 0.0 : cumulative_[index - 1]); }
 
-    // Of a surface that shines.
+    // The part on which a point of an emitting surface lies.
     Part part_at(const SurfacePoint& y) const;
     double area(const Part& part) const;
     const Rectangle& rectangle(const Part& part) const { return rectangles_[part.rectangle]; }
 
     Choice choose(double u) const { return choose(u, 0, cumulative_.size()); }
-    // One part of a light, in proportion; the probability is that of all.
+    // Chooses a part of one light, in proportion to probability; Choice::probability is relative to the whole table.
     Choice choose_of(const Range& light, double u) const {
         const double low = light.first == 0 ? 0.0 : cumulative_[light.first - 1], high = cumulative_[light.end - 1];
         return choose(low + u * (high - low), light.first, light.end);
@@ -67,7 +68,7 @@ private:
     const Geometry* geometry_;
     std::vector<Part> parts_;
     std::vector<Range> lights_;
-    std::vector<double> cumulative_;  // of the probabilities of parts_, then of the distant lights of Emitters
+    std::vector<double> cumulative_;  // cumulative probabilities of parts_, then of the distant lights of Emitters
     std::vector<Rectangle> rectangles_;
     std::vector<std::vector<Part>> rectangular_;  // by shape and primitive, of shapes with rectangles
 };

@@ -11,7 +11,7 @@ ProjectorLight::ProjectorLight(const Mat4& to_world, Slide slide, double scale, 
       scale_(scale),
       half_size_(half_width, half_width / slide_.aspect()) {}
 
-// π E / (z² cosθ): with the cosine of a surface across the axis, E at z = 1 wherever it lies.
+// The irradiance is π E / (z² cosθ): on a surface perpendicular to the axis at z = 1, the factor cosθ cancels.
 Beam ProjectorLight::beam(const Vec3& at, const Surroundings&) const {
     const Vec3 local = to_local_ * (at - position_);
     if (!(local.z > 0.0)) return {position_};
@@ -24,7 +24,7 @@ Vec3 ProjectorLight::sample_direction(const Vec2& u) const {
     return glm::normalize(glm::inverse(to_local_) * Vec3((2.0 * u - 1.0) * half_size_, 1.0));
 }
 
-// The picture lies at z = 1; to_world does not scale.
+// The pdf per solid angle of a uniform point on the picture, which lies at z = 1; to_world does not scale.
 double ProjectorLight::direction_pdf(const Vec3& w) const {
     const Vec3 local = to_local_ * w;
     if (!(local.z > 0.0) || std::abs(local.x) > half_size_.x * local.z || std::abs(local.y) > half_size_.y * local.z) return 0.0;

@@ -1,5 +1,5 @@
-// A pinhole that throws a picture (Mitsuba's `projector`), the reverse of a camera: a white surface across its axis at the distance
-// 1 shows the picture.
+// A pinhole that projects a picture (Mitsuba's `projector`), the reverse of a camera: a white surface perpendicular to its axis at
+// distance 1 shows the picture.
 #pragma once
 
 #include "core/emitter/beam.h"
@@ -13,11 +13,11 @@ public:
     ProjectorLight(const Mat4& to_world, Slide slide, double scale, double half_width);
 
     Beam beam(const Vec3& at, const Surroundings&) const;
-    // The power in all, over π.
+    // The total power divided by π.
     double brightness(const Surroundings&) const { return slide_.mean() * scale_ * 4.0 * half_size_.x * half_size_.y; }
     bool is_grey() const { return slide_.is_grey(); }
     const Vec3& position() const { return position_; }
-    // Uniform on the picture, per solid angle.
+    // Samples a direction uniformly on the picture; the pdf is per solid angle.
     Vec3 sample_direction(const Vec2& u) const;
     double direction_pdf(const Vec3& w) const;
 

@@ -1,4 +1,5 @@
-// What a light throws: a function on the unit square, (0, 0) the corner of its first pixel (Mitsuba's textures in lights).
+// The picture that a light projects: a function on the unit square, with (0, 0) the corner of its first pixel (Mitsuba's textures
+// in lights).
 #pragma once
 
 #include "core/base/vec.h"
@@ -9,12 +10,12 @@ namespace neumann {
 
 class Slide {
 public:
-    // `f`: not negative. `width` and `height`: of its pixels, which tell how it is stretched and where its mean is taken from.
+    // `f`: not negative. `width` and `height`: in pixels; they give the aspect ratio, and the mean is over the pixels' centres.
     Slide(std::function<Rgb(const Vec2& uv)> f, int width, int height, bool is_grey);
     explicit Slide(const Rgb& constant);
 
     Rgb at(const Vec2& uv) const { return function_(uv); }
-    double mean() const { return mean_; }  // of all pixels' middles and channels
+    double mean() const { return mean_; }  // over all pixels' centres and channels
     double aspect() const { return aspect_; }
     bool is_grey() const { return is_grey_; }
 

@@ -1,5 +1,5 @@
-// A point that shines into a cone (Mitsuba's `spot`): along +z of its own space, as bright as can be up to the angle of the beam,
-// from there linearly less up to the cutoff. A picture may be put before it, which fills the square around the cone.
+// A point light with a cone (Mitsuba's `spot`) around +z of its own space: full intensity up to the angle of the beam, then falling
+// linearly to 0 at the cutoff. An optional picture fills the square around the cone.
 #pragma once
 
 #include "core/emitter/beam.h"
@@ -15,11 +15,11 @@ public:
     SpotLight(const Mat4& to_world, const Rgb& intensity, double cutoff, double beam_width, std::optional<Slide> slide = {});
 
     Beam beam(const Vec3& at, const Surroundings&) const;
-    // The power in all, over π.
+    // The total power divided by π.
     double brightness(const Surroundings&) const;
     bool is_grey() const { return neumann::is_grey(intensity_) && (!slide_ || slide_->is_grey()); }
     const Vec3& position() const { return position_; }
-    // Uniform in the cone, per solid angle.
+    // Samples a direction uniformly in the cone; the pdf is per solid angle.
     Vec3 sample_direction(const Vec2& u) const;
     double direction_pdf(const Vec3& w) const;
 

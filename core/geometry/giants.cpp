@@ -13,7 +13,7 @@ constexpr std::size_t most_giants = 16;
 constexpr double larger = 16.0;
 // and at most this many times: beyond that, doubles cannot resolve what lies on it.
 constexpr double largest_ratio = 0x1p27;
-// In a scene of few faces, all of them are giants if they are this many times as long as wide.
+// In a scene of few faces, all of them are giants if the longest length is more than this many times the thinnest width.
 constexpr double longer = 256.0;
 
 struct Sized {

@@ -85,8 +85,7 @@ private:
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
     double error_;
     mutable const Cells* not_clear_ = nullptr;
-    float
-        rounding_;  // rounding of Embree's hits, as a barycentric weight; 1 if the triangle is too thin to compute a hit in double
+    float rounding_;  // of Embree's hits, as a barycentric weight; 1 if the triangle is too thin to have a hit in double
     float margin_;  // hits keep this barycentric distance from the edges, so that doubles resolve on which side of an adjacent wall
                     // they are; 0 if the triangle is too thin for that
     mutable float clear_ = unknown;

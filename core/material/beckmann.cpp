@@ -8,15 +8,15 @@ namespace neumann {
 
 namespace {
 
-// Slopes with the density exp(−x²)/√π have the distribution (1 + erf x)/2.
+// Samples a slope with the density exp(−x²)/√π, whose cumulative distribution is (1 + erf x)/2.
 double gaussian_slope(double u) {
     using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
     constexpr double largest = 1.0 - 0x1p-53;
     return boost::math::erf_inv(std::clamp(2.0 * u - 1.0, -largest, largest), Policy());
 }
 
-// The slope against a view (sinθ, 0, cosθ), density ∝ (cosθ − x sinθ)⁺ exp(−x²). Its distribution is inverted by Newton's method,
-// kept between bounds.
+// Samples the slope visible from (sinθ, 0, cosθ), with density ∝ (cosθ − x sinθ)⁺ exp(−x²). Its cumulative distribution is inverted
+// by bracketed Newton iteration.
 double visible_slope(double sine, double cosine, double u) {
     if (sine < 1e-9) return gaussian_slope(u);
     const auto distribution = [&](double x) {

@@ -13,7 +13,7 @@ public:
     // Along x and along y.
     explicit Beckmann(const Vec2& alpha) : alpha_(alpha), product_(alpha.x * alpha.y), ratio_(alpha.y / alpha.x) {}
 
-    // As Ggx's.
+    // D(m), as for Ggx.
     double density(const Vec3& m) const {
         if (m.z <= 0.0) return 0.0;
         const double z2 = m.z * m.z;

@@ -1,7 +1,7 @@
-// What a surface does with the light that arrives: fs(p, ωi → ωo), in 1/sr. Directions are in the local frame, unit length and
+// Bidirectional scattering distribution functions fs(p, ωi → ωo), in 1/sr. Directions are in the local frame, of unit length and
 // pointing away from the surface; pdfs are per solid angle.
 //
-// Where fs is a delta (`Lobe::Kind::specular`), eval() and pdf() know nothing of it, and sample() has the pdf ∞ (delta_pdf).
+// eval() and pdf() do not include delta lobes (`Lobe::Kind::specular`); sample() returns them with the pdf ∞ (delta_pdf).
 #pragma once
 
 #include "core/material/blend.h"
@@ -24,16 +24,17 @@
 
 namespace neumann {
 
-// A closed set: adding a material is a file beside diffuse.h and a name here. Of one side of a surface: ωo is always above it,
-// ωo.z > 0, and ωi is where light is transmitted from where ωi.z < 0. The other side of glass is another Bsdf. Radiance is L and
-// not L/n²: it is n² times as large within glass.
+// A closed set: to add a material, add a file beside diffuse.h and a name here. A Bsdf is for one side of a surface: ωo is always
+// above it, ωo.z > 0, and light is transmitted if ωi.z < 0. The other side of glass is another Bsdf. Radiance is L and not L/n²: it
+// is n² times as large within glass.
 struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Dielectric, ThinDielectric,
                            RoughDielectric<Ggx>, RoughDielectric<Beckmann>, Plastic, RoughPlastic<Ggx>, RoughPlastic<Beckmann>,
                            Principled, PrincipledThin, Null, Retroreflector, RoughRetroreflector, Mask, Blend, PerturbedNormal> {
     using variant::variant;
 };
 
-// std::visit for the innermost loops: of so many materials it would call each through a table, and the plainest is worth inlining.
+// std::visit for the innermost loops: with so many materials std::visit would call each through a table, but the simplest one
+// should be inlined.
 template <class F>
 auto visit_fast(const Bsdf& bsdf, const F& f) {
     if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) return f(*diffuse);
@@ -52,7 +53,7 @@ inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo
 inline Rgb largest_albedo(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);
 }
-// The same for basic radiance, L/n²: above 1 where more light is given back than arrives.
+// The same for basic radiance L/n²; above 1 if the material does not conserve energy.
 inline Rgb largest_basic_albedo(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
@@ -63,7 +64,7 @@ inline Rgb largest_basic_albedo(const Bsdf& bsdf) {
         },
         bsdf);
 }
-// Light comes through from the other side.
+// Whether light is transmitted from the other side.
 inline bool transmits(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
@@ -74,7 +75,8 @@ inline bool transmits(const Bsdf& bsdf) {
         },
         bsdf);
 }
-// Of a boundary between two media, also where it is but a part: the refractive index beyond it over that on this side. Else 1.
+// For a boundary between two media, also as a part of the material: the refractive index beyond it divided by that on this side.
+// Otherwise 1.
 inline double refractive_ratio(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
@@ -89,7 +91,7 @@ inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
 }
 
-// It conserves energy, by its largest albedo, and is reciprocal; or it promises neither.
+// True if the material conserves energy, up to its largest albedo, and is reciprocal; false if it guarantees neither.
 inline bool is_lawful(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
@@ -101,7 +103,7 @@ inline bool is_lawful(const Bsdf& bsdf) {
         bsdf);
 }
 
-// fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1. Where fs is no such product they are 1 and the material itself.
+// fs(p, ωi → ωo) = ρ(p) g(ωi, ωo): ρ, and the material with ρ = 1. If fs is not such a product, 1 and the material itself.
 inline Rgb reflectance(const Bsdf& bsdf, const ShadingPoint& p) {
     return std::visit([&](const auto& b) { return b.reflectance(p); }, bsdf);
 }
@@ -109,11 +111,11 @@ inline Bsdf white(const Bsdf& bsdf) {
     return std::visit([](const auto& b) -> Bsdf { return b.white(); }, bsdf);
 }
 
-// Known to be the same all over a surface.
+// Whether fs is known to be constant over a surface.
 inline bool is_constant(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.is_constant(); }, bsdf);
 }
-// Where it is asked for depends on texture coordinates and tangents.
+// Whether fs depends on texture coordinates or tangents.
 inline bool needs_coordinates(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
@@ -122,9 +124,9 @@ inline bool needs_coordinates(const Bsdf& bsdf) {
         },
         bsdf);
 }
-// fs(p, ωi → ωo) is ρ(p) g(ωi, ωo), as reflectance() and white() tell it.
+// Whether fs(p, ωi → ωo) = ρ(p) g(ωi, ωo), with ρ from reflectance() and g from white().
 inline bool factors(const Bsdf& bsdf) { return is_constant(white(bsdf)); }
-// All channels are known to be alike.
+// Whether all channels are known to be alike.
 inline bool is_grey(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.is_grey(); }, bsdf);
 }

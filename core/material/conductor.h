@@ -1,4 +1,4 @@
-// A smooth metal or mirror: all light goes on in one direction (Mitsuba's `conductor`). One-sided: the back reflects nothing.
+// A smooth metal or mirror, with a delta lobe (Mitsuba's `conductor`). One-sided: the back reflects nothing.
 //
 //     fs(ωi → ωo) |cos θi| = ρ F(cos θi) δ(ωi − M ωo),   M ωo the mirror image of ωo, ρ a factor, 1 in nature.
 #pragma once
@@ -15,7 +15,7 @@ public:
     explicit Conductor(ConductorFresnel fresnel = {}, SurfaceFunction specular_reflectance = Rgb(1.0))
         : fresnel_(fresnel), reflectance_(std::move(specular_reflectance)) {}
 
-    // No direction that was chosen otherwise is the mirror image.
+    // A direction sampled otherwise is the mirror direction with probability 0.
     Rgb eval(const ShadingPoint&, const Vec3&, const Vec3&) const { return Rgb(0.0); }
     double pdf(const ShadingPoint&, const Vec3&, const Vec3&) const { return 0.0; }
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2&) const {

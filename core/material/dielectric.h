@@ -4,8 +4,8 @@
 //     fs(ωi → ωo) |cos θi| = R F(cos θo) δ(ωi − M ωo) + T (1 − F(cos θo)) / η² δ(ωi − S ωo),
 //
 // M ωo the mirror image and S ωo the direction of Snell's law, below the surface; R and T are factors, 1 in nature. Radiance
-// changes by 1/η² because a cone of light becomes wider or narrower; L/n² stays (Veach 1997, 5.2), and fs is reciprocal but for
-// that: fs(ωi → ωo)/no² = fs(ωo → ωi)/ni².
+// changes by 1/η² because a cone of light becomes wider or narrower; L/n² is conserved (Veach 1997, 5.2), and fs is reciprocal up
+// to that factor: fs(ωi → ωo)/no² = fs(ωo → ωi)/ni².
 #pragma once
 
 #include "core/material/bsdf_sample.h"

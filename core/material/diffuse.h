@@ -16,7 +16,7 @@ public:
         return wo.z > 0.0 && wi.z > 0.0 ? reflectance_(p) * inv_pi : Rgb(0.0);
     }
     double pdf(const ShadingPoint&, const Vec3& wo, const Vec3& wi) const { return wo.z > 0.0 && wi.z > 0.0 ? wi.z * inv_pi : 0.0; }
-    // The weight is ρ itself and not a quotient: in the white furnace every path then carries ρ^i exactly.
+    // The weight is ρ itself and not a quotient, so that every path in the white furnace has exactly the throughput ρ^i.
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const {
         if (wo.z <= 0.0) return {};
         const Vec3 wi = cosine_hemisphere(u);

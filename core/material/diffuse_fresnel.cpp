@@ -8,7 +8,7 @@ namespace neumann {
 
 double diffuse_fresnel(double n) {
     if (n < 1.0) return 1.0 - n * n * (1.0 - diffuse_fresnel(1.0 / n));
-    // With μ = s², because F has a slope that is steep at grazing angles.
+    // Substitutes μ = s², because F is steep at grazing angles.
     const auto integrand = [n](double s) { return conductor_fresnel(s * s, n, 0.0) * 4.0 * s * s * s; };
     double sum = 0.0;
     for (const auto& [from, to] : {std::pair{0.0, 0.125}, {0.125, 0.25}, {0.25, 0.5}, {0.5, 1.0}})

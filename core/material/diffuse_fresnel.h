@@ -1,6 +1,6 @@
-// What a smooth dielectric boundary reflects of light that arrives from all sides alike,
+// The diffuse Fresnel reflectance: the fraction of uniform incident light that a smooth dielectric boundary reflects,
 //
-//     2 ∫₀¹ F(μ) μ dμ,   F that of the refractive index n: that of the far side over that of the near one.
+//     2 ∫₀¹ F(μ) μ dμ,   F for the refractive index n of the far side divided by that of the near side.
 #pragma once
 
 namespace neumann {

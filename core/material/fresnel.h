@@ -1,17 +1,16 @@
-// The share of unpolarised light that a conductor of refractive index η + ik reflects, for each colour channel by itself (Fresnel;
-// Born and Wolf, Principles of Optics, 14.2). With k = 0 it is that of a dielectric seen from outside, and with η = 0 all is
-// reflected.
+// The Fresnel reflectance of a conductor with refractive index η + ik for unpolarised light, for each colour channel separately
+// (Born and Wolf, Principles of Optics, 14.2). With k = 0 it is that of a dielectric seen from outside, and with η = 0 it is 1.
 #pragma once
 
 #include "core/base/vec.h"
 
 namespace neumann {
 
-// In [0, 1] for η, k ≥ 0; cosθ > 0 is taken between the direction and the normal. With q = √(η² − sin²θ) = a + ib,
+// In [0, 1] for η, k ≥ 0; cosθ > 0 is between the direction and the normal. With q = √(η² − sin²θ) = a + ib,
 //
 //     rs = (cosθ − q) / (cosθ + q),   rp = rs (q cosθ − sin²θ) / (q cosθ + sin²θ),   F = (|rs|² + |rp|²) / 2.
 //
-// Differences are squared after they are taken, so F keeps its digits where η is close to 1.
+// Differences are formed before squaring, so F stays accurate if η is close to 1.
 inline double conductor_fresnel(double cosine, double eta, double k) {
     if (eta == 0.0) return 1.0;
     const double cos2 = cosine * cosine, sin2 = 1.0 - cos2;

@@ -9,7 +9,7 @@
 
 namespace neumann {
 
-// The mirror image of w on the upper side; w itself if it is there.
+// w, mirrored to the upper side if it is below.
 inline Vec3 above(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 
 class Ggx {
@@ -18,20 +18,20 @@ public:
     // Along x and along y.
     explicit Ggx(const Vec2& alpha) : alpha_(alpha), product_(alpha.x * alpha.y), ratio_(alpha.y / alpha.x) {}
 
-    // D(m), sr⁻¹: the area of microfacets that face along m, per solid angle and per area of the surface. The sum keeps its digits
-    // for small α, where 1 + (α² − 1) cos²θ would not.
+    // D(m), sr⁻¹: the area of microfacets with normal m, per solid angle and per area of the surface. The sum is accurate for small
+    // α, where 1 + (α² − 1) cos²θ would not be.
     double density(const Vec3& m) const {
         if (m.z <= 0.0) return 0.0;
         const double x = m.x * m.x * ratio_ + m.y * m.y / ratio_ + product_ * m.z * m.z;
         return product_ * inv_pi / (x * x);
     }
-    // ∫ D(m) (v·m)⁺ dm, v above the surface: the area of facets that a view along v would see if none hid another. Smith's share of
-    // visible ones is G1(v) = v.z / projected_area(v).
+    // ∫ D(m) (v·m)⁺ dm, v above the surface: the projected area of the facets without masking. Smith's masking function is
+    // G1(v) = v.z / projected_area(v).
     double projected_area(const Vec3& v) const {
         const double x = alpha_.x * v.x, y = alpha_.y * v.y;
         return 0.5 * (v.z + std::sqrt(v.z * v.z + x * x + y * y));
     }
-    // A normal with the density D(m) (v·m)⁺ / projected_area(v). The sphere's visible cap, stretched: Dupuy and Benyoub, Sampling
+    // Samples a visible normal with the pdf D(m) (v·m)⁺ / projected_area(v), per solid angle of m: Dupuy and Benyoub, Sampling
     // Visible GGX Normals with Spherical Caps, 2023.
     Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
         const Vec3 w = glm::normalize(Vec3(alpha_.x * v.x, alpha_.y * v.y, v.z));

@@ -1,5 +1,5 @@
-// The microfacets of a clear coat, whose highlight has long tails: Burley, Physically Based Shading at Disney, 2012, appendix B.2,
-// with 0 < α < 1.
+// The microfacet distribution of a clear coat, whose highlight has long tails: Burley, Physically Based Shading at Disney, 2012,
+// appendix B.2, with 0 < α < 1.
 #pragma once
 
 #include "core/sampling/warp.h"
@@ -17,7 +17,7 @@ public:
         const double sin2 = m.x * m.x + m.y * m.y;
         return (a2_ - 1.0) * inv_pi / (log_a2_ * (sin2 + a2_ * m.z * m.z));
     }
-    // A normal with the density D(m) m.z.
+    // Samples a normal with the pdf D(m) m.z, per solid angle.
     Vec3 sample(const Vec2& u) const {
         const double cos2 = (1.0 - std::exp(log_a2_ * (1.0 - u.y))) / (1.0 - a2_);
         return Vec3(direction_on_circle(u.x) * std::sqrt(std::max(1.0 - cos2, 0.0)), std::sqrt(cos2));

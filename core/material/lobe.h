@@ -4,11 +4,11 @@
 namespace neumann {
 
 struct Lobe {
-    // `diffuse`: fs does not depend on directions. `rough`: a highlight whose slopes spread by α. `specular`: fs has a delta, which
-    // eval() and pdf() cannot show: of it they say 0, and only sample() reflects.
+    // `diffuse`: fs does not depend on directions. `rough`: a glossy lobe of roughness α. `specular`: fs has a delta lobe, which
+    // eval() and pdf() do not include; only sample() returns it.
     enum class Kind { diffuse, rough, specular };
     Kind kind = Kind::diffuse;
-    double alpha = 1.0;  // 0 where specular, 1 where diffuse
+    double alpha = 1.0;  // 0 if specular, 1 if diffuse
 };
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// A material with holes (Mitsuba's `mask`): of the light, `opacity` meets the nested material, and the rest goes straight on, which
-// counts as a bounce:
+// A material with holes (Mitsuba's `mask`): the fraction `opacity` of the light is scattered by the nested material, and the rest
+// goes straight on, which counts as a bounce:
 //
 //     fs(ωi → ωo) = o fs'(ωi → ωo) + (1 − o) δ(ωi + ωo) / |cos θi|.
 #pragma once
@@ -16,7 +16,7 @@ struct Bsdf;
 
 class Mask {
 public:
-    // `nested`: of this side; null where it absorbs. `opacity` is in [0, 1], alike in all channels.
+    // `nested`: the material of this side; null if it absorbs. `opacity` is in [0, 1] and equal in all channels.
     Mask(std::shared_ptr<const Bsdf> nested, SurfaceFunction opacity) : nested_(std::move(nested)), opacity_(std::move(opacity)) {}
 
     Rgb eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;

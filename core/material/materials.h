@@ -1,4 +1,4 @@
-// Which material stands on which side of which shape. A side without a material absorbs what arrives.
+// The assignment of materials to the sides of shapes. A side without a material absorbs all light.
 #pragma once
 
 #include "core/material/bsdf.h"
@@ -8,10 +8,10 @@
 
 namespace neumann {
 
-// The side of a surface that is looked at: what it is made of, and where. Directions are in the frame of `p`, whose z points to
-// this side.
+// One side of a surface at a point: its material and its shading point. Directions are in the frame of `p`, whose z points to this
+// side.
 struct SurfaceSide {
-    const Bsdf* bsdf;  // null where it absorbs
+    const Bsdf* bsdf;  // null if the side absorbs
     ShadingPoint p;
 };
 
@@ -26,7 +26,7 @@ public:
 
     Materials(std::vector<Bsdf> bsdfs, std::vector<Sides> sides_of_shape, std::shared_ptr<const std::vector<Shape>> shapes);
 
-    // What a direction w, away from p, is on the side of.
+    // The side of the surface at p on which the direction w, which points away from p, lies.
     SurfaceSide side(const SurfacePoint& p, const Vec3& w) const {
         if (is_flat_[p.shape]) {
             const bool front = glm::dot(p.normal, w) > 0.0;
@@ -38,16 +38,16 @@ public:
         side.bsdf = at(p.shape, front);
         return side;
     }
-    // The material on one side of a shape, or null where that side absorbs.
+    // The material on one side of a shape, or null if that side absorbs.
     const Bsdf* at(std::uint32_t shape, bool front) const {
         const Sides& sides = sides_of_shape_[shape];
         const int index = front ? sides.front : sides.back;
         return index == absorbing ? nullptr : &bsdfs_[static_cast<std::size_t>(index)];
     }
-    // The largest albedo of any material that stands on a shape, for each channel: an upper bound on ‖R‖ in every L^p
-    // (Riesz–Thorin, with reciprocity), and in L^∞ alone where shading normals differ from geometric ones.
+    // The largest albedo of any material on a shape, for each channel: an upper bound on ‖R‖ in every L^p (Riesz–Thorin, with
+    // reciprocity), but only in L^∞ if shading normals differ from geometric ones.
     Rgb largest_albedo() const;
-    // The same of basic radiance L/n², for which glass has no more than 1.
+    // The same for basic radiance L/n², for which glass has at most 1.
     Rgb largest_basic_albedo() const;
 
     const std::vector<Bsdf>& bsdfs() const { return bsdfs_; }
@@ -56,7 +56,7 @@ private:
     std::vector<Bsdf> bsdfs_;
     std::vector<Sides> sides_of_shape_;
     std::shared_ptr<const std::vector<Shape>> shapes_;
-    std::vector<char> is_flat_;  // by shape: nothing there needs more than the geometric normal
+    std::vector<char> is_flat_;  // by shape: whether its materials need the geometric normal only
 };
 
 }  // namespace neumann

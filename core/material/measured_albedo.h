@@ -1,4 +1,4 @@
-// The largest albedo of a material that has no formula for it, measured.
+// Measures the largest albedo of a material that has no formula for it.
 #pragma once
 
 #include "core/material/bsdf_sample.h"
@@ -6,8 +6,8 @@
 
 namespace neumann {
 
-// The largest mean weight of `sample(ωo, u)` over Hammersley's 2048 points, among 12 angles and, where it is not isotropic, 3
-// azimuths, and 1% more: the tests find no larger albedo in between.
+// The largest mean weight of `sample(ωo, u)` over 2048 Hammersley points, among 12 angles and, for anisotropic materials, 3
+// azimuths, plus 1%: the tests find no larger albedo in between.
 template <class Sample>
 Rgb measured_albedo(bool isotropic, const Sample& sample) {
     constexpr std::uint32_t count = 2048;

@@ -1,14 +1,14 @@
-// A material whose normal is another one than the surface's: Mitsuba's `normalmap` and `bumpmap`. With a prime for what is seen
-// around the perturbed normal n', and f' the nested material,
+// A material with a perturbed normal n': Mitsuba's `normalmap` and `bumpmap`. With primes for directions in the frame of n', and f'
+// the nested material,
 //
-//     fs(ωi → ωo) |cosθi| = f'(ωi' → ωo') |cosθi'| G(ωi)    where cosθ and cosθ' have the same sign, else 0.
+//     fs(ωi → ωo) |cosθi| = f'(ωi' → ωo') |cosθi'| G(ωi)    if cosθ and cosθ' have the same sign, otherwise 0.
 //
-// G darkens where n' leans away from the light: Conty Estevez, Lecocq and Stein, A Microfacet-Based Shadowing Function to Solve the
-// Bump Terminator Problem, Ray Tracing Gems, 2019. A normal that faces away from ωo is mirrored at the surface's: Schüssler et al.,
+// G is a shadowing function: Conty Estevez, Lecocq and Stein, A Microfacet-Based Shadowing Function to Solve the Bump Terminator
+// Problem, Ray Tracing Gems, 2019. A normal that faces away from ωo is mirrored at the surface's normal: Schüssler et al.,
 // Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, 2017.
 //
-// fs is not reciprocal. What leaves along ωo is at most what f' reflects, which bounds R in L^∞. But of light from one direction ωi
-// a diffuse f' reflects up to 2√2 cosτ (1 + cosτ) ρ, n' being tilted by τ, as ωi is grazing; without G there is no bound.
+// fs is not reciprocal. The albedo for ωo is at most that of f', which bounds R in L^∞. But of light from a single, grazing
+// direction ωi a diffuse f' reflects up to 2√2 cosτ (1 + cosτ) ρ, where τ is the tilt of n'; without G there is no bound.
 #pragma once
 
 #include "core/material/bsdf_sample.h"
@@ -33,7 +33,7 @@ public:
     struct Options {
         bool flip_invalid_normals = true;
         bool use_shadowing_function = true;
-        // The nested material's back: it sees the perturbed surface from behind.
+        // The material is on the back, and sees the perturbed surface from behind.
         bool from_behind = false;
     };
 
@@ -53,7 +53,7 @@ public:
     Lobe lobe() const;
 
 private:
-    // The frame around n' in that around n, and the same point in it.
+    // The frame of n' in the frame of n, and the same point with that frame.
     struct Perturbed {
         Frame frame;
         ShadingPoint p;

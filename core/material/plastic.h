@@ -2,9 +2,9 @@
 // to the outside, F Fresnel's share and F̄ its mean inside the layer, over all directions,
 //
 //     fs(ωi → ωo) |cos θi| = s F(cos θi) δ(ωi − M ωo) + b (1 − F(cos θi)) (1 − F(cos θo)) cos θi / π,
-//     b = ρ / (η² (1 − ρ F̄)),   or ρ / (η² (1 − F̄)) where colours are to stay as they are (`nonlinear` is false).
+//     b = ρ / (η² (1 − ρ F̄)),   or ρ / (η² (1 − F̄)) without the colour shift (`nonlinear` is false).
 //
-// F̄ is Mitsuba's fit: over a white base 1.0012 of the light comes back for η ≤ 2, 1.03 for 2.4, which largest_albedo() says.
+// F̄ is Mitsuba's fit: the albedo over a white base is up to 1.0012 for η ≤ 2 and 1.03 for 2.4; largest_albedo() accounts for it.
 #pragma once
 
 #include "core/material/bsdf_sample.h"
@@ -17,10 +17,10 @@
 
 namespace neumann {
 
-// b above, and how much of a look goes to the boundary.
+// Computes b, and the probability of sampling the boundary.
 class CoatedBase {
 public:
-    // `internal`: F̄. `specular` steers directions only.
+    // `internal`: F̄. `specular` only affects the probability of sampling the boundary.
     CoatedBase(double eta, double internal, SurfaceFunction diffuse, const SurfaceFunction& specular, bool nonlinear)
         : inv_eta2_(1.0 / (eta * eta)), internal_(internal), nonlinear_(nonlinear), diffuse_(std::move(diffuse)) {
         const double s = mean_component(specular.upper_bound()), d = mean_component(diffuse_.upper_bound());
@@ -29,7 +29,7 @@ public:
 
     Rgb operator()(const ShadingPoint& p) const { return of(diffuse_(p)); }
     Rgb upper_bound() const { return of(diffuse_.upper_bound()); }
-    // Of a boundary that reflects F.
+    // The probability of sampling the boundary if it reflects F.
     double specular_probability(double F) const {
         const double s = F * specular_share_, d = (1.0 - F) * (1.0 - specular_share_);
         return s + d > 0.0 ? s / (s + d) : 1.0;
@@ -70,7 +70,7 @@ public:
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const Plastic& white() const { return *this; }
-    // s F + b (1 − F) (1 − F̄) lies between its values where F is least and where it is 1.
+    // s F + b (1 − F) (1 − F̄) is linear in F, so its maximum is at the smallest F or at F = 1.
     Rgb largest_albedo() const {
         const double F = fresnel(1.0);
         const Rgb s = specular_.upper_bound(), d = base_.upper_bound() * (1.0 - diffuse_fresnel(eta_));

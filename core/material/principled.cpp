@@ -52,7 +52,7 @@ PrincipledValues Principled::on_this_side(PrincipledValues v) const {
     return v;
 }
 
-// Facets reflect or let through as the whole surface does; never less than a tenth of either.
+// The probabilities of the lobes; among facets, reflection and transmission each get at least a tenth.
 Principled::Probabilities Principled::probabilities(const PrincipledValues& v, const Vec3& wo) const {
     const double F = 0.1 + 0.8 * conductor_fresnel(wo.z, v.eta, 0.0), glass = glass_share(v);
     if (!outside_) return glass > 0.0 ? Probabilities{0.0, 0.0, F, 1.0 - F} : Probabilities{};
@@ -76,7 +76,7 @@ Rgb Principled::eval(const PrincipledValues& v, const Vec3& wo, const Vec3& wi) 
     if (!outside_) return Rgb(glass_share(v) * F * D_G / 4.0);
     const double no_metal = 1.0 - v.metallic;
     Rgb f = v.base_color * (diffuse_share(v) * v.diffuse(wo.z, wi.z, cos_o) * inv_pi) + v.sheen_color(cos_o) * no_metal;
-    if (v.eta != 1.0) {  // else there is no boundary, in Mitsuba not of metal either
+    if (v.eta != 1.0) {  // otherwise there is no boundary; in Mitsuba this also disables metal
         const Rgb mixed = v.metallic * schlick(v.base_color, cos_o, v.eta) +
                           no_metal * (v.spec_tint * v.tinted_fresnel(cos_o) + Rgb((1.0 - v.spec_tint) * F));
         f += mixed * (D_G / 4.0);
@@ -95,7 +95,7 @@ double Principled::pdf(const PrincipledValues& v, const Vec3& wo, const Vec3& wi
     const double cos_o = glm::dot(wo, m), cos_i = glm::dot(wi, m);
     if (cos_o <= 0.0) return 0.0;
     const Ggx facets(v.alpha());
-    const double visible = facets.density(m) / facets.projected_area(wo);  // per solid angle, over ωo·m
+    const double visible = facets.density(m) / facets.projected_area(wo);  // pdf of m per solid angle, divided by ωo·m
     if (wi.z < 0.0) {
         if (cos_i >= 0.0) return 0.0;
         const double bend = cos_o + v.eta * cos_i;

@@ -40,7 +40,7 @@ public:
 private:
     struct Probabilities;
 
-    // η is that of the other side, over this one's.
+    // The values at p; η is the refractive index of the other side divided by that of this side.
     PrincipledValues values(const ShadingPoint& p) const { return on_this_side((*parameters_)(p)); }
     PrincipledValues on_this_side(PrincipledValues v) const;
     Probabilities probabilities(const PrincipledValues& v, const Vec3& wo) const;

@@ -1,9 +1,10 @@
-// Light goes back to where it came from, as from a road sign: fs(ωi → ωo) |cos θi| = ρ δ(ωi − ωo). One-sided. A rough one spreads
-// light around that direction as a rough mirror does around its own:
+// Reflects light back to where it came from, like a road sign: fs(ωi → ωo) |cos θi| = ρ δ(ωi − ωo). One-sided. A rough
+// retroreflector spreads light around that direction as a rough mirror does around the mirror direction:
 //
 //     fs(ωi → ωo) = fr(M ωi → ωo),   M ωi the mirror image of ωi,  fr that of RoughConductor,
 //
-// which is reciprocal as fr is: ωi + M ωo is the mirror image of ωo + M ωi, and facets are spread alike around the normal.
+// which is reciprocal because fr is: ωi + M ωo is the mirror image of ωo + M ωi, and the distribution of facets is symmetric about
+// the normal.
 #pragma once
 
 #include "core/material/rough_conductor.h"

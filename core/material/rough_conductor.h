@@ -16,13 +16,13 @@
 
 namespace neumann {
 
-// G2: whether a facet hides from one direction has to do with how high it stands, and so with the other one, or has not.
+// G2: masking in the two directions is independent, or correlated by the height of the facet.
 enum class Masking {
     separable,         // G1(ωi) G1(ωo), as in Mitsuba
     height_correlated  // 1 / (1 + Λ(ωi) + Λ(ωo)), G1 = 1 / (1 + Λ)
 };
 
-// Everything is written with the projected areas a(v) = cosθ (1 + Λ(v)) of the facets, which do not vanish at grazing angles.
+// All formulas use the projected areas a(v) = cosθ (1 + Λ(v)) of the facets, which do not vanish at grazing angles.
 template <class Microfacets>
 class RoughConductor {
 public:
@@ -39,7 +39,7 @@ public:
         const Vec3 m = glm::normalize(wo + wi);
         return reflectance_(p) * fresnel_(glm::dot(wo, m)) * (facets.density(m) / (4.0 * area(facets, wo, wi)));
     }
-    // Over the whole sphere: facets also reflect light from below the horizon, where fs is 0.
+    // Normalised over the whole sphere: sampling visible normals also gives ωi below the horizon, where fs is 0.
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         const Vec3 h = wo + wi;
         if (wo.z <= 0.0 || h.z <= 0.0) return 0.0;

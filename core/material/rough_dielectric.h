@@ -7,7 +7,7 @@
 //                   (cosθi cosθo |ωo + η ωi|²)                                              below, m ∝ ±(ωo + η ωi).
 //
 // Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, where the η² of eq. 21 is cancelled by the 1/η² of
-// radiance. Facets on both sides are drawn as they are seen (Heitz and d'Eon 2014).
+// radiance. Visible normals are sampled on both sides (Heitz and d'Eon 2014).
 #pragma once
 
 #include "core/material/beckmann.h"
@@ -35,8 +35,8 @@ public:
         if (wo.z <= 0.0 || wi.z == 0.0) return Rgb(0.0);
         return scattered(p, At(*this, p, wo), wi) / std::abs(wi.z);
     }
-    // Over the whole sphere. Facets also reflect downwards and refract upwards, where that does not contribute to fs; sample()
-    // gives such directions the weight of the other ones.
+    // Normalised over the whole sphere. Facets may also reflect downwards and refract upwards, which is not part of fs; sample()
+    // gives such directions the weight that fs has there.
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         if (wo.z <= 0.0) return 0.0;
         const At at(*this, p, wo);

@@ -6,7 +6,7 @@ namespace neumann {
 
 namespace {
 
-// ∫ over the facets that a direction of cosine μ sees, each with its share.
+// Integrates a function over the facets visible from a direction of cosine μ.
 template <class Microfacets, class Function>
 double mean_over_facets(const Microfacets& facets, double mu, const Function& f) {
     using Rule = boost::math::quadrature::gauss<double, 30>;
@@ -54,7 +54,7 @@ RoughTransmittance::RoughTransmittance(const Microfacets& facets, double eta) {
 template RoughTransmittance::RoughTransmittance(const Ggx&, double);
 template RoughTransmittance::RoughTransmittance(const Beckmann&, double);
 
-// ∫ over a piece of (a + (b − a) t) 2 (i + t) h² dt, t from 0 to 1.
+// The sum over intervals of ∫₀¹ (a + (b − a) t) 2 (i + t) h² dt.
 double RoughTransmittance::mean() const {
     constexpr double h = 1.0 / (nodes - 1);
     double sum = 0.0;

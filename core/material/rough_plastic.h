@@ -3,9 +3,9 @@
 //
 //     fs(ωi → ωo) = s F(ωo·m) D(m) G1(ωi) G1(ωo) / (4 cosθi cosθo) + b T(cosθi) T(cosθo) / π,
 //
-// T the share of light from one direction that facets which it meets once let into the layer, and F̄ in b the mean share that facets
-// reflect inside. Both are Mitsuba's sums: T is linear between 64 equidistant cosines, and F̄ is 2/64 Σ R(μ) μ over these, 1.5%
-// below the integral.
+// T the fraction of light from one direction that enters the layer, with single scattering by the facets, and F̄ in b the mean
+// fraction that the facets reflect inside. Both are Mitsuba's sums: T is interpolated linearly between 64 equidistant cosines, and
+// F̄ is 2/64 Σ R(μ) μ over these, 1.5% below the integral.
 #pragma once
 
 #include "core/material/beckmann.h"
@@ -20,7 +20,7 @@ namespace neumann {
 
 class RoughTransmittance {
 public:
-    // By Gauss's rule over the facets that are seen.
+    // Computed by Gauss quadrature over the visible facets.
     template <class Microfacets>
     RoughTransmittance(const Microfacets& facets, double eta);
 
@@ -29,7 +29,7 @@ public:
         const int i = std::min(static_cast<int>(x), nodes - 2);
         return T_[i] + (x - i) * (T_[i + 1] - T_[i]);
     }
-    // Over all directions, weighted by the cosine.
+    // The mean over all directions, weighted by the cosine.
     double mean() const;
     double least() const { return *std::min_element(T_.begin(), T_.end()); }
     double largest() const { return *std::max_element(T_.begin(), T_.end()); }
@@ -60,7 +60,7 @@ public:
         const double boundary = F * facets_.density(m) / (4.0 * facets_.projected_area(wo) * facets_.projected_area(wi));
         return specular_(p) * boundary + base_(p) * ((*transmittance_)(wo.z) * (*transmittance_)(wi.z) * inv_pi);
     }
-    // Over the whole sphere, as a rough conductor's.
+    // Normalised over the whole sphere, as for a rough conductor.
     double pdf(const ShadingPoint&, const Vec3& wo, const Vec3& wi) const {
         const Vec3 h = wo + wi;
         if (wo.z <= 0.0 || h.z <= 0.0) return 0.0;
@@ -83,8 +83,8 @@ public:
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const RoughPlastic& white() const { return *this; }
-    // At most s (1 − T) + b T ∫ T(μ) 2μ dμ, which lies between its values at the ends of T: facets that are met once reflect at
-    // most what they do not let in.
+    // At most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T. This is linear in T, so
+    // its maximum is at the smallest or the largest T.
     Rgb largest_albedo() const {
         const Rgb s = specular_.upper_bound(), d = base_.upper_bound() * transmittance_->mean();
         const auto with = [&](double T) { return s * (1.0 - T) + d * T; };

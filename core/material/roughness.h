@@ -13,7 +13,7 @@ class Roughness {
 public:
     Roughness(const Microfacets& constant)
         : alpha_u_(Rgb(constant.alpha().x)), alpha_v_(Rgb(constant.alpha().y)), bound_(constant) {}
-    // What is below 10⁻⁴ is taken for that, as in Mitsuba.
+    // Values below 10⁻⁴ are replaced by 10⁻⁴, as in Mitsuba.
     Roughness(SurfaceFunction alpha_u, SurfaceFunction alpha_v)
         : alpha_u_(std::move(alpha_u)),
           alpha_v_(std::move(alpha_v)),
@@ -22,7 +22,7 @@ public:
     Microfacets operator()(const ShadingPoint& p) const { return is_constant() ? bound_ : microfacets(alpha_u_(p), alpha_v_(p)); }
     bool is_constant() const { return alpha_u_.is_constant() && alpha_v_.is_constant(); }
     bool is_isotropic() const { return is_constant() && bound_.alpha().x == bound_.alpha().y; }
-    // Along the smoother tangent, where the surface is roughest.
+    // The smaller α of the two tangents, of the bounds over the surface.
     double alpha() const { return std::min(bound_.alpha().x, bound_.alpha().y); }
 
 private:

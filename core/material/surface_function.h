@@ -1,4 +1,4 @@
-// A quantity that is constant on a surface or varies from point to point: reflectance, and later textures.
+// A quantity that is constant on a surface or varies from point to point, such as a reflectance.
 #pragma once
 
 #include "core/geometry/shading_point.h"
@@ -11,15 +11,15 @@ namespace neumann {
 class SurfaceFunction {
 public:
     SurfaceFunction(const Rgb& constant) : constant_(constant) {}
-    // `upper_bound`: at least the function's largest value in each channel; it enters the bounds on the series. `is_grey`: its
-    // channels are alike everywhere.
+    // `upper_bound`: at least the function's largest value in each channel; used in the bounds on the series. `is_grey`: all
+    // channels are equal everywhere.
     SurfaceFunction(std::function<Rgb(const ShadingPoint&)> f, const Rgb& upper_bound, bool is_grey = false)
         : constant_(upper_bound), function_(std::move(f)), is_grey_(is_grey) {}
 
     Rgb operator()(const ShadingPoint& p) const { return function_ ? function_(p) : constant_; }
     const Rgb& upper_bound() const { return constant_; }
     bool is_constant() const { return !function_; }
-    // All channels are known to be alike.
+    // Whether all channels are known to be alike.
     bool is_grey() const { return function_ ? is_grey_ : neumann::is_grey(constant_); }
 
 private:

@@ -1,9 +1,9 @@
-// A pane so thin that light goes straight on through it (Mitsuba's `thindielectric`), alike from both sides. What goes to and fro
-// inside is added up: with F Fresnel's share of one boundary,
+// A pane so thin that light goes straight through it (Mitsuba's `thindielectric`), the same from both sides. Internal reflections
+// are added up: with F the Fresnel reflectance of one boundary,
 //
 //     F + (1 − F)² F (1 + F² + F⁴ + …) = 2F / (1 + F)
 //
-// is reflected, and the rest, (1 − F)/(1 + F), let through. All of that is one bounce.
+// is reflected, and the rest, (1 − F)/(1 + F), is transmitted. All of this is one bounce.
 #pragma once
 
 #include "core/material/bsdf_sample.h"
@@ -15,7 +15,7 @@ namespace neumann {
 
 class ThinDielectric {
 public:
-    // `eta`: the refractive index of the pane over that around it.
+    // `eta`: the refractive index of the pane divided by that around it.
     explicit ThinDielectric(double eta, SurfaceFunction specular_reflectance = Rgb(1.0),
                             SurfaceFunction specular_transmittance = Rgb(1.0))
         : eta_(eta), reflectance_(std::move(specular_reflectance)), transmittance_(std::move(specular_transmittance)) {}

@@ -6,7 +6,7 @@
 
 namespace neumann::reader {
 
-// "xxh3-128:" and 32 hexadecimal digits, of the contents of all files in their order. Throws InputError where one cannot be read.
+// "xxh3-128:" and 32 hexadecimal digits: a hash of the contents of all files in order. Throws InputError if one cannot be read.
 std::string hash_files(const std::vector<std::string>& paths);
 
 }  // namespace neumann::reader

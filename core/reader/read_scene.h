@@ -9,11 +9,11 @@
 
 namespace neumann {
 
-// Reads an XML scene file; `definitions` are the -D name=value of the command line, which override the file's <default>s. Errors
-// are InputError "file:line:column: what is wrong, what was expected". What is not supported, unknown, misspelt or never read is
-// refused by name; nothing is skipped in silence. A definition that the file does not use is an error, unless `optional`.
+// Reads an XML scene file. `definitions` are the -D name=value of the command line, which override the file's <default>s. Errors
+// are InputError "file:line:column: what is wrong, what was expected". Everything that is unsupported, unknown, misspelt or unused
+// is an error that names it; nothing is skipped silently. A definition that the file does not use is an error, unless `optional`.
 Scene read_scene(const std::string& path, const std::map<std::string, std::string>& definitions = {}, bool optional = false);
-// The same before the search structures are built.
+// The same, before the acceleration structures are built.
 SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions = {},
                             bool optional = false);
 

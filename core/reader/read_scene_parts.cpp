@@ -36,7 +36,7 @@ const Element* only(const Element& root, const std::string& tag, Problems& probl
 
 const Element& only_sensor(const Element& root, Problems& problems) {
     if (const Element* e = only(root, "sensor", problems)) return *e;
-    // What could not be read may have been it.
+    // An element that could not be read may have been the one.
     for (const Element& e : root.children)
         if (e.broken && !is_object(e.tag)) throw Told();
     throw InputError(root.place, "the scene has no <sensor>, expected one");
@@ -47,7 +47,7 @@ Origin origin(const Element& shape, const Element* bsdf) {
     return {shape.place, title(shape), bsdf ? title(*bsdf) : "default bsdf"};
 }
 
-// What nothing refers to, and what is in shapes, is checked and dropped; and all that is in what could not be read.
+// Checks objects that nothing refers to, objects in shapes, and the contents of elements that could not be read; they are not used.
 class Unused {
 public:
     Unused(const Context& context, const Bsdfs& bsdfs, const AreaLights& lights)
@@ -116,7 +116,7 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     SceneLights scene_lights(context);
     for (const Element& e : document.root.children)
         if (e.tag == "emitter") problems.attempt(e.place, [&] { scene_lights.add(e); });
-    // All shapes before their materials: textures may hold what meshes bring along.
+    // All shapes are read before their materials, because textures may use attributes of meshes.
     std::vector<ReadShape> shapes;
     read_shapes(document.root, context, [&](ReadShape shape) { shapes.push_back(std::move(shape)); });
     for (ReadShape& shape : shapes) {

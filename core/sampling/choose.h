@@ -1,9 +1,9 @@
-// One random number for a choice and for what follows it.
+// Uses one random number for a choice, and reuses the rest of it.
 #pragma once
 
 namespace neumann {
 
-// The first of two with probability p. u ∈ [0, 1) is afterwards uniform again, whichever it was.
+// True with probability p. Rescales u, so that it is uniform in [0, 1) again in either case.
 inline bool choose_first(double p, double& u) {
     const bool first = u < p;
     u = first ? u / p : (u - p) / (1.0 - p);

@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-inline double to_unit_interval(std::uint32_t bits) { return bits * 0x1p-32 + 0x1p-33; }  // (0, 1): the middles of 2^32 parts
+inline double to_unit_interval(std::uint32_t bits) { return bits * 0x1p-32 + 0x1p-33; }  // in (0, 1): the centres of 2^32 cells
 
 class CounterBased {
 public:

@@ -1,5 +1,5 @@
-// The density of a direction that is the only one possible, as in a mirror or towards a point light. The power heuristic then leaves
-// the sample all its weight.
+// The pdf, ∞, of a direction that is the only possible one, as in a mirror or towards a point light. Multiple importance sampling
+// then gives the sample the weight 1.
 #pragma once
 
 #include <limits>

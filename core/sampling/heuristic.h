@@ -11,7 +11,7 @@ inline double power_heuristic(double a, double b) {
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// The same, or a / (a + b).
+// The power heuristic, or the balance heuristic a / (a + b).
 inline double heuristic(Heuristic kind, double a, double b) {
     return kind == Heuristic::power ? power_heuristic(a, b) : 1.0 / (1.0 + b / a);
 }

@@ -19,7 +19,7 @@ public:
         if (left_ == 0) refill();
         return to_unit_interval(bits_[4 - left_--]);
     }
-    // A pair from one block: an odd number that is left over is dropped.
+    // Both numbers come from the same block; a single number left over is skipped.
     Vec2 next2() {
         if (left_ < 2) refill();
         const unsigned at = 4 - left_;

@@ -7,7 +7,8 @@ namespace neumann {
 
 SobolPoints::SobolPoints(std::uint32_t size)
     : size_(size), log2_size_(static_cast<std::uint32_t>(std::countr_zero(size))), reversed_(static_cast<std::size_t>(size) * dimensions) {
-    // Boost leaves out the point at the origin and returns the others in Gray code order, which is the same set for a power of two.
+    // Boost omits the point at the origin and returns the others in Gray code order, which is the same set if the size is a power of
+    // two.
     boost::random::sobol engine(dimensions);
     for (std::uint32_t index = 1; index < size; ++index)
         for (std::uint32_t d = 0; d < dimensions; ++d) {

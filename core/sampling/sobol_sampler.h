@@ -1,8 +1,8 @@
 // Sobol' points with Owen's nested scrambling, in replicates: each run of `replicate_size` samples of a pixel is one scrambled net,
-// replicates and pixels are independent of each other. So the mean of a replicate is an unbiased estimate, and the spread of the
-// replicates' means its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing: Laine and Karras 2011
-// in the form of Vegdahl 2021. Only the first four dimensions, the best, are used: each further four are the same points in another
-// order (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
+// and replicates and pixels are independent of each other. The mean of a replicate is therefore an unbiased estimate, and the
+// spread of the replicates' means gives its error. Direction numbers: Joe and Kuo 2008 (Boost); Owen 1995; scrambling by hashing:
+// Laine and Karras 2011 in the form of Vegdahl 2021. Only the first four dimensions, which are the best, are used: each further
+// four are the same points in another order (padding: Burley, Practical Hash-Based Owen Scrambling, 2020).
 #pragma once
 
 #include "core/base/vec.h"
@@ -14,7 +14,7 @@
 
 namespace neumann {
 
-// The first points of the sequence, bits reversed, by dimension; shared by all pixels.
+// The first points of the sequence, with reversed bits, by dimension; shared by all pixels.
 class SobolPoints {
 public:
     static constexpr std::uint32_t dimensions = 4;
@@ -31,7 +31,8 @@ private:
     std::vector<std::uint32_t> reversed_;
 };
 
-// Numbers of one sample of a pixel. Copies share the scrambles of their pixel, so they must be on the same replicate at any time.
+// The random numbers of one sample of a pixel. Copies share the scrambling seeds of their pixel, so all copies must be at the same
+// replicate at any time.
 class SobolSampler {
 public:
     SobolSampler(const SobolPoints& points, std::uint64_t seed, std::uint32_t pixel)
@@ -40,7 +41,7 @@ public:
     void start(std::uint64_t sample) {
         const std::uint32_t size = points_->size(), bits = points_->log2_size();
         const std::uint64_t replicate = sample >> bits;
-        // The index as a fraction of the size, bits reversed.
+        // The index in the replicate as a 32-bit fraction of `size`, with reversed bits.
         reversed_index_ = reverse(static_cast<std::uint32_t>((sample & (size - 1)) << 32 >> bits));
         if (replicate != scrambles_->replicate) scrambles_->known = 0;
         scrambles_->replicate = replicate;
@@ -60,15 +61,15 @@ public:
     }
 
 private:
-    // Further dimensions, deep in long walks, are independent numbers.
+    // Beyond these dimensions, which only long walks reach, the numbers are independent.
     static constexpr std::uint32_t scrambled_dimensions = 128, groups = scrambled_dimensions / SobolPoints::dimensions;
     struct Scrambles {
         std::uint64_t replicate = ~std::uint64_t{0};
-        std::uint32_t known = 0;  // groups of dimensions
+        std::uint32_t known = 0;  // number of groups of dimensions whose seeds are computed
         std::array<std::uint32_t, scrambled_dimensions> seed;
         std::array<std::uint32_t, groups> order;
     };
-    static constexpr std::uint32_t order_block = 0x40000000u, beyond_block = 0x80000000u;  // keep the uses of the counter apart
+    static constexpr std::uint32_t order_block = 0x40000000u, beyond_block = 0x80000000u;  // separate the uses of the counter
 
     static std::uint32_t reverse(std::uint32_t x) {
         x = __builtin_bswap32(x);
@@ -76,7 +77,8 @@ private:
         x = (x & 0x33333333u) << 2 | (x & 0xccccccccu) >> 2;
         return (x & 0x55555555u) << 1 | (x & 0xaaaaaaaau) >> 1;
     }
-    // Each bit of the result depends on the higher bits of the point only (lower ones here, reversed): a nested permutation.
+    // Each bit of the result depends only on itself and the higher bits of the point (lower bits here, as they are reversed): a
+    // nested permutation.
     static std::uint32_t scramble(std::uint32_t reversed, std::uint32_t seed) {
         std::uint32_t x = reversed;
         x ^= x * 0x3d20adeau;

@@ -1,5 +1,5 @@
-// Rectangles as they are seen from a point: Ureña, Fajardo and King, An Area-Preserving Parametrization for Spherical Rectangles,
-// 2013.
+// Solid angle and uniform sampling of a rectangle seen from a point: Ureña, Fajardo and King, An Area-Preserving Parametrization
+// for Spherical Rectangles, 2013.
 #pragma once
 
 #include "core/base/vec.h"
@@ -11,8 +11,8 @@ class SphericalRectangle {
 public:
     SphericalRectangle(const Vec3& corner, const Vec3& a, const Vec3& b);
 
-    // 0 where it is seen edge-on. Absolute error about 10⁻¹⁵, or 10⁻¹⁶ over the distance to its plane where that is small: as much
-    // as the rounding of the corner makes.
+    // 0 if it is seen edge-on. The absolute error is about 10⁻¹⁵, or 10⁻¹⁶ divided by the distance to its plane if that is small,
+    // which is the effect of rounding the corner.
     double solid_angle() const { return solid_angle_; }
     // A point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() > 0.
     Vec3 sample(const Vec2& u) const;
@@ -20,7 +20,7 @@ public:
 private:
     Vec3 x_, y_, z_;                     // unit length, along a, along b, and to the plane of the rectangle
     double x0_, x1_, y0_, y1_, height_;  // the rectangle in this frame
-    double first_;                       // 2π less the angles at the corners with x0
+    double first_;                       // 2π minus the angles at the corners with x0
     double solid_angle_;
 };
 

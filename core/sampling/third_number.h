@@ -1,4 +1,4 @@
-// A random number made of two others.
+// Derives a random number from two others.
 #pragma once
 
 #include "core/base/vec.h"
@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// Uniform in [0, 1) and as good as independent of u, for a choice that depends on what u was used for. The bits of both numbers are
+// Uniform in [0, 1) and practically independent of u, for a choice in addition to those made with u. The bits of both numbers are
 // mixed by the finaliser of SplitMix64: Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014.
 inline double third_number(const Vec2& u) {
     const auto mixed = [](std::uint64_t x) {

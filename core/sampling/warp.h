@@ -1,5 +1,5 @@
-// Maps from the unit square to directions and areas. The maps use no library functions but the square root, so they give the same
-// bits on every machine; the inverse ones need an arcus tangent.
+// Maps from the unit square to directions and areas. The maps use no library function but the square root, so they give the same
+// bits on every machine; the inverse maps need atan2.
 #pragma once
 
 #include "core/base/vec.h"
@@ -31,7 +31,7 @@ inline Vec2 direction_on_circle(double u) {
     return {sign[quadrant + odd] * sin_cos[1 - odd], sign[quadrant] * sin_cos[odd]};
 }
 
-// The u of a direction (x, y), as exact as atan2.
+// The u of a direction (x, y), the inverse of direction_on_circle(), as exact as atan2.
 inline double part_of_circle(double x, double y) {
     const double u = std::atan2(y, x) * (0.5 * inv_pi);
     return u < 0.0 ? u + 1.0 : u;

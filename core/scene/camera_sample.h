@@ -1,4 +1,4 @@
-// A sample of a pixel: the ray through a place that its filter reaches, and the filter's weight.
+// A camera sample of a pixel: a ray through a point within the reach of the pixel's filter, and the filter's weight.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -10,7 +10,7 @@ struct CameraSample {
     double weight;
 };
 
-// Of the pixel in column x and row y of the film.
+// Samples the pixel in column x and row y of the film.
 template <class Sampler>
 CameraSample sample_camera(const Scene& scene, int x, int y, Sampler& sampler) {
     const FilmSample place = scene.film.sample(sampler.next2(), x, y);

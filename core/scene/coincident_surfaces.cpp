@@ -4,9 +4,9 @@ namespace neumann {
 
 namespace {
 
-// Away from edges and diagonals, where neighbours are met.
+// Points away from edges and diagonals, where rays could hit neighbours.
 constexpr Vec2 places[] = {Vec2(0.5), Vec2(0.21, 0.34), Vec2(0.72, 0.13), Vec2(0.37, 0.81)};
-constexpr std::size_t many = 100'000;  // primitives, from which on one place of each has to do
+constexpr std::size_t many = 100'000;  // with more primitives, only one point of each is tested
 
 }  // namespace
 

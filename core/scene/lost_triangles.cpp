@@ -7,7 +7,7 @@ namespace neumann {
 
 namespace {
 
-// Twice the area, in Embree's coordinates: products of floats below that vanish.
+// Smallest value of twice the area, in Embree's coordinates; below it products of floats underflow.
 constexpr double least_area = 1e-30;
 
 bool is_lost(const RayCaster& caster, const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
@@ -16,7 +16,7 @@ bool is_lost(const RayCaster& caster, const TriangleMesh& mesh, const std::array
     return glm::length(glm::cross(b - a, c - a)) < least_area;
 }
 
-// Of the vertices of triangles, coordinate by coordinate.
+// The median of the triangles' vertices, coordinate by coordinate.
 Vec3 median_vertex(const TriangleMesh& mesh) {
     Vec3 median;
     std::vector<double> values;

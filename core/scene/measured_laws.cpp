@@ -28,8 +28,8 @@ double mean_defect(const Geometry& geometry, std::uint32_t shape, bool front, co
 
 }  // namespace
 
-// One direction is uniform in projected solid angle, the other one as the material draws it, and either may be ωi. So a pair has
-// the density ½ (cosθo/π pdf(ωo → ωi) + cosθi/π pdf(ωi → ωo)), which is large wherever fs or its reverse is.
+// One direction is uniform in projected solid angle, the other one is sampled from the BSDF, and either may be ωi. A pair therefore
+// has the density ½ (cosθo/π pdf(ωo → ωi) + cosθi/π pdf(ωi → ωo)), which is large wherever fs or its reverse is large.
 double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, std::uint32_t count) {
     const SobolPoints sobol(count);
     SobolSampler sampler(sobol, 1, 0);

@@ -1,18 +1,18 @@
-// Where a camera ray ends that goes through lights (Scene::hide_emitters).
+// Continues camera rays through lights (Scene::hide_emitters).
 #pragma once
 
 #include "core/scene/scene.h"
 
 namespace neumann {
 
-// Who does not want to know on the way.
+// The default callback, which does nothing.
 struct Untold {
     void operator()(const SurfacePoint& /*light*/, const SurfacePoint& /*beyond*/) const {}
 };
 
-// Moves x, which a ray along `direction` has hit, on to the first point that is on no light; false where there is none. T answers
-// first_hits() as Geometry does. The rays cast are added to `rays`, and each is told as tell(light, beyond): what it leaves, and
-// what it meets then, infinitely far away if that is nothing.
+// Moves x, the hit of a ray along `direction`, to the first hit that is not on a light. Returns false if there is none. T has
+// first_hits() like Geometry. Adds the number of rays cast to `rays`, and calls tell(light, beyond) for each: the point on the
+// light that it leaves, and the next hit, which is at infinity if there is none.
 template <class Transport, class Tell = Untold>
 bool pass_lights(const Emitters& emitters, const Transport& T, const Vec3& direction, SurfacePoint& x, std::uint64_t& rays,
                  const Tell& tell = {}) {

@@ -29,9 +29,9 @@ InputError error_of(const std::vector<Origin>& origins, std::uint32_t shape, con
     return InputError(origins[shape].place, fmt::format("{}: {}", origins[shape].shape, what));
 }
 
-// Squares of areas and of squared distances are still numbers, so that any unit of length will do.
+// Within these limits, squares of areas and of squared distances neither overflow nor underflow, so any unit of length works.
 constexpr double largest_scene = 1e70, smallest_scene = 1e-70;
-// Embree takes no ray that starts farther away, in sizes of the scene.
+// The largest distance of a ray's origin that Embree accepts, in units of the scene's size.
 constexpr double farthest_camera = 1e15;
 
 // ", for shape 'obj' (room.xml:7:5) has a vertex at 0 1e+39 0".
@@ -77,12 +77,13 @@ void expect_near(const Geometry& geometry, const SensorOptions& camera, const st
     throw origins.empty() ? InputError(what) : InputError(Location{origins.front().place.file}, what);
 }
 
-// Three digits, and more where 1 would be read for what is above it.
+// Three digits, and more if an albedo above 1 would be printed as 1.
 std::string albedo_text(double albedo) {
     return albedo > 1.0 && albedo < 1.0005 ? fmt::format("1 + {:.1g}", albedo - 1.0) : fmt::format("{:.3f}", albedo);
 }
 
-// The brightest by name. What promises nothing has a bound that is measured, with 1% to spare: it need not be reached.
+// Names the material with the largest albedo. For materials without guarantees the bound is measured plus 1%, and need not be
+// reached.
 void warn_of_gain(const Geometry& geometry, const Materials& materials, const std::vector<Origin>& origins, Warnings& warnings) {
     double largest = 1.0;
     std::uint32_t brightest = 0;

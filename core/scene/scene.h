@@ -1,4 +1,4 @@
-// A scene: where things are, what they are made of, what shines, and who looks.
+// A scene: geometry, materials, emitters, sensor and film.
 #pragma once
 
 #include "core/base/error.h"
@@ -17,33 +17,33 @@ namespace neumann {
 
 enum class SamplerKind { independent, sobol };
 
-// Where a shape comes from, for messages: "shape 'cube'" and "bsdf 'diffuse'".
+// Where a shape and its material come from, for messages: "shape 'cube'" and "bsdf 'diffuse'".
 struct Origin {
     Location place;
     std::string shape, bsdf;
 };
 
-// What a scene says beside what is in it: of its file, and of how it is meant to be rendered.
+// Additional data of a scene: its file's settings for rendering, hash, origins and warnings.
 struct SceneNotes {
-    // What the scene file asks for, if it does; the command line overrides it.
+    // Settings of the scene file, if it has them; the command line overrides them.
     std::optional<int> bounces;
     std::optional<SamplerKind> sampler;
-    // Camera rays go through lights, and what surrounds the scene is black to them: there is no bounce 0.
+    // Camera rays pass through lights and see a black environment, so bounce 0 is black.
     bool hide_emitters = false;
 
-    std::string hash;                  // of all files the scene was read from; empty for a scene made otherwise
-    std::vector<Origin> origins = {};  // by shape; likewise
+    std::string hash;                  // of all files the scene was read from; empty if it was not read from files
+    std::vector<Origin> origins = {};  // by shape; empty if it was not read from files
     Warnings warnings;
 };
 
-// It does not change once it is made; copies share what is large, which is built once.
+// A scene is immutable. Copies share large data.
 class Scene : public SceneNotes {
     std::shared_ptr<const Geometry> shared_geometry_;
     std::shared_ptr<const Emitters> shared_emitters_;
 
 public:
     Scene(Geometry geometry, Materials materials, Emitters emitters, const Sensor& camera, const Film& film, SceneNotes notes);
-    // The same scene made of other materials.
+    // The same scene with other materials.
     Scene with(Materials materials) const;
 
     const Geometry& geometry;
@@ -53,7 +53,7 @@ public:
     Film film;
 };
 
-// The parts of a scene one by one, as the reader and the tests put it together.
+// The parts from which the reader and the tests make a scene.
 struct SceneParts : SceneNotes {
     std::vector<Shape> shapes;
     std::vector<Bsdf> bsdfs;
@@ -63,8 +63,8 @@ struct SceneParts : SceneNotes {
     Film film;
 };
 
-// Builds the search structures, and warns of what is odd but accepted: degenerate triangles, lights without area, no surfaces, no
-// light, albedo above 1. Throws InputError as Geometry does.
+// Builds the acceleration structures, and warns of odd but accepted input: degenerate triangles, lights without area, no surfaces,
+// no light, albedo above 1. Throws InputError as Geometry does.
 Scene make_scene(SceneParts parts);
 
 }  // namespace neumann

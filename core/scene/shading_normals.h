@@ -7,7 +7,7 @@ namespace neumann {
 
 bool has_shading_normals(const Scene& scene);
 
-// What methods on patches say of such a scene.
+// The warning of methods on patches for such a scene.
 inline constexpr const char* patches_are_flat =
     "patches know no shading normals: on them smooth meshes and normal or bump maps are flat, an error that is not estimated";
 

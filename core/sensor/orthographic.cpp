@@ -13,7 +13,7 @@ FilmPlane plane_of(const SensorOptions& options, const Film& film) {
 
 }  // namespace
 
-// Where to_world scales z, the near plane moves and the rays keep their length, as in Mitsuba.
+// If to_world scales z, the near plane moves and the rays keep their length, as in Mitsuba.
 Orthographic::Orthographic(const SensorOptions& options, const Film& film)
     : plane_(plane_of(options, film)),
       direction_(glm::normalize(Vec3(options.to_world[2]))),

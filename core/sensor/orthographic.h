@@ -1,5 +1,5 @@
-// Parallel rays (Mitsuba's `orthographic`): the film covers −1 … 1 along the camera's x, as much along y as its shape asks for,
-// both scaled by to_world.
+// Parallel rays (Mitsuba's `orthographic`): the film covers −1 … 1 along the camera's x, and along y according to its aspect ratio;
+// to_world scales both.
 #pragma once
 
 #include "core/sensor/sensor_options.h"

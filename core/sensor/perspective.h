@@ -5,7 +5,8 @@
 
 namespace neumann {
 
-// What a pinhole sees of p through a plane, whose places are given from the pinhole; between two depths along an axis.
+// How a pinhole sees p through a plane given relative to the pinhole; nothing if p is not between the depths `near` and `far` along
+// the axis.
 std::optional<FilmPoint> see_through(const Vec3& pinhole, const FilmPlane& plane, const Vec3& axis, double near, double far,
                                      const Vec3& p);
 
@@ -14,13 +15,13 @@ public:
     Perspective(const SensorOptions& options, const Film& film);
 
     CameraRay ray(const Vec2& position, const Vec2&) const;
-    // Nothing where p is before or beyond the camera's planes. The film may end before the position.
+    // Nothing if p is not between the near and the far plane. The position may be outside the film.
     std::optional<FilmPoint> see(const Vec3& p, const Vec2&) const;
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const;
 
 private:
     Vec3 origin_;
-    FilmPlane plane_;  // direction towards a film position before normalising, z component 1 in camera space
+    FilmPlane plane_;  // unnormalised direction towards a film position, with z component 1 in camera space
     Vec3 axis_;
     double near_, far_;
 };

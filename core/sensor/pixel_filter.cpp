@@ -12,7 +12,7 @@ struct Interval {
     double low, high;
 };
 
-// Of the filter around a pixel's centre, what lies where samples may.
+// The part of the filter around a pixel's centre that lies within the film's extent.
 Interval cut(double radius, double center, const FilmExtent& film) {
     return {std::max(-radius, film.from - center), std::min(radius, film.to - center)};
 }
@@ -87,7 +87,7 @@ SignedFilter::SignedFilter(Function f, int radius) {
         table->size[i] = i == 0 || i == nodes - 1 ? 0.0 : std::abs(at(x));
         if (i == 0) continue;
         table->cumulative_size[i] = table->cumulative_size[i - 1] + 0.5 * cell * (table->size[i - 1] + table->size[i]);
-        // Gauss and Legendre's rule of three points.
+        // Gauss–Legendre quadrature with three points.
         const double middle = x - 0.5 * cell, apart = 0.5 * cell * std::sqrt(0.6);
         table->integral[i] =
             table->integral[i - 1] + cell / 18.0 * (5.0 * at(middle - apart) + 8.0 * at(middle) + 5.0 * at(middle + apart));
@@ -129,10 +129,10 @@ FilterSample SignedFilter::sample(double u, int pixel, const FilmExtent& film) c
     const std::size_t first = node(low), last = node(high);
     const auto& sums = table_->cumulative_size;
     const double size = sums[last] - sums[first], target = sums[first] + u * size;
-    // The first node beyond; u < 1, but rounding may make it the last sum.
+    // The first node whose sum exceeds the target; although u < 1, rounding may make the target equal the last sum.
     const auto begin = sums.begin() + static_cast<std::ptrdiff_t>(first), end = sums.begin() + static_cast<std::ptrdiff_t>(last);
     const auto i = static_cast<std::size_t>(std::upper_bound(begin, end, target) - sums.begin());
-    // In the cell before it the density is a + (b − a) t, t from 0 to 1, of which the integral is to be `part`.
+    // In the cell before it the density is a + (b − a) t, t from 0 to 1; find t such that the integral is `part`.
     const double a = table_->size[i - 1], b = table_->size[i], part = (target - sums[i - 1]) / cell;
     const double density = std::sqrt(std::max(a * a + 2.0 * (b - a) * part, 0.0));
     const double t = part > 0.0 ? std::min(2.0 * part / (a + density), 1.0) : 0.0;

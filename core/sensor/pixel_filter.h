@@ -1,12 +1,12 @@
-// Reconstruction filters. A pixel's samples are drawn from the filter itself, so pixels are independent of each other and a mean
-// and a variance are all there is to keep (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006). The expected picture
-// is the one that splatting gives,
+// Reconstruction filters with filter importance sampling (Ernst, Stamminger and Greiner, Filter Importance Sampling, 2006): a
+// pixel's samples are distributed like its filter, so pixels are independent of each other and need only a mean and a variance. The
+// expected picture is the same as with splatting,
 //
 //     ∫ f(x − centre) L(x) dx / ∫ f(x − centre) dx,
 //
-// over the film. Where samples come from elsewhere, weight() is the normalised filter itself. A filter that is nowhere negative is
-// drawn exactly, and all samples weigh 1. One with negative lobes is drawn in proportion to |f|, and a sample weighs f / pdf, over
-// ∫ f.
+// over the film. For samples at given positions (light tracing), weight() is the normalised filter itself. A non-negative filter is
+// sampled exactly, and all samples have weight 1. A filter with negative lobes is sampled in proportion to |f|, and a sample has
+// the weight f / (pdf ∫ f).
 #pragma once
 
 #include "core/base/vec.h"
@@ -18,12 +18,12 @@
 
 namespace neumann {
 
-// Where a sample lies on an axis of the film, and what it weighs; 1 on average.
+// The position of a sample on an axis of the film, and its weight, which is 1 on average.
 struct FilterSample {
     double position, weight;
 };
 
-// Where samples may lie on an axis, pixels from the film's edge; the bounds are whole or infinite.
+// The range of samples on an axis, in pixels from the film's edge; the bounds are whole numbers or infinite.
 struct FilmExtent {
     double from, to;
 };
@@ -31,7 +31,7 @@ struct FilmExtent {
 // Mitsuba's `box`: the pixel itself.
 struct BoxFilter {
     FilterSample sample(double u, int pixel, const FilmExtent&) const { return {pixel + u, 1.0}; }
-    // Of the pixel, for a place on the film; ∫ weight(x) dx = 1 over the film.
+    // The weight for the pixel of a sample at x; ∫ weight(x) dx = 1 over the film.
     double weight(double x, int pixel, const FilmExtent&) const { return x >= pixel && x < pixel + 1 ? 1.0 : 0.0; }
     double radius() const { return 0.5; }
 };
@@ -45,11 +45,11 @@ public:
     double radius() const { return radius_; }
 
 private:
-    double integral(double x) const;  // of the filter from −radius to x
+    double integral(double x) const;  // integral of the filter from −radius to x
     double radius_;
 };
 
-// Mitsuba's `gaussian`, its default: exp(−x²/2σ²) less its value at 4σ, where it ends.
+// Mitsuba's `gaussian`, its default: exp(−x²/2σ²) minus its value at 4σ, where it is cut off.
 class GaussianFilter {
 public:
     explicit GaussianFilter(double stddev = 0.5) : stddev_(stddev), radius_(4.0 * stddev) {}
@@ -58,12 +58,12 @@ public:
     double radius() const { return radius_; }
 
 private:
-    double integral(double x) const;  // of the filter from 0 to x
+    double integral(double x) const;  // integral of the filter from 0 to x
     double stddev_, radius_;
 };
 
-// A filter with negative lobes. What is drawn from is |f| made piecewise linear, in cells so small that a weight is ±∫|f| / ∫f up
-// to 1e-4, but beside a zero; as the weights have the exact f in them, the expected picture is exact.
+// A filter with negative lobes. Samples are distributed like a piecewise linear approximation of |f|, with cells so small that
+// weights are ±∫|f| / ∫f up to 1e-4, except near zeros of f. The weights use the exact f, so the expected picture is exact.
 class SignedFilter {
 public:
     // Mitsuba's `mitchell`: Mitchell and Netravali, Reconstruction Filters in Computer Graphics, 1988. B and C from 0 to 1.
@@ -83,9 +83,9 @@ private:
     struct Table {
         Function f;
         double radius;
-        std::vector<double> size, cumulative_size, integral;  // at each node |f|, and the integrals of |f| as interpolated and of f
+        std::vector<double> size, cumulative_size, integral;  // at each node: |f|, the integral of interpolated |f|, that of f
     };
-    // Smooth between integers.
+    // `f` must be smooth between integers.
     SignedFilter(Function f, int radius);
     std::size_t node(double x) const;
 
@@ -94,7 +94,7 @@ private:
 
 using PixelFilter = std::variant<BoxFilter, TentFilter, GaussianFilter, SignedFilter>;
 
-// A place on the film, in pixels from its upper left corner, and what it weighs.
+// A position on the film, in pixels from its upper left corner, and the sample's weight.
 struct FilmSample {
     Vec2 position;
     double weight;
@@ -103,7 +103,7 @@ struct FilmSample {
 inline double radius(const PixelFilter& filter) {
     return std::visit([](const auto& f) { return f.radius(); }, filter);
 }
-// On one axis.
+// The filter's weight on one axis.
 inline double weight(const PixelFilter& filter, double position, int pixel, const FilmExtent& film) {
     return std::visit([&](const auto& f) { return f.weight(position, pixel, film); }, filter);
 }

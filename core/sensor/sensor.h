@@ -1,4 +1,4 @@
-// Who looks: Mitsuba's `perspective`, `thinlens` and `orthographic`. A closed set, as materials and lights are.
+// The sensors: Mitsuba's `perspective`, `thinlens` and `orthographic`. A closed set, like materials and lights.
 #pragma once
 
 #include "core/sensor/orthographic.h"
@@ -13,22 +13,22 @@ class Sensor {
 public:
     Sensor(const SensorOptions& options, const Film& film);
 
-    // `position`: pixels from the upper left corner of the film; `lens`: the place on the lens, where there is one.
+    // `position`: pixels from the upper left corner of the film; `lens`: point on the lens in [0, 1)², if there is a lens.
     CameraRay ray(const Vec2& position, const Vec2& lens = Vec2(0.5)) const {
         return std::visit([&](const auto& sensor) { return sensor.ray(position, lens); }, sensor_);
     }
-    // Draws the place on the lens; asks for no numbers where there is none.
+    // Samples the point on the lens; uses no random numbers if there is no lens.
     template <class Sampler>
     CameraRay sample_ray(const Vec2& position, Sampler& sampler) const {
         return std::holds_alternative<ThinLens>(sensor_) ? ray(position, sampler.next2()) : ray(position);
     }
 
-    // How a point is seen, from that place on the lens; nothing where it is not between the camera's planes. The film may end
-    // before the position, and something may stand in between.
+    // How a point is seen from a point on the lens; nothing if it is not between the near and the far plane. The position may be
+    // outside the film, and visibility is not tested.
     std::optional<FilmPoint> see(const Vec3& p, const Vec2& lens) const {
         return std::visit([&](const auto& sensor) { return sensor.see(p, lens); }, sensor_);
     }
-    // FilmPoint::pixels_per_area of a point that one of its rays has met.
+    // FilmPoint::pixels_per_area of a point p that this ray has hit.
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const {
         return std::visit([&](const auto& sensor) { return sensor.pixels_per_area(ray, p); }, sensor_);
     }

@@ -1,4 +1,4 @@
-// What a sensor is made from, and its film.
+// The options of a sensor, and its film.
 #pragma once
 
 #include "core/geometry/ray.h"
@@ -14,14 +14,14 @@ struct Film {
     int crop_x = 0, crop_y = 0;     // the part that is rendered
     int crop_width = 768, crop_height = 576;
     PixelFilter filter = GaussianFilter();
-    bool sample_border = false;  // whether samples lie beyond the film's edges too, or the filter is cut off there
+    bool sample_border = false;  // samples may lie beyond the film's edges; otherwise the filter is cut off there
 
-    // For the pixel (x, y) of the whole film.
+    // Samples the filter of pixel (x, y) of the whole film.
     FilmSample sample(const Vec2& u, int x, int y) const { return neumann::sample(filter, u, x, y, extent(width), extent(height)); }
-    // What a place on the film counts for a pixel of the column x, and of the row y; the product counts.
+    // The filter's weights of a position on the film for column x and for row y; the weight for pixel (x, y) is their product.
     double weight_across(double position, int x) const { return weight(filter, position, x, extent(width)); }
     double weight_down(double position, int y) const { return weight(filter, position, y, extent(height)); }
-    // Whether light that falls there counts for any pixel.
+    // Whether light at this position contributes to any pixel.
     bool holds(const Vec2& position) const {
         return sample_border || (position.x >= 0.0 && position.x < width && position.y >= 0.0 && position.y < height);
     }
@@ -33,37 +33,37 @@ private:
     }
 };
 
-// From the camera into the scene; ends at the far plane.
+// A ray from the camera into the scene; it ends at the far plane.
 using CameraRay = Ray;
 
-// How the camera sees a point: the camera ray through it, turned round.
+// How the camera sees a point: the reversed camera ray through it.
 struct FilmPoint {
-    Vec2 position;           // where it is on the film: pixels from the upper left corner
-    Vec3 start;              // of the camera ray
+    Vec2 position;           // position on the film, pixels from the upper left corner
+    Vec3 start;              // origin of the camera ray
     Vec3 w;                  // from the point to the camera, unit length
-    double pixels_per_area;  // of film for an area at the point that faces the camera
+    double pixels_per_area;  // film area in pixels per area at the point that faces the camera
 };
 
-// Places in a plane, by two vectors that span it and the corner they start from.
+// A plane with coordinates: a corner and two spanning vectors.
 class FilmPlane {
 public:
     FilmPlane(const Vec3& corner, const Vec3& across, const Vec3& down);
 
     Vec3 at(const Vec2& position) const { return corner_ + across_ * position.x + down_ * position.y; }
-    // The other way, of a point of the plane.
+    // The inverse, for a point in the plane.
     Vec2 position(const Vec3& p) const { return {glm::dot(p - corner_, dual_across_), glm::dot(p - corner_, dual_down_)}; }
-    // The same plane, given from another place.
+    // The same plane, relative to another origin.
     FilmPlane from(const Vec3& origin) const {
         FilmPlane moved = *this;
         moved.corner_ -= origin;
         return moved;
     }
-    // Unit length, to either side.
+    // Unit normal, of either sign.
     const Vec3& normal() const { return normal_; }
     const Vec3& corner() const { return corner_; }
-    // Of a pixel.
+    // Area of a pixel in the plane.
     double area() const { return area_; }
-    // Pixels in a solid angle, seen from where the plane is given from, along a direction of unit length.
+    // Pixels per solid angle, seen from the plane's origin along a direction of unit length.
     double pixels_per_solid_angle(const Vec3& direction) const {
         const double cosine = std::abs(glm::dot(direction, normal_)), distance = std::abs(glm::dot(corner_, normal_)) / cosine;
         return distance * distance / (area_ * cosine);
@@ -83,12 +83,12 @@ struct SensorOptions {
     enum class Kind { perspective, thin_lens, orthographic };
 
     Mat4 to_world{1.0};  // camera looks along its +z, +y up, +x left (Mitsuba's convention)
-    double fov = 0.0;    // full angle, radians; not of `orthographic`
+    double fov = 0.0;    // full angle, radians; not used by `orthographic`
     FovAxis fov_axis = FovAxis::x;
-    Vec2 principal_point_offset{0.0};         // relative to the film's size; of `perspective`
+    Vec2 principal_point_offset{0.0};         // relative to the film's size; for `perspective`
     double near_clip = 1e-2, far_clip = 1e4;  // scene units
     Kind kind = Kind::perspective;
-    double aperture_radius = 0.0, focus_distance = 0.0;  // scene units; of `thin_lens`
+    double aperture_radius = 0.0, focus_distance = 0.0;  // scene units; for `thin_lens`
 };
 
 }  // namespace neumann

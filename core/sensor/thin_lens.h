@@ -19,7 +19,7 @@ private:
     Vec3 aside(const Vec2& lens) const;
 
     Vec3 origin_;
-    FilmPlane plane_;       // from the middle of the lens to a film position's point in the plane of focus
+    FilmPlane plane_;       // from the centre of the lens to a film position's point in the plane of focus
     Vec3 lens_x_, lens_y_;  // radii of the lens
     Vec3 axis_;
     double near_, far_;

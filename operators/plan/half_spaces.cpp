@@ -85,8 +85,8 @@ bool HalfSpaces::all_planes(std::uint32_t shape, const F& f) const {
     return true;
 }
 
-// The solid angle of all surfaces, seen from a point inside the convex body, divided by that of the sphere; 0 if there are shapes
-// other than meshes.
+// The sum of the solid angles of all surfaces, sr, seen from a point inside the convex body (4π if it is closed); 0 if there are
+// shapes other than meshes.
 double HalfSpaces::solid_angle_from_inside() const {
     Vec3 middle(0.0);
     double vertices = 0.0, sum = 0.0;

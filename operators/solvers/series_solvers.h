@@ -19,8 +19,8 @@ SolverResult solve_ratio_tail(const Problem&);
 // A. C. Aitken, On Bernoulli's numerical solution of algebraic equations, Proc. Roy. Soc. Edinburgh 46 (1926).
 SolverResult solve_aitken(const Problem&);
 
-// Wynn's ε algorithm for each unknown separately: ε_{k+1}^{(j)} = ε_{k−1}^{(j+1)} + 1/(ε_k^{(j+1)} − ε_k^{(j)}), ε_0^{(j)} = S_j,
-// up to ε_24. P. Wynn, On a device for computing the e_m(S_n) transformation, MTAC 10 (1956).
+// Wynn's ε algorithm per unknown: ε_{k+1}^{(j)} = ε_{k−1}^{(j+1)} + 1/(ε_k^{(j+1)} − ε_k^{(j)}), ε_0^{(j)} = S_j, up to ε_24.
+// P. Wynn, On a device for computing the e_m(S_n) transformation, MTAC 10 (1956).
 SolverResult solve_wynn_epsilon(const Problem&);
 
 // Wynn's ε algorithm for whole vectors, with Samelson's inverse v⁻¹ = v/⟨v, v⟩.

@@ -12,11 +12,11 @@ namespace neumann {
 
 namespace {
 
-// Of each method that is tried: 4 samples a pixel, and twice as many until it has cast so many rays.
+// Each method that is tried starts with 4 samples per pixel, which are doubled until it has cast enough rays.
 constexpr int first_trial = 2;
 constexpr std::uint64_t trial_rays = 500'000;
 
-// variance_times_rays(), with a seed that is that of no run and not that of the reference.
+// variance_times_rays(), with a seed that differs from those of all runs and of the reference.
 std::optional<std::vector<double>> try_method(const StudyMethod& method, const Scene& scene, const Pilot& pilot, int bounces,
                                               const Stop& stop) {
     for (int level = first_trial;; ++level) {

@@ -30,11 +30,11 @@ struct VarianceRatio {
 // equal.
 VarianceRatio variance_ratio(std::span<const double> first, std::span<const double> second);
 
-// What makes a reference where nothing was asked for, the same for the same scene and bounces, and why.
+// The method that renders the reference if none is given, and why. It depends on the scene and the bounces only.
 struct ReferenceChoice {
     std::string method, why;
 };
-// By short runs of all methods that make the paths of this scene; nothing where it was stopped.
+// Chooses by short runs of all methods that can make all paths of this scene. Returns nothing if it was stopped.
 std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces, const Stop& stop);
 
 }  // namespace neumann

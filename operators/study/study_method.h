@@ -14,10 +14,10 @@ struct StudyMethod {
     Method method;
 };
 
-// A method as read_method() reads it. Throws InputError where it is unknown, or has no place in a study.
+// Reads a method like read_method(). Throws InputError if it is unknown or has no place in a study.
 Method studied_method(const std::string& word);
 
-// Nothing where it was stopped (Watch::stop). Errors name the method.
+// Returns nothing if it was stopped (Watch::stop). Errors name the method.
 using Stop = std::function<bool()>;
 std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
                                        const Scene& scene, const Pilot& pilot, const Stop& stop);

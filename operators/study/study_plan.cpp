@@ -8,20 +8,21 @@ namespace neumann {
 
 namespace {
 
-// Of the runs that measure speed, seconds: shorter ones are too uncertain, and those of this part of the largest budget too unlike
-// it; longer ones, of methods whose time grows with their samples alone, tell no more.
+// Limits for the runs that measure speed, in seconds. Shorter runs are too uncertain, and runs below this part of the largest
+// budget are too different from it. For methods whose time is linear in the samples, longer runs give no more information.
 constexpr double shortest_measurement = 0.05, part_of_budget = 0.25, longest_measurement = 2.0;
-// Without --budgets: so many, each twice the one before; the first one, seconds, at least, and what gives every method 4 samples.
+// Without --budgets: the number of budgets, each twice the one before. The first one is at least this many seconds, and gives every
+// method 4 samples.
 constexpr int default_budgets = 4;
 constexpr double least_default_budget = 0.1;
-// A reference has so many times the samples of the largest budget.
+// The reference has this many times the samples of the largest budget.
 constexpr std::uint64_t reference_factor = 16, least_reference_samples = 256;
 
 Effort effort_of(const StudyMethod& method, int level) {
     return has_fields(method.method) ? field_effort(level) : sampling_effort(level);
 }
 
-// What runs take: what grows with the level, of the first levels, and what does not, of one run.
+// Times of runs: for the first levels the part that grows with the level, and for one run the part that does not.
 struct Measurement {
     std::vector<double> seconds;
     double setup = 0.0;
@@ -32,7 +33,7 @@ struct Measurement {
     }
 };
 
-// Until the seconds are `enough`. What fields set up grows with their patches.
+// Measures until a run takes `enough` seconds. The set-up time of fields also grows with their patches.
 std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
                                    const Pilot& pilot, const Stop& stop) {
     Measurement result{{}, 0.0, has_fields(method.method)};

@@ -1,4 +1,4 @@
-// How much each method of a study is given for each budget.
+// How much work each method of a study does for each budget.
 #pragma once
 
 #include "operators/study/study_method.h"
@@ -7,11 +7,11 @@
 
 namespace neumann {
 
-// Seconds of a run, growing, or samples a pixel; of neither, seconds are chosen that suit all methods.
+// Seconds of a run, growing, or samples per pixel. If both are empty, seconds are chosen that suit all methods.
 struct StudyBudgets {
     std::vector<double> seconds = {};
     std::vector<std::uint64_t> samples = {};
-    std::optional<std::uint64_t> reference_samples = {};  // of a reference that is made; chosen without it
+    std::optional<std::uint64_t> reference_samples = {};  // per pixel, of a reference that is rendered; the default depends on the budgets
 };
 
 struct StudyPlan {
@@ -21,7 +21,7 @@ struct StudyPlan {
     std::uint64_t reference_samples = 0;
 };
 
-// After short runs that measure how fast each method is; they also find what a method refuses. Nothing where it was stopped.
+// Measures by short runs how fast each method is; these also find what a method refuses. Returns nothing if it was stopped.
 std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vector<StudyMethod>& methods, int bounces,
                                     std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Stop& stop);
 

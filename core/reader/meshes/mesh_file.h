@@ -1,5 +1,5 @@
-// OBJ, PLY and Mitsuba's serialized files as triangle meshes. Written by hand because vertices are needed in double precision and
-// errors need file:line:column; the libraries at hand (tinyobjloader as packaged, assimp) read floats and give no place.
+// Readers of OBJ, PLY and Mitsuba's serialized files. They are written by hand because vertices must be in double precision and
+// errors need file:line:column; the available libraries (tinyobjloader as packaged, assimp) read floats and report no position.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -11,7 +11,7 @@ namespace neumann {
 
 struct MeshFile {
     TriangleMesh mesh;  // with texture coordinates, as in the file, and attributes, but without normals
-    // One per vertex, or empty; file space, as long as the file gives them.
+    // One per vertex, or empty; in the file's space, not normalised.
     std::vector<Vec3> normals;
 };
 
@@ -23,9 +23,9 @@ struct MeshFile {
 // normals gets its geometric normal, of length 1, or 0 if it has no area, and one without coordinates (0, 0).
 MeshFile read_obj(const std::string& path);
 
-// ASCII and binary of both byte orders. Coordinates are u and v, texture_u and texture_v, or s and t of a vertex. Of the attributes
-// (mesh_ply_header.h) those named are read, where the file has them; whole numbers are taken as parts of their type's largest, in
-// sRGB, and decoded. Other elements and properties are skipped.
+// ASCII and binary of both byte orders. Texture coordinates are the properties u and v, texture_u and texture_v, or s and t of a
+// vertex. The named attributes (mesh_ply_header.h) are read if the file has them; whole numbers are divided by the largest number
+// of their type and decoded as sRGB. Other elements and properties are skipped.
 MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes = {});
 
 // Versions 3 and 4, in single or double precision; `index` counts the meshes of a file from 0. Vertex colours are skipped. Errors

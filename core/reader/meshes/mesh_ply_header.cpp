@@ -46,7 +46,7 @@ public:
     PlyHeader read() {
         if (text_.token() != "ply") text_.fail_expected("'ply' at the beginning of a PLY file");
         text_.expect_line_end();
-        // Where CR ends the lines, an LF after the header belongs to the body.
+        // If lines end with CR, an LF after the header belongs to the body.
         const bool cr_ends_lines = text_.at_lone_cr();
         do {
             text_.expect_line_end();
@@ -201,7 +201,7 @@ private:
         }
     }
 
-    // "p_0", "p_1", and so on for the characters of `ends`; nothing if there is not the first.
+    // The properties "p_0", "p_1", … for the characters of `ends`; nothing if the first is missing.
     std::vector<PlyProperty*> series(PlyElement& element, const std::string& prefix, std::string_view ends) const {
         std::vector<PlyProperty*> found;
         for (std::size_t i = 0; i < ends.size() && (i == 0 || !found.empty()); ++i) {
@@ -215,7 +215,7 @@ private:
         return found;
     }
 
-    // What makes up an attribute, called as after "vertex_" or "face_".
+    // The properties of an attribute; `name` is its name without "vertex_" or "face_".
     std::vector<PlyProperty*> channels(PlyElement& element, const std::string& name) const {
         constexpr std::string_view color = "color";
         if (name == color)

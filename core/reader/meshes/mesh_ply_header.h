@@ -1,4 +1,4 @@
-// The header of a PLY file, checked for what a mesh needs.
+// Reads the header of a PLY file and checks that it describes a mesh.
 #pragma once
 
 #include "core/reader/meshes/mesh_text.h"
@@ -18,8 +18,8 @@ struct PlyProperty {
     PlyType type;  // of the items of a list
     bool is_list = false;
     PlyType count_type = PlyType::u8;
-    // What it is to a mesh: x, y, z, nx, ny, nz and the texture coordinates of a vertex are 0 … 7, the vertex indices of a face 0,
-    // channel c of the i-th attribute of the element is first_attribute + 3 i + c, all else −1.
+    // The role of the property: 0 … 7 for x, y, z, nx, ny, nz and the texture coordinates of a vertex, 0 for the vertex indices of
+    // a face, first_attribute + 3 i + c for channel c of the i-th attribute of the element, −1 for all others.
     int slot = -1;
     static constexpr int first_attribute = 8;
 };
@@ -45,9 +45,10 @@ struct PlyHeader {
     bool has_normals = false, has_coordinates = false;
 };
 
-// Leaves the cursor at the body. The attributes are named as by Mitsuba: of properties r, g, b or red, green, blue of a vertex
-// "vertex_color", of p_r, p_g, p_b "vertex_p_color", and of p_x, p_y, p_z, or p_0, p_1, p_2, or p_1, p_2, p_3, or the first of them
-// alone "vertex_p"; likewise "face_…". One that is asked for and has another number of channels is refused; alpha is left out.
+// Leaves the cursor at the body. Attributes are named as in Mitsuba: the properties r, g, b or red, green, blue of a vertex are
+// "vertex_color"; p_r, p_g, p_b are "vertex_p_color"; p_x, p_y, p_z, or p_0, p_1, p_2, or p_1, p_2, p_3, or the first of these
+// alone, are "vertex_p"; those of a face are "face_…". Refuses a requested attribute with another number of channels; alpha is
+// ignored.
 PlyHeader read_ply_header(MeshText& text, const std::vector<std::string>& attributes);
 
 }  // namespace neumann

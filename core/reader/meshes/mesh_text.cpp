@@ -12,7 +12,7 @@
 namespace neumann {
 
 OpenFile open_mesh_file(const std::string& path) {
-    // Pipes and devices may have no end, and directories open without an error.
+    // Only regular files are accepted: pipes and devices may have no end, and directories open without an error.
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) throw InputError(path + ": cannot be opened: Is a directory");

@@ -1,4 +1,4 @@
-// What the mesh readers share: a file in memory, and a cursor over its text that knows where it is.
+// Shared by the mesh readers: a file in memory, and a cursor over its text that keeps track of line and column.
 #pragma once
 
 #include "core/base/vec.h"
@@ -26,11 +26,11 @@ struct OpenFile {
     std::unique_ptr<std::FILE, Close> file;
     std::uint64_t size;
 };
-// Throws InputError for what is no regular file or cannot be opened.
+// Throws InputError if the path is not a regular file or cannot be opened.
 OpenFile open_mesh_file(const std::string& path);
 std::string read_mesh_bytes(const std::string& path);
 
-// For messages: printable ASCII and not too long.
+// Makes text fit for messages: printable ASCII and not too long.
 std::string printable(std::string_view text);
 // "1 vertex", "2 vertices", "2 normals".
 std::string counted(std::size_t count, std::string_view noun);
@@ -43,7 +43,7 @@ public:
         std::size_t line = 1, column = 1;
     };
 
-    // In OBJ syntax a backslash at the end of a line is a blank, and a token that begins with # ends the line. The text must
+    // In OBJ syntax a backslash at the end of a line continues it, and a token that begins with # ends the line. The text must
     // outlive the cursor.
     enum class Syntax { plain, obj };
     MeshText(std::string file, std::string_view text, Syntax syntax);
@@ -52,7 +52,7 @@ public:
     bool at_end() const { return at_ == end_; }
     const char* position() const { return at_; }
     std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
-    // Of the token read last.
+    // Place of the token read last.
     Place place() const { return {line_, static_cast<std::size_t>(token_ - line_start_) + 1}; }
 
     void skip_blanks() {
@@ -67,20 +67,20 @@ public:
             }
         }
     }
-    // After the blanks; sets place().
+    // Skips blanks and sets place().
     bool at_line_end() {
         skip_blanks();
         token_ = at_;
         return at_end() || is_newline(*at_) || is_comment(at_);
     }
-    // To the end of the line, over continuations.
+    // Moves to the end of the line, past continuations.
     void skip_line();
-    // To the beginning of the next line, over what may be left of this one, such as a comment.
+    // Moves to the beginning of the next line, past the rest of this one, such as a comment.
     void next_line();
-    // At the end of a line that is a CR alone.
+    // Whether the cursor is at a line end that is a single CR.
     bool at_lone_cr() const { return !at_end() && *at_ == '\r' && (at_ + 1 == end_ || at_[1] != '\n'); }
 
-    // What stands up to the next blank, empty at the end of the line.
+    // The text up to the next blank; empty at the end of the line.
     std::string_view token() {
         at_line_end();
         while (!is_delimiter(at_)) ++at_;
@@ -95,7 +95,8 @@ public:
     // `expected` names it: "expected an integer, found '1.5'".
     template <class Integer>
     Integer integer(const char* expected);
-    // A prefix of a token; false and unmoved if there is none. begin_token() skips the blanks and marks the token.
+    // Reads a number as a prefix of a token; returns false and does not move if there is none. begin_token() skips blanks and marks
+    // the token.
     void begin_token() { at_line_end(); }
     bool integer_prefix(std::int64_t& value) {
         const auto [next, error] = std::from_chars(at_, end_, value);
@@ -109,7 +110,7 @@ public:
         return true;
     }
     bool at_delimiter() const { return is_delimiter(at_); }
-    // The place of what follows within a token.
+    // The place of the cursor, also within a token.
     Place place_here() const { return {line_, static_cast<std::size_t>(at_ - line_start_) + 1}; }
 
     void expect_line_end() {
@@ -127,7 +128,7 @@ private:
     bool is_comment(const char* p) const { return *p == '#' && obj_; }
     bool is_continuation(const char* p) const { return *p == '\\' && obj_ && p + 1 != end_ && is_newline(p[1]); }
     bool is_delimiter(const char* p) const { return p == end_ || is_blank(*p) || is_newline(*p) || is_continuation(p); }
-    // Over LF, CR LF or CR.
+    // Skips LF, CR LF or CR.
     void newline() {
         if (*at_++ == '\r' && !at_end() && *at_ == '\n') ++at_;
         ++line_;

@@ -19,7 +19,7 @@ namespace {
 
 using Triple = std::array<std::uint32_t, 3>;
 
-// The index of a normal or of texture coordinates where there are none.
+// Stands for the index of a missing normal or missing texture coordinates.
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr Triple all_none{none, none, none};
 
@@ -40,11 +40,11 @@ class References {
 public:
     References(MeshText& text, const char* noun) : text_(text), noun_(noun) {}
 
-    // The index that stands at the cursor, counted from 0; `count` elements have been read.
+    // Converts an index of the file to one counted from 0; `count` elements have been read so far.
     std::uint32_t resolve(std::int64_t index, std::size_t count, const MeshText::Place& place) {
         const auto signed_count = static_cast<std::int64_t>(count);
         if (index > signed_count) {
-            // Later elements may make it valid. The first that stays invalid is larger than all before it.
+            // Later elements may make it valid. Only indices larger than all before are kept: one of them is the first invalid one.
             if (ahead_.empty() || index > ahead_.back().index) ahead_.push_back({index, place});
             return static_cast<std::uint32_t>(index - 1);
         }
@@ -114,7 +114,7 @@ private:
         text_.next_line();
     }
 
-    // Lines and points have no area, the others are names and the like; materials come from the scene file.
+    // Lines and points have no area; the others are names, groups and materials, which come from the scene file.
     static bool is_ignored(std::string_view keyword) {
         for (const std::string_view ignored : {"l", "p", "g", "o", "s", "mtllib", "usemtl"}) {
             if (keyword == ignored) return true;
@@ -133,13 +133,13 @@ private:
 
     void vertex() {
         vertices_.push_back(finite_triple("vertex"));
-        // A weight, which counts for free-form geometry only, and a colour.
+        // Skips a weight, which matters for free-form geometry only, or a colour.
         for (int i = 0; i < 4 && !text_.at_line_end(); ++i) text_.number();
     }
 
     void normal() { normals_.push_back(finite_triple("normal")); }
 
-    // One, two or three; the second is 0 where it is missing.
+    // One, two or three numbers; the second is 0 if it is missing.
     void coordinates() {
         Vec2 uv(0.0);
         for (int i = 0; i < 3 && (i == 0 || !text_.at_line_end()); ++i) {
@@ -257,7 +257,7 @@ private:
     }
 
     static Vec3 geometric_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-        // The products of very small or large edges are not representable.
+        // Edges are scaled first, because products of very small or large ones underflow or overflow.
         const auto unit = [](const Vec3& v) {
             const double largest = max_component(glm::abs(v));
             return largest > 0.0 && std::isfinite(largest) ? glm::normalize(v / largest) : Vec3(0.0);
@@ -271,7 +271,7 @@ private:
     std::vector<Vec3> vertices_, normals_;
     std::vector<Vec2> coordinates_;
     std::vector<Triple> triangles_;
-    // Of the first triangles, empty until a face has any.
+    // One entry per triangle so far; empty until a face has coordinates or normals.
     std::vector<Triple> triangle_coordinates_, triangle_normals_;
 };
 

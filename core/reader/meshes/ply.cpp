@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little || std::endian::native == std::endian::big);
 
-// The body ends within a row; the reader knows which.
+// Thrown if the body ends within a row; the caller adds which one.
 struct Ended {};
 
 // The rows of the body, one element a line.
@@ -91,7 +91,7 @@ public:
     [[noreturn]] void fail(const std::string& what) const {
         throw InputError(fmt::format("{}: {} {}: {}", file_, printable(element_->name), row_ + 1, what));
     }
-    // Zeros and blanks pass as padding.
+    // Zeros and blanks after the body are accepted as padding.
     void check_rest() const {
         for (const char c : std::string_view(at_, remaining())) {
             if (c != '\0' && c != '\n' && c != '\r' && c != ' ') {
@@ -174,7 +174,7 @@ public:
     }
 
 private:
-    // Not more than the rest of the file can hold.
+    // Reserves no more than the rest of the file can contain.
     template <class T>
     void reserve(std::vector<T>& items, const PlyElement& element) const {
         std::size_t row_size = 0;
@@ -186,7 +186,7 @@ private:
 
     template <class Row>
     void rows(const PlyElement& element, Row&& read_row) {
-        // Nothing of it is in the body.
+        // An element without properties takes no space in the body.
         if (element.properties.empty()) return;
         for (std::uint64_t i = 0; i < element.count; ++i) {
             try {
@@ -226,11 +226,11 @@ private:
         else
             channels[static_cast<std::size_t>(i % 3)] = static_cast<float>(value);
     }
-    // The row's attributes for one vertex or triangle more.
+    // Adds the row's attributes for one more vertex or triangle.
     void add_attributes() {
         for (std::size_t i = 0; i < row_.size(); ++i) result_.mesh.attributes[first_attribute_ + i].values.push_back(row_[i]);
     }
-    // 0 for fractions.
+    // The largest number of an integer type; 0 for floating-point types.
     static double largest(PlyType type) {
         switch (type) {
             case PlyType::i8:
@@ -321,7 +321,7 @@ private:
     const PlyHeader& header_;
     const std::string& file_;
     MeshFile result_;
-    // Of the element that is read: its first attribute in the mesh, and what the row says.
+    // For the element being read: the index of its first attribute in the mesh, and the values of the row.
     std::size_t first_attribute_ = 0;
     std::vector<std::array<float, 3>> row_;
 };

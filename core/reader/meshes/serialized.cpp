@@ -52,7 +52,7 @@ public:
         read(&value, sizeof(value), what);
         return value;
     }
-    // Nothing follows, and zlib's checksum is right.
+    // Checks that nothing follows, and that zlib's checksum is right.
     void check_end() {
         char byte;
         if (read_some(&byte, 1) > 0) fail("the compressed data go on after the triangles");
@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    // Less than `size` only at the end of the compressed data.
+    // Returns less than `size` only at the end of the compressed data.
     std::size_t read_some(void* to, std::size_t size) {
         stream_.next_out = static_cast<Bytef*>(to);
         stream_.avail_out = static_cast<uInt>(size);
@@ -155,7 +155,7 @@ private:
         return start;
     }
 
-    // Before anything is allocated.
+    // Checks the counts before anything is allocated.
     static void check_counts(const Inflater& data, std::uint32_t flags, std::uint64_t vertices, std::uint64_t triangles,
                              std::uint64_t file_bytes) {
         if (vertices > max_mesh_count) data.fail(fmt::format("more than {}", counted(max_mesh_count, "vertex")));
@@ -168,7 +168,7 @@ private:
         if (triangles == 0) data.fail("has no triangles");
     }
 
-    // `count` rows of n numbers, a block at a time: memory grows with what is there, not with what the header says.
+    // Reads `count` rows of n numbers block by block, so that memory grows with the data present and not with the header's counts.
     template <class T, std::size_t n, class Take>
     static void rows(Inflater& data, std::uint64_t count, const char* what, const Take& take) {
         constexpr std::uint64_t at_once = 4096;

@@ -1,5 +1,4 @@
-// <bsdf>: what reflects, what lets light through, and what stands around them: `twosided`, `mask`, `blendbsdf`, `normalmap`,
-// `bumpmap`.
+// <bsdf>: reflecting and transmitting materials, and the wrappers `twosided`, `mask`, `blendbsdf`, `normalmap`, `bumpmap`.
 #pragma once
 
 #include "core/material/materials.h"
@@ -15,9 +14,9 @@ class Bsdfs {
 public:
     explicit Bsdfs(const Context& context) : context_(context) {}
 
-    // Each element is stored once, however many shapes it stands on. In place of one that is wrong stands the default.
+    // Each element is stored once, however many shapes use it. A material with an error is replaced by the default.
     Materials::Sides sides(const Element& e);
-    // What stands on a shape that names no material: Mitsuba's diffuse of reflectance 0.5, or nothing where it emits.
+    // The material of a shape that names none: Mitsuba's `diffuse` of reflectance 0.5, or none if the shape emits.
     Materials::Sides default_sides(bool emits);
 
     bool has(const Element& e) const { return sides_.count(&e) > 0; }
@@ -35,7 +34,7 @@ private:
     const Context& context_;
     std::vector<Bsdf> bsdfs_;
     std::map<const Element*, Materials::Sides> sides_;
-    std::set<const Element*> open_;  // being read
+    std::set<const Element*> open_;  // elements being read, to detect cycles
     int default_ = Materials::absorbing;
 };
 

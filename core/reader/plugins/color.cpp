@@ -75,7 +75,7 @@ Rgb parse(const std::string& name, const Element& e, Illuminant illuminant, doub
     }
     const Rgb c = e.tag == "rgb" ? parse_rgb(value) : Rgb(parse_number(value));
     if (std::min({c.r, c.g, c.b}) < 0.0) throw InputError(value.place, fmt::format("{} is negative: '{}'", name, value.value));
-    // The same power at all wavelengths is not white.
+    // A spectrum of equal energy is not white in sRGB.
     return e.tag == "spectrum" && illuminant == Illuminant::equal_energy ? c * (rgb_from_xyz() * Vec3(1.0)) : c;
 }
 

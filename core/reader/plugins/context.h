@@ -1,4 +1,4 @@
-// What the readers of the single plugins share.
+// Data shared by the readers of all plugins.
 #pragma once
 
 #include "core/base/vec.h"
@@ -12,14 +12,14 @@
 
 namespace neumann::reader {
 
-// What textures have in common with each other and with the meshes they are on.
+// Data shared by textures, and by the meshes on which they are.
 struct TextureStore {
     std::map<std::string, std::shared_ptr<const Texels>> images;  // by path
     struct Range {
         Rgb smallest{0.0}, largest{0.0};
     };
-    std::map<std::string, Range> attributes;  // of all meshes, by the name of the attribute
-    std::set<const Element*> open, known;     // being read, and read
+    std::map<std::string, Range> attributes;  // of all meshes, by the attribute's name
+    std::set<const Element*> open, known;     // elements being read, and elements already read
 
     void widen(const std::string& attribute, const Range& by) {
         Range& range = attributes.try_emplace(attribute, by).first->second;
@@ -31,7 +31,7 @@ struct Context {
     const Document& document;
     const Objects& objects;
     Warnings& warnings;
-    std::vector<std::string>& mesh_files;  // and pictures, that were read, in their order
+    std::vector<std::string>& mesh_files;  // mesh and picture files that were read, in order
     TextureStore& textures;
 
     Problems& problems() const { return objects.problems(); }

@@ -40,7 +40,7 @@ double read_width(Properties& p, const std::string& name, double missing) {
     return missing;
 }
 
-// Mitchell and Netravali's own range; far outside it the weights of what the film's edges leave of a filter may add up to nothing.
+// The range of Mitchell and Netravali. Far outside of it, a filter that is cut off at the film's edge may have the integral 0.
 double read_mitchell_parameter(Properties& p, const std::string& name) {
     const double value = p.number(name).value_or(1.0 / 3.0);
     if (value < 0.0 || value > 1.0) p.complain(name, fmt::format("{} is {}, expected from 0 to 1", name, value));

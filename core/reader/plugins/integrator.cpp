@@ -11,22 +11,22 @@ namespace neumann::reader {
 
 namespace {
 
-// How Mitsuba divides its work, and when it gives up: the command line's to decide.
+// Reads and ignores parameters of Mitsuba's scheduling and time limit, which the command line controls here.
 void read_course_of_work(Properties& p) {
     p.integer("block_size");
     p.integer("samples_per_pass");
     p.number("timeout");
 }
 
-// Those that estimate the light of all paths up to a length. That some follow them from the lights (`ptracer`) or through media, of
-// which there are none here, makes no difference to what is expected.
+// Integrators that estimate the light of all paths up to a length. Some start at the lights (`ptracer`) or handle media, which do
+// not exist here; the expected picture is the same.
 const std::vector<std::string> path_types = {"path", "ptracer", "volpath", "volpathmis"};
 
 Integrator read_path(Properties& p) {
     const std::int64_t depth = p.integer("max_depth").value_or(-1);
     if (depth == 0 || depth < -1 || depth > std::numeric_limits<int>::max())
         p.complain("max_depth", fmt::format("max_depth is {}, expected -1 or at least 1", depth));
-    // Here roulette begins only after the last bounce that is asked for.
+    // Here roulette begins only after the last bounce of the file.
     const std::int64_t roulette = p.integer("rr_depth").value_or(5);
     if (roulette < 1) p.complain("rr_depth", fmt::format("rr_depth is {}, expected at least 1", roulette));
     Integrator result;
@@ -35,7 +35,7 @@ Integrator read_path(Properties& p) {
     return result;
 }
 
-// How many samples of each kind Mitsuba takes at a vertex makes no difference to what is expected.
+// The numbers of samples that Mitsuba takes at a vertex do not change the expected picture.
 Integrator read_direct(Properties& p) {
     const auto count = [&](const std::string& name) {
         const std::optional<std::int64_t> value = p.integer(name);
@@ -76,7 +76,7 @@ Integrator read_integrator(const Element& e, const Context& context) {
     }
     read_course_of_work(p);
     p.finish();
-    // The squares of the samples, which are all that `moment` adds, are in the standard errors.
+    // `moment` only adds the squares of the samples, which the standard errors contain.
     return nested ? read_integrator(*nested, context) : result;
 }
 

@@ -6,8 +6,8 @@
 
 namespace neumann::reader {
 
-// A positive number or one of Mitsuba's names, in any case; that of the name `missing` where it is not given, or not
-// right, which is a problem.
+// A positive number or one of Mitsuba's names, in upper or lower case. If the parameter is missing or wrong (which is a problem),
+// the index of the material `missing`.
 double read_ior(Properties& p, const std::string& name, const std::string& missing, const Context& context);
 
 }  // namespace neumann::reader

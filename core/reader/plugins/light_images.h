@@ -1,4 +1,4 @@
-// Pictures that shine: an environment's, and the textures that a light throws.
+// Pictures of lights: environment maps, and textures that a light projects.
 #pragma once
 
 #include "core/emitter/slide.h"
@@ -10,10 +10,10 @@
 
 namespace neumann::reader {
 
-// Linear. Throws InputError where a pixel is negative.
+// Linear values. Throws InputError if a pixel is negative.
 Image read_light_image(const Attribute& filename, const Context& context);
 
-// The <texture> of this name inside an emitter, if there is one that is right.
+// The <texture> of this name inside an emitter, if there is one without errors.
 std::optional<Slide> read_slide(Properties& p, const std::string& name, const Context& context);
 
 }  // namespace neumann::reader

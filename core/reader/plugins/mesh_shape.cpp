@@ -11,7 +11,7 @@ namespace neumann::reader {
 
 namespace {
 
-// Length 1, or 0 where the triangle has no area; scaled first, since squares of small lengths vanish.
+// Normalises v; 0 if the triangle has no area. v is scaled first, because squares of small lengths underflow.
 Vec3 unit(const Vec3& v) {
     const double largest = max_component(glm::abs(v));
     return largest > 0.0 ? glm::normalize(v / largest) : Vec3(0.0);
@@ -22,7 +22,7 @@ Vec3 triangle_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3
     return unit(glm::cross(a, b));
 }
 
-// Turns each triangle to the side that its vertex normals are on.
+// Orients each triangle to the side of its vertex normals.
 void orient_by_normals(TriangleMesh& mesh) {
     for (std::array<std::uint32_t, 3>& t : mesh.triangles)
         if (glm::dot(triangle_normal(mesh, t), mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]]) < 0.0)
@@ -44,7 +44,7 @@ void smooth(TriangleMesh& mesh) {
     for (Vec3& n : mesh.normals) n = unit(n);
 }
 
-// Up to the rounding of normals in files, and far below what a picture shows.
+// Whether vertex normals equal the triangles' normals, up to the rounding of normals in files, which no picture shows.
 bool is_flat(const TriangleMesh& mesh) {
     constexpr double flat_cosine = 1.0 - 1e-8;
     return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {

@@ -1,4 +1,4 @@
-// <bsdf> around others: `mask` and `blendbsdf`, each side from the same side of what is nested.
+// <bsdf> that wrap others: `mask` and `blendbsdf`. Each side is made of the same side of the nested ones.
 #include "core/reader/plugins/bsdfs.h"
 #include "core/reader/plugins/textures.h"
 
@@ -8,7 +8,7 @@ namespace neumann::reader {
 
 namespace {
 
-// A share, from 0 to 1 wherever it is.
+// A weight or opacity, which must be in [0, 1] everywhere.
 SurfaceFunction read_share(Properties& p, const std::string& name, const Context& context) {
     const SurfaceFunction share = read_number_texture(p, name, 0.5, context);
     const double largest = share.upper_bound().r;

@@ -18,7 +18,7 @@ SurfaceFunction read_number(Properties& p, const std::string& name, double missi
 
 bool is_zero(const SurfaceFunction& f) { return f.is_constant() && f.upper_bound().r == 0.0; }
 
-// What both have.
+// The parameters that `principled` and `principledthin` share.
 PrincipledParameters read_common(Properties& p, const Context& context) {
     const auto read = [&](const std::string& name, double missing) { return read_number(p, name, missing, 1.0, context); };
     PrincipledParameters v;
@@ -33,12 +33,12 @@ PrincipledParameters read_common(Properties& p, const Context& context) {
     return v;
 }
 
-// How often Mitsuba draws from the single lobes, which changes noise only.
+// Reads and ignores Mitsuba's sampling rates of the lobes, which change noise only.
 void read_sampling_rates(Properties& p, std::initializer_list<const char*> names) {
     for (const char* name : names) p.number(name);
 }
 
-// η, or Burley's `specular`: the reflection towards the normal is 0.08 times that. Glass has a surface, and so η ≠ 1.
+// η, or Burley's `specular`: the reflectance at normal incidence is 0.08 times that. Glass needs η ≠ 1.
 double read_eta(Properties& p, bool is_glass) {
     const auto eta = p.number("eta"), specular = p.number("specular");
     if (eta && specular) p.complain("specular", "both eta and specular are given, expected one of them");

@@ -10,7 +10,7 @@ namespace neumann::reader {
 
 struct PrincipledSides {
     Bsdf outside;
-    std::optional<Bsdf> inside;  // where light gets in
+    std::optional<Bsdf> inside;  // the inner side, if the material transmits light
 };
 PrincipledSides read_principled(const Element& e, const Context& context);
 Bsdf read_principled_thin(const Element& e, const Context& context);

@@ -16,7 +16,7 @@ namespace neumann::reader {
 
 namespace {
 
-// Of a triangle, with its part of the vertices and of the search structures.
+// Memory per triangle, including its part of the vertices and of the acceleration structures.
 constexpr double bytes_of_triangle = 300.0;
 constexpr double part_of_memory = 0.5;
 
@@ -30,7 +30,7 @@ struct Reading {
     bool is_right = false;
 };
 
-// What the file says at one place of the top level.
+// One top-level shape, group or instance of the file.
 struct Item {
     const Element* element;
     Reading* shape = nullptr;        // of a shape
@@ -158,7 +158,7 @@ private:
         for (const auto& [name, range] : reading.textures.attributes) context_.textures.widen(name, range);
     }
 
-    // Up to the first instance that no longer fits, before there is any.
+    // Adds up the triangles of instances before any is expanded, and finds the first that does not fit in memory.
     void add_up_instances() {
         for (const Item& item : items_) {
             if (!item.group || item.group == item.element) continue;
@@ -195,7 +195,7 @@ private:
     std::map<const Element*, Group> groups_;
     std::set<std::string> known_files_;
     double expanded_ = 0.0;           // triangles of instances
-    const Item* too_many_ = nullptr;  // the instance with which they do not fit
+    const Item* too_many_ = nullptr;  // the first instance that does not fit
 };
 
 }  // namespace

@@ -8,11 +8,11 @@
 namespace neumann::reader {
 
 struct RoughnessParameters {
-    bool ggx;  // else Beckmann
+    bool ggx;  // otherwise Beckmann
     SurfaceFunction alpha_u, alpha_v;
 };
 
-// Throws InputError where a constant α is below 10⁻⁴, which Mitsuba takes for 10⁻⁴.
+// Throws InputError if a constant α is below 10⁻⁴, which Mitsuba would replace by 10⁻⁴.
 RoughnessParameters read_roughness(Properties& p, const Context& context);
 // One constant α for all directions.
 RoughnessParameters read_constant_roughness(Properties& p, const Context& context);

@@ -1,4 +1,4 @@
-// <emitter> of the kinds that stand on no shape: `constant` and `envmap`, which surround the scene, and `directional`, `point`,
+// <emitter> of the kinds without a shape: `constant` and `envmap`, which surround the scene, and `directional`, `point`,
 // `projector` and `spot`, which have no extent.
 #pragma once
 
@@ -11,7 +11,7 @@ class SceneLights {
 public:
     explicit SceneLights(const Context& context) : context_(context) {}
 
-    // Throws InputError for one that is wrong, or a second environment. An `area` light is left to its shape.
+    // Throws InputError for an emitter with errors, or for a second environment. Ignores `area` lights, which their shapes read.
     void add(const Element& e);
 
     std::optional<Environment> take_environment() { return std::move(environment_); }

@@ -119,7 +119,7 @@ SamplerKind read_sampler(const Element& e, const Context& context) {
     const std::string& type = e.attribute("type").value;
     if (std::find(types.begin(), types.end(), type) == types.end()) fail_type(e, types);
     Properties p(e, context.objects);
-    // Both are the command line's to decide.
+    // The command line decides about both.
     const std::int64_t count = p.integer("sample_count").value_or(1);
     if (count < 1) p.complain("sample_count", fmt::format("sample_count is {}, expected at least 1", count));
     p.integer("seed");
@@ -129,7 +129,7 @@ SamplerKind read_sampler(const Element& e, const Context& context) {
         p.integer("strength");
     }
     p.finish();
-    // The others are stratified in ways that an Owen-scrambled Sobol' sequence contains.
+    // The other samplers are stratified, and an Owen-scrambled Sobol' sequence has the same stratification.
     return type == "independent" ? SamplerKind::independent : SamplerKind::sobol;
 }
 

@@ -59,7 +59,7 @@ Shape read_geometry(Properties& p, const Context& context) {
     return make_disk(to_world, flip_normals);
 }
 
-// What its textures ask for has to be there.
+// Throws InputError if a shape lacks mesh attributes that its textures need.
 void check_attributes(const Properties& p, const Shape& shape, const Context& context) {
     const auto* mesh = std::get_if<TriangleMesh>(&shape);
     for (const auto& [name, e] : mesh_attributes_of(p.element(), context.objects))

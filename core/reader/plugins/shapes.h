@@ -10,7 +10,7 @@ struct ReadShape {
     Shape shape;
     const Element* bsdf = nullptr;     // null: not named
     const Element* emitter = nullptr;  // null: it does not emit
-    const Element* element = nullptr;  // it was read from
+    const Element* element = nullptr;  // from which it was read
 };
 
 ReadShape read_shape(const Element& e, const Context& context);

@@ -18,7 +18,7 @@ Texture read_bitmap(Properties& p, const Context& context) {
     const std::string wrap = p.choice("wrap_mode", {"repeat", "mirror", "clamp"}, "repeat");
     const bool raw = p.boolean("raw").value_or(false);
     const UvTransform to_uv(p.transform("to_uv"));
-    // How Mitsuba stores texels and looks them up; changes rounding only.
+    // Mitsuba's storage and lookup of texels; they change rounding only.
     p.choice("format", {"auto", "variant", "fp16"}, "auto");
     p.boolean("accel");
     p.refuse_rest();
@@ -39,7 +39,7 @@ Texture read_bitmap(Properties& p, const Context& context) {
             bitmap->height()};
 }
 
-// A number that is written as a colour.
+// A number that is given as a colour: the mean of its channels.
 Rgb read_mean(Properties& p, const std::string& name, const Element& e, const Context& context) {
     const Rgb c = parse_color(p, name, e, Illuminant::d65, context.warnings);
     if (is_grey(c)) return c;
@@ -58,7 +58,7 @@ SurfaceFunction read_square(Properties& p, const std::string& name, double missi
 Texture read_checkerboard(Properties& p, std::optional<Illuminant> illuminant, const Context& context) {
     SurfaceFunction color0 = read_square(p, "color0", 0.4, illuminant, context),
                     color1 = read_square(p, "color1", 0.2, illuminant, context);
-    // Mitsuba's checkerboard has the squares the other way round when it is asked for a number (eval_1 and not eval).
+    // Mitsuba's checkerboard swaps the squares if it is evaluated as a number (eval_1 and not eval).
     if (!illuminant) std::swap(color0, color1);
     const UvTransform to_uv(p.transform("to_uv"));
     p.finish();
@@ -69,7 +69,7 @@ Texture read_checkerboard(Properties& p, std::optional<Illuminant> illuminant, c
              glm::max(color0.upper_bound(), color1.upper_bound()), color0.is_grey() && color1.is_grey()}};
 }
 
-// No colour is decoded, and none cut.
+// Colours are neither decoded nor clipped.
 Texture read_raw_constant(Properties& p, bool is_number) {
     const Element& e = p.require("value", {"float", "integer", "vector"});
     const bool is_vector = e.tag == "vector";
@@ -121,7 +121,7 @@ void find_mesh_attributes(const Element& e, const Objects& objects, std::set<con
             find_mesh_attributes(*object, objects, seen, found);
 }
 
-// Being read, so that one inside itself is found.
+// Marks an element as being read, to detect textures that contain themselves.
 class Opened {
 public:
     Opened(const Element& e, const Context& context) : e_(e), open_(context.textures.open) {

@@ -1,4 +1,4 @@
-// <bsdf> of boundaries that light goes through: `dielectric`, `thindielectric`, `roughdielectric`, `null`.
+// <bsdf> of transmitting boundaries: `dielectric`, `thindielectric`, `roughdielectric`, `null`.
 #pragma once
 
 #include "core/material/bsdf.h"

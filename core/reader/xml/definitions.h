@@ -1,4 +1,4 @@
-// The parameters $name of a scene file: from <default> elements and from -D name=value, which come first.
+// The parameters $name of a scene file, from -D name=value (which take precedence) and from <default> elements.
 #pragma once
 
 #include "core/reader/xml/element.h"
@@ -13,12 +13,12 @@ public:
 
     // Does nothing if the name is defined already.
     void add_default(const std::string& name, const std::string& value);
-    // A <default> that is wrong; if its name is not known either, that may be any.
+    // Records a <default> with an error, so that uses of its name are not reported again. An empty name may stand for any.
     void lose_default(const std::string& name);
-    // Replaces each $name, of several that fit the longest; \$ stands for $ itself. What is put in is not looked at again. Throws
-    // InputError where there is no such name.
+    // Replaces each $name, using the longest name that matches; \$ stands for $ itself. Substituted text is not substituted again.
+    // Throws InputError if there is no such name.
     void substitute(Attribute& a);
-    // Throws InputError for a -D that nothing used.
+    // Throws InputError for a -D that was not used.
     void check_used(const std::string& file) const;
 
 private:

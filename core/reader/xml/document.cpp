@@ -42,35 +42,35 @@ private:
     Element read_file(const std::string& path);
     Element read_element(const SourceText& source, pugi::xml_node node, const std::string& parent_tag, int depth);
     void read_children(const SourceText& source, pugi::xml_node node, Element& parent, int depth);
-    // What an element says to the reader of the file, such as <include>; else it becomes a child.
+    // Executes elements such as <include>; all others become children of `parent`.
     void place(Element e, Element& parent);
     void add_default(const Element& e);
     void add_folder(const Element& e);
     void include(const Element& e, Element& parent);
-    // Where an element stood that cannot be read, with all that is in it.
+    // Puts a broken element in place of one that cannot be read, with its contents.
     void drop(pugi::xml_node node, Element& parent, const Location& place);
-    // Runs what may find a problem of the element, which is then broken.
+    // Calls f; if it throws InputError, the problem is recorded and the element marked as broken.
     template <class F>
     void attempt(Element& e, F&& f) {
         if (!problems_.attempt(e.place, f)) e.broken = true;
     }
-    // Whether it is one that has to be upgraded.
+    // Whether files of this version must be upgraded.
     static bool is_old(const Attribute& version);
 
     Document& document_;
     Definitions definitions_;
     Warnings& warnings_;
     Problems& problems_;
-    // Of the file that is being read.
+    // The state of the file being read.
     struct Reading {
-        std::vector<std::string> files;  // each included by the one before
+        std::vector<std::string> files;  // the chain of includes: each file is included by the one before
         bool is_old = false;
-        // Where it looks for the folder of a <path>, as in Mitsuba: in those of its <path>s, the last first, in the file's own, and
-        // then where the file that includes it looks.
+        // The search path for the folder of a <path>, as in Mitsuba: the folders of the file's <path>s, the last first, then the
+        // file's own folder, then the search path of the including file.
         std::vector<std::string> search;
     };
     Reading reading_;
-    bool dropped_ = false;  // what is not known may have used definitions
+    bool dropped_ = false;  // elements were dropped unread, and they may have used definitions
 };
 
 Element Loader::read_file(const std::string& path) {
@@ -159,7 +159,7 @@ void Loader::place(Element e, Element& parent) {
             parent.children.push_back(std::move(e));
         }
     } else {
-        // A part of a parameter spoils the whole.
+        // A parameter with a broken part is broken.
         if (e.broken && !is_object(parent.tag) && parent.tag != "scene") parent.broken = true;
         parent.children.push_back(std::move(e));
     }
@@ -198,7 +198,7 @@ void Loader::drop(pugi::xml_node node, Element& parent, const Location& place) {
     node.find_node(note_id);
     dropped_ = true;
     parent.broken = parent.broken || (!is_object(parent.tag) && parent.tag != "scene");
-    Element e;  // of no kind
+    Element e;  // without a tag
     e.place = place;
     e.broken = true;
     parent.children.push_back(std::move(e));
@@ -221,7 +221,7 @@ void Loader::include(const Element& e, Element& parent) {
     Element root = read_file(path);
     if (root.tag == "scene") {
         for (Element& child : root.children) {
-            // What is broken may be of no known kind; its problem has been told.
+            // A broken element may have an unknown tag; its problem is already reported.
             if (!child.broken) attempt(child, [&] { check_place(child, parent.tag); });
             parent.children.push_back(std::move(child));
         }

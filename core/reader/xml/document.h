@@ -11,18 +11,18 @@ namespace neumann::reader {
 struct Document {
     Element root;                      // <scene>
     std::vector<std::string> files;    // the XML files and spectra that were read, in their order
-    std::vector<std::string> folders;  // where files are looked for: those of <path>, the last first, and the main scene's
-    bool lost_folder = false;          // there are others, which are not known
+    std::vector<std::string> folders;  // search path for files: folders of <path>, the last first, and the main scene's folder
+    bool lost_folder = false;          // a <path> could not be read, so the search path is incomplete
     LostIds lost;
 
-    // The file that an attribute names: in the folders, or beside the file that the attribute stands in. Throws InputError if there
-    // is none.
+    // The file that an attribute names, searched in the folders and next to the file that contains the attribute. Throws InputError
+    // if there is none.
     std::string find_file(const Attribute& name) const;
 };
 
-// What was upgraded in files of older versions is noted in `warnings`. Definitions that nothing uses are a problem, unless they are
-// `optional`. What is wrong is added to `problems`, and marked as broken in the document; throws InputError where the main file
-// cannot be read as a scene at all.
+// Upgrades of files of older versions are noted in `warnings`. Unused definitions are a problem, unless they are `optional`. Errors
+// are added to `problems`, and the elements are marked as broken in the document. Throws InputError if the main file cannot be read
+// as a scene at all.
 Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
                        Problems& problems, bool optional = false);
 

@@ -1,4 +1,4 @@
-// What an XML file says, with its places, after includes and parameters are resolved.
+// The elements and attributes of an XML file with their places, after includes and parameters are resolved.
 #pragma once
 
 #include "core/base/error.h"
@@ -19,11 +19,11 @@ struct Element {
     std::vector<Attribute> attributes;
     std::vector<Element> children;
     Location place;
-    // Its problem has been told; nothing is made of it.
+    // Its error is already reported; the element is not used.
     bool broken = false;
 
     const Attribute* find(std::string_view name) const;
-    // Attributes that grammar.h requires are there in every element of a document.
+    // The attribute must exist; those that grammar.h requires exist in every element of a document.
     const Attribute& attribute(std::string_view name) const;
 };
 

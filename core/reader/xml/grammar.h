@@ -1,16 +1,16 @@
-// Which elements and attributes a scene file may hold, and where.
+// Which elements and attributes a scene file may contain, and where.
 #pragma once
 
 #include "core/reader/xml/element.h"
 
 namespace neumann::reader {
 
-// bsdf, shape, emitter, …: what has a type.
+// Whether the tag is an object with a type: bsdf, shape, emitter, …
 bool is_object(std::string_view tag);
-// float, string, …: what has a name.
+// Whether the tag is a parameter with a name: float, string, …
 bool is_parameter(std::string_view tag);
 
-// Throws InputError where an element may not stand in its parent, or has an attribute that it may not have, or lacks one.
+// Throws InputError if an element is not allowed in its parent, has an attribute that is not allowed, or lacks one.
 void check_place(const Element& element, const std::string& parent_tag);
 void check_attributes(const Element& element);
 

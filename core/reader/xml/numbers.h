@@ -16,7 +16,7 @@ std::vector<std::string> split(const std::string& text);
 std::vector<double> parse_numbers(const Attribute& a);
 Vec3 parse_triple(const Attribute& a);
 
-// The attributes x, y and z, where one that is missing has the value `missing`; or `value` with one number or three.
+// The attributes x, y and z, with `missing` for those not given; or `value` with one number or three.
 Vec3 parse_xyz(const Element& e, double missing);
 
 }  // namespace neumann::reader

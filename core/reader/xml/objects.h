@@ -12,7 +12,7 @@ namespace neumann::reader {
 // Ids of what could not be read.
 struct LostIds {
     std::set<std::string> ids;
-    bool others = false;  // there may be more
+    bool others = false;  // there may be more, whose ids are unknown
 };
 
 class Objects {
@@ -22,7 +22,7 @@ public:
 
     // The object that <ref id=…> means; throws InputError if there is none.
     const Element& find(const Attribute& id, const std::string& what = "reference to") const;
-    // What a <ref> means, or null.
+    // The object that a <ref> means, or null.
     const Element* known(const Element& reference) const;
 
     Problems& problems() const { return problems_; }

@@ -14,10 +14,10 @@ constexpr std::size_t most_shown = 20;
 
 auto key(const Location& place) { return std::tie(place.file, place.line, place.column); }
 
-// The file, by its number, the line and the column.
+// Sort key: number of the file, line, column.
 using Order = std::tuple<std::size_t, int, int>;
 
-// Where "file:12:3: what is wrong" is, if it is of this file.
+// The place of a message "file:12:3: what is wrong", if it is in this file.
 std::optional<Order> order_in(const std::string& text, const std::string& file, std::size_t number) {
     if (!text.starts_with(file + ":")) return std::nullopt;
     int places[2] = {0, 0};

@@ -1,5 +1,5 @@
-// All that is wrong with a scene, told at once. What reads an element catches InputError there, keeps it, and goes on with
-// something neutral in its place; what depends on that element then adds nothing of its own.
+// Collects all errors of a scene, so that they are reported at once. The reader of an element catches InputError, adds it, and goes
+// on with a neutral replacement. Elements that depend on a broken one report no errors of their own because of it.
 #pragma once
 
 #include "core/base/error.h"
@@ -13,7 +13,7 @@
 
 namespace neumann::reader {
 
-// Something cannot be read because of a problem that is in the list already.
+// Thrown if something cannot be read because of a problem that is already in the list.
 class Told : public InputError {
 public:
     Told() : InputError("a problem that has been told") {}
@@ -22,10 +22,11 @@ public:
 // May be added to from several threads at once.
 class Problems {
 public:
-    // `near` is the element that was being read. What names no line of a scene file, such as a mesh, is listed there.
+    // `near` is the element that was being read. Problems that name no line of a scene file, such as those of meshes, are listed
+    // there.
     void add(const InputError& problem, const Location& near);
 
-    // What `f` returns, or nothing where it throws InputError; of what returns nothing, whether it ends.
+    // Calls f and returns its result, or nothing if it throws InputError. If f returns void: whether it did not throw.
     template <class F>
     auto attempt(const Location& near, F&& f) {
         using Result = std::invoke_result_t<F>;
@@ -43,7 +44,7 @@ public:
     }
 
     bool any() const;
-    // Throws InputError if there is a problem: one a line, each once, in the order of the scene files and of their lines.
+    // Throws InputError if there are problems: one per line, without repetition, in the order of the scene files and their lines.
     void check(const std::vector<std::string>& files) const;
 
 private:

@@ -1,8 +1,8 @@
-// The parameters and nested objects of one object. A plugin asks for what it knows; finish() then refuses whatever is left, so
-// nothing is skipped in silence and the list of allowed names is what was asked for.
+// The parameters and nested objects of one object. A plugin asks for those that it knows; finish() then refuses all others, so
+// nothing is skipped silently. The list of allowed names in messages consists of the names asked for.
 //
-// A parameter that is wrong is added to the problems and counts as missing, so that the others are looked at as well; finish() then
-// throws. What a plugin makes of its parameters comes after that.
+// A wrong parameter is added to the problems and counts as missing, so that the others are checked as well; finish() then throws. A
+// plugin uses its parameters only after finish().
 #pragma once
 
 #include "core/base/vec.h"
@@ -24,7 +24,7 @@ public:
 
     // A parameter of one of the types, or null.
     const Element* find(const std::string& name, const std::vector<std::string>& types);
-    // The same, where it must be there; throws InputError otherwise.
+    // The same, but throws InputError if it is missing.
     const Element& require(const std::string& name, const std::vector<std::string>& types);
 
     std::optional<double> number(const std::string& name);
@@ -34,14 +34,14 @@ public:
     // One of several words.
     std::string choice(const std::string& name, const std::vector<std::string>& allowed, const std::string& missing);
     std::optional<Vec3> point(const std::string& name);
-    Mat4 transform(const std::string& name);  // the identity where it is missing; invertible
+    Mat4 transform(const std::string& name);  // the identity if it is missing; always invertible
 
     // The nested object of one kind that has the name of a parameter, a reference resolved, or null.
     const Element* object(const std::string& name, const std::string& tag);
     // Nested objects of one kind, references resolved. At most `limit`.
     std::vector<const Element*> nested(const std::string& tag, std::size_t limit = 1);
 
-    // What `f` makes of a parameter; nothing where it throws InputError, which is then a problem of that parameter.
+    // Calls f and returns its result, or nothing if it throws InputError, which is then a problem of the parameter.
     template <class F>
     auto attempt(const std::string& name, F&& f) {
         auto result = problems().attempt(element_.place, f);
@@ -49,15 +49,15 @@ public:
         return result;
     }
 
-    // "… is …, expected …" at the parameter, or at the object where the parameter is missing. Nothing is said where it, or one of
-    // those that it is compared with, is wrong already.
+    // Adds the problem "… is …, expected …" at the parameter, or at the object if the parameter is missing. Does nothing if the
+    // parameter, or one of those in `beside`, already has a problem.
     void complain(const std::string& name, const std::string& what, const std::vector<std::string>& beside = {});
-    // The same, where there is no going on. Nothing is said where any parameter is wrong already.
+    // The same as an exception. No new problem is reported if any parameter already has one.
     [[noreturn]] void fail(const std::string& name, const std::string& what) const;
-    // "… has no <bsdf> inside, expected …", unless what could not be read may have been one.
+    // Fails with "… has no <bsdf> inside, expected …", unless a nested element that could not be read may have been one.
     [[noreturn]] void fail_empty(const std::string& what) const;
 
-    // Complains of what was not asked for. After that, it is too late to ask.
+    // Reports everything that was not asked for. Call it after the last question.
     void refuse_rest();
     void finish();
 
@@ -66,16 +66,16 @@ private:
     void add(const Location& place, const std::string& what);
     const Element* parameter(const std::string& name) const;
     Location place_of(const std::string& name) const;
-    // The object itself or what a reference means; null where that is not known.
+    // The object itself, or the one that a reference means; null if that is unknown.
     const Element* resolve(const Element& e);
 
     const Element& element_;
     const Objects& objects_;
     std::string title_;
     std::set<const Element*> read_;
-    std::set<std::string> spoilt_;  // parameters
-    bool told_ = false;             // of something else
-    bool incomplete_ = false;       // something in it could not be read at all
+    std::set<std::string> spoilt_;  // parameters with a problem
+    bool told_ = false;             // another problem has been reported
+    bool incomplete_ = false;       // a nested element could not be read at all
     std::vector<std::string> asked_, asked_tags_;
 };
 

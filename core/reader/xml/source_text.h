@@ -1,4 +1,4 @@
-// The text of an XML file, in which places are found again.
+// The text of an XML file, for converting offsets to line and column.
 #pragma once
 
 #include "core/base/error.h"
@@ -11,7 +11,7 @@ namespace neumann::reader {
 
 class SourceText {
 public:
-    // Throws InputError where the file cannot be read.
+    // Throws InputError if the file cannot be read.
     explicit SourceText(const std::string& path);
 
     const std::string& text() const { return text_; }

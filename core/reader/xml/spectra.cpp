@@ -61,7 +61,7 @@ Range read_range(Properties& p) {
     return range;
 }
 
-// By 1 nm: linear between, that is right to 1e-5.
+// In steps of 1 nm: linear interpolation is then right to 1e-5.
 std::string read_blackbody(Properties& p) {
     p.require("temperature", {"float", "integer"});
     const double temperature = p.number("temperature").value_or(1.0);
@@ -100,7 +100,7 @@ std::string read_irregular(Properties& p) {
     return list.text();
 }
 
-// What is the same in all channels.
+// Reads a spectrum that has the same value in all colour channels.
 std::string read_number(Properties& p, const std::string& type) {
     if (type == "d65") return fmt::format("{}", p.number("scale").value_or(1.0));
     p.require("value", {"float", "integer"});

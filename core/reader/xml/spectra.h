@@ -6,7 +6,7 @@
 
 namespace neumann::reader {
 
-// Makes the list or the number of a file or an object, as if it stood in the scene: what comes after knows <spectrum name value>
+// Replaces a spectrum given by a file or an object by its list or number, so that later code needs to handle <spectrum name value>
 // and <float name value> only. A list that comes from `blackbody` keeps its type.
 void write_out_spectrum(Element& e, Document& document, Problems& problems);
 

@@ -16,7 +16,7 @@ Mat4 parse_rotate(const Element& e) {
     return glm::rotate(Mat4(1.0), glm::radians(parse_number(e.attribute("angle"))), axis / max_component(glm::abs(axis)));
 }
 
-// Camera space: +z forwards, +x left, +y up.
+// Camera space has +z forwards, +x left and +y up.
 Mat4 parse_lookat(const Element& e) {
     const Vec3 origin = parse_triple(e.attribute("origin")), target = parse_triple(e.attribute("target"));
     if (origin == target) throw InputError(e.place, "origin and target of <lookat> are the same point");

@@ -28,7 +28,7 @@ std::string snake_case(const std::string& name) {
     return result;
 }
 
-// A parameter by its name of today, or null.
+// A parameter by its Mitsuba 3 name, or null.
 const Element* find(const Element& e, const std::string& parameter) {
     const auto found = std::find_if(e.children.begin(), e.children.end(), [&](const Element& child) {
         const Attribute* name = child.broken ? nullptr : child.find("name");
@@ -44,7 +44,7 @@ Element make_operation(const std::string& tag, const Element* x, const Element* 
     return e;
 }
 
-// As Mitsuba 3 has it, to_uv moves first and scales then.
+// As in Mitsuba 3, to_uv translates first and then scales.
 void gather_uv_transform(Element& parent, Warnings& warnings) {
     const auto number = [&](const std::string& name) {
         const Element* e = find(parent, name);
@@ -65,7 +65,7 @@ void gather_uv_transform(Element& parent, Warnings& warnings) {
     warnings.add("old scene file: uoffset, voffset, uscale and vscale taken as a transform to_uv");
 }
 
-// Of an object; nothing where it is a reference.
+// The type of an object; empty for a reference.
 std::string type_or_nothing(const Element& e) {
     const Attribute* type = e.find("type");
     return type ? type->value : "";
@@ -79,7 +79,7 @@ void rename_type(Element& e, const std::string& type, Warnings& warnings) {
         }
 }
 
-// Parameters by their names of today; whether there were any.
+// Removes parameters, given by their Mitsuba 3 names; returns whether there were any.
 bool drop(Element& e, const std::vector<std::string>& names) {
     return std::erase_if(e.children, [&](const Element& child) {
                const Attribute* name = child.find("name");
@@ -106,7 +106,7 @@ void upgrade_sampler(Element& e, Warnings& warnings) {
     drop(e, {"scramble", "dimension"});
 }
 
-// An exponent of 2.2 is taken for the curve of sRGB, which it stands for, and -1 is its name.
+// An exponent of 2.2 is treated as the sRGB curve, which it approximates; -1 means sRGB.
 void upgrade_gamma(Element& e, Warnings& warnings) {
     const Element* given = find(e, "gamma");
     if (!given || (given->tag != "float" && given->tag != "integer")) return;
@@ -122,7 +122,7 @@ void upgrade_gamma(Element& e, Warnings& warnings) {
     warnings.add(fmt::format("old scene file: gamma {} of a bitmap taken as {}", gamma, gamma == 1.0 ? "raw" : "sRGB"));
 }
 
-// The index of refraction of what is outside, or inside. Metals stand in air, as Mitsuba 3 has it.
+// The refractive index outside, or inside. Metals are in air, as in Mitsuba 3.
 void upgrade_indices(Element& e, Warnings& warnings) {
     const std::string type = type_or_nothing(e);
     if (type == "conductor" || type == "roughconductor") {
@@ -165,7 +165,7 @@ void upgrade_bitmap(Element& e, Warnings& warnings) {
     }
 }
 
-// Where shading normals and surfaces disagree Mitsuba 3 has no such test.
+// `strictNormals` is dropped: Mitsuba 3 has no test for shading normals that disagree with the surface.
 void upgrade_integrator(Element& e, Warnings& warnings) {
     if (drop(e, {"strict_normals"})) warnings.add("old scene file: strictNormals of an integrator left out");
 }

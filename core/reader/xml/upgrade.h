@@ -1,6 +1,6 @@
-// Scene files of Mitsuba 0.4 to 0.6, which name things otherwise, as Mitsuba 3 upgrades them; and what Mitsuba 3 refuses although
-// there is no doubt of what it asks for: `ldrfilm`, samplers and texture filters that are gone, `strictNormals`, `extEta`, `gamma`.
-// The rest is left as it is, and refused by name where it is read.
+// Upgrades scene files of Mitsuba 0.4 to 0.6 to the names of Mitsuba 3, as Mitsuba 3 does. It also upgrades some features that
+// Mitsuba 3 refuses although their meaning is clear: `ldrfilm`, removed samplers and texture filters, `strictNormals`, `extEta`,
+// `gamma`. Everything else is left unchanged, and refused by name where it is read.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -8,8 +8,8 @@
 
 namespace neumann::reader {
 
-// To be called before an element's place is checked, and when all in it is read. Notes in `warnings` say what was upgraded. Throws
-// InputError for what has no meaning today.
+// Call upgrade_tag() before an element's place is checked, and the other function when all of its contents are read. `warnings` say
+// what was upgraded. Throws InputError for features that no longer have a meaning.
 void upgrade_tag(Element& e, Warnings& warnings);
 void upgrade_parameters(Element& e, Warnings& warnings);
 
