@@ -21,7 +21,7 @@ std::string usage(const CLI::Option& option) {
 std::string meaning(const CLI::Option& option) {
     std::string text = option.get_description();
     if (!option.get_default_str().empty() && option.get_type_size() != 0)
-        text += fmt::format("; {} without it", option.get_default_str());
+        text += fmt::format("; default {}", option.get_default_str());
     text += ".";
     for (const CLI::Option* other : option.get_excludes())
         text += fmt::format(" Not together with {}.", other->get_name(false, true));

@@ -8,12 +8,12 @@ namespace neumann {
 CLI::App* add_conform(CLI::App& app, ConformRequest& request) {
     auto* conform =
         app.add_subcommand("conform", "Render a folder of Mitsuba's regression scenes and test it against their references");
-    conform->add_option("DIR", request.folder, "Folder with tests/scenes in it, as Mitsuba's data are laid out")->required();
-    conform->add_option("--only", request.only, "Scenes whose folder/name holds this")->type_name("TEXT");
-    conform->add_option("-o", request.output, "Folder for the pictures of what is rejected")
+    conform->add_option("DIR", request.folder, "Folder that contains tests/scenes, the layout of Mitsuba's data")->required();
+    conform->add_option("--only", request.only, "Only scenes whose folder/name contains this text")->type_name("TEXT");
+    conform->add_option("-o", request.output, "Folder for the pictures of rejected scenes")
         ->type_name("DIR")
         ->capture_default_str();
-    conform->add_option("--samples", request.budget, "Of a scene, over all its pixels")
+    conform->add_option("--samples", request.budget, "Samples of a scene, over all its pixels")
         ->type_name("N")
         ->check(whole_from(1, std::uint64_t{1} << 40))
         ->capture_default_str();

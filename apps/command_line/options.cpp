@@ -36,11 +36,11 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning
 }
 
 void add_threads(CLI::App& command, int& threads) {
-    command.add_option("-t", threads, "Threads; all without it")->type_name("THREADS")->check(whole_from(1, 4096));
+    command.add_option("-t", threads, "Number of threads; default all")->type_name("THREADS")->check(whole_from(1, 4096));
 }
 
 void add_memory(CLI::App& command, std::optional<double>& gibibytes) {
-    command.add_option("--memory", gibibytes, "Memory that may be taken, about, in GiB; half of the machine's without it")
+    command.add_option("--memory", gibibytes, "Approximate memory that may be taken, in GiB; default half of the machine's")
         ->type_name("GIB")
         ->check(above_zero());
 }
@@ -51,11 +51,11 @@ void add_definitions(CLI::App& command, std::vector<std::string>& texts) {
 
 void add_patch_options(CLI::App& command, PatchOptions& options) {
     add_scene(command, options.scene);
-    command.add_option("--patches", options.patches, "Patches that the surfaces are cut into, about")
+    command.add_option("--patches", options.patches, "Approximate number of patches")
         ->type_name("N")
         ->check(whole_from(0, std::uint64_t{1} << 40))
         ->capture_default_str();
-    command.add_option("--directions", options.rays, "Rays of T for each side of a patch, a power of two")
+    command.add_option("--directions", options.rays, "Number of rays of T for each side of a patch, a power of two")
         ->type_name("M")
         ->check(whole_from(0, std::uint64_t{1} << 40))
         ->capture_default_str();

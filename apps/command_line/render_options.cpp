@@ -8,30 +8,32 @@ namespace neumann {
 CLI::App* add_render(CLI::App& app, RenderRequest& request) {
     auto* render = app.add_subcommand("render", "Render the bounces K^i Le of a scene, their sums, and what is left out");
     add_scene(*render, request.scene);
-    render->add_option("-o", request.output, "Folder for the pictures and tables; out/NAME without it")->type_name("DIR");
+    render->add_option("-o", request.output, "Folder for the pictures and tables; default out/NAME")->type_name("DIR");
     auto* bounces = render->add_option("-n", request.goal.bounces, "The last bounce with a picture of its own")
                         ->type_name("BOUNCES")
                         ->check(whole_from(0, 100000));
-    render->add_option("--tail", request.goal.tail, "As many bounces as it takes until the rest is below this part of the sum")
+    render
+        ->add_option("--tail", request.goal.tail, "Render as many bounces as it takes until the rest is below this part of the sum")
         ->type_name("EPS")
         ->check(above_zero())
         ->excludes(bounces);
     render->add_option("--spp", request.goal.samples, "Samples a pixel")
         ->type_name("N")
         ->check(whole_from(1, std::uint64_t{1} << 40));
-    render->add_option("--time", request.goal.seconds, "Sample, or refine patches, for so many seconds")
+    render->add_option("--time", request.goal.seconds, "Sample, or refine patches, for this many seconds")
         ->type_name("S")
         ->check(above_zero());
     render
         ->add_option("--error", request.goal.relative_error,
-                     "Sample until the relative standard error of every bounce is at most this, looked at when the samples are a "
-                     "power of two; without --time for ten minutes at most")
+                     "Sample until the relative standard error of every bounce is at most this, checked when the number of samples "
+                     "is a power of two; without --time for ten minutes at most")
         ->type_name("REL")
         ->check(above_zero());
     add_memory(*render, request.memory);
     add_method_options(*render, request.method);
     render
-        ->add_option("--reference", request.reference, "Folder of an earlier render: convergence.csv then has the true errors too")
+        ->add_option("--reference", request.reference,
+                     "Folder of an earlier render; convergence.csv then also has the errors against it")
         ->type_name("DIR");
     add_seed(*render, request.goal.seed);
     add_threads(*render, request.threads);

@@ -8,14 +8,14 @@ namespace neumann {
 CLI::App* add_replay(CLI::App& app, ReplayRequest& request) {
     auto* replay = app.add_subcommand("replay", "Trace one sample of a render again, and show its path");
     replay->add_option("DIR", request.folder, "Folder of a render")->required();
-    auto* number = replay->add_option("N", request.number, "Which of the samples that the health report in run.json names, from 1")
+    auto* number = replay->add_option("N", request.number, "Number of a sample in the health report in run.json, counted from 1")
                        ->check(whole_from(1, 1'000'000));
-    auto* pixel = replay->add_option("--pixel", request.pixel, "Or any sample: of this pixel")
+    auto* pixel = replay->add_option("--pixel", request.pixel, "For any other sample: its pixel")
                       ->type_name("X,Y")
                       ->delimiter(',')
                       ->expected(2)
                       ->excludes(number);
-    auto* sample = replay->add_option("--sample", request.sample, "The sample's number in its pixel, from 0")
+    auto* sample = replay->add_option("--sample", request.sample, "Number of the sample in its pixel, counted from 0")
                        ->type_name("S")
                        ->check(whole_from(0, std::uint64_t{1} << 40));
     sample->needs(pixel);

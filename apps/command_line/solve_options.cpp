@@ -8,9 +8,9 @@ namespace neumann {
 CLI::App* add_solve(CLI::App& app, SolveRequest& request) {
     auto* command = app.add_subcommand("solve", "Solve L = Le + K L by the series and by all other solvers, side by side");
     add_patch_options(*command, request.patches);
-    command->add_option("--channel", request.channel, "r, g or b; without it the one with the largest spectral radius")
+    command->add_option("--channel", request.channel, "r, g or b; default the one with the largest spectral radius")
         ->type_name("NAME");
-    command->add_option("--error", request.tolerance, "Relative error that ends a solver")
+    command->add_option("--error", request.tolerance, "Relative error at which a solver ends")
         ->type_name("REL")
         ->check(above_zero())
         ->capture_default_str();

@@ -7,13 +7,13 @@ namespace neumann {
 
 CLI::App* add_spectrum(CLI::App& app, SpectrumRequest& request) {
     auto* command =
-        app.add_subcommand("spectrum", "Print norms and leading eigenvalues of K: whether, and how fast, the series ends");
+        app.add_subcommand("spectrum", "Print norms and leading eigenvalues of K: whether the series converges, and how fast");
     add_patch_options(*command, request.patches);
-    command->add_option("--eigenvalues", request.eigenvalues, "So many leading eigenvalues")
+    command->add_option("--eigenvalues", request.eigenvalues, "Number of leading eigenvalues")
         ->type_name("N")
         ->check(whole_from(1, 100))
         ->capture_default_str();
-    command->add_option("--time", request.seconds, "Look for them for so many seconds at most")
+    command->add_option("--time", request.seconds, "Search for eigenvalues for at most this many seconds")
         ->type_name("S")
         ->check(above_zero())
         ->capture_default_str();

@@ -6,11 +6,11 @@
 namespace neumann {
 
 CLI::App* add_stress(CLI::App& app, StressRequest& request) {
-    auto* stress =
-        app.add_subcommand("stress", "Run all cases with known answers, stiff and extreme ones too: expected and measured");
-    stress->add_option("--only", request.only, "Cases whose name holds this; with * and ? in it, those that it fits")
+    auto* stress = app.add_subcommand(
+        "stress", "Run all cases with known answers, also stiff and extreme ones, and print expected and measured values");
+    stress->add_option("--only", request.only, "Only cases whose name contains this, or matches it if it has * or ? in it")
         ->type_name("PATTERN");
-    stress->add_flag("--list", request.list, "Print the cases' names and where their answers are from, and run none");
+    stress->add_flag("--list", request.list, "Print the names of the cases and where their answers come from, and run none");
     add_seed(*stress, request.seed);
     add_threads(*stress, request.threads);
     stress->add_flag("--json", request.json, "Print JSON");

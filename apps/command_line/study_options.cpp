@@ -9,27 +9,28 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
     add_scene(*study, request.scene);
     study
         ->add_option("--methods", request.methods,
-                     "Methods with options of render after colons: walk,walk:direct=light:sampler=independent,matrix")
+                     "Methods, each with options of render after colons: walk,walk:direct=light:sampler=independent,matrix")
         ->type_name("A,B,...")
         ->delimiter(',')
         ->required();
-    study->add_option("-o", request.output, "Folder for tables and page; out/NAME-study without it")->type_name("DIR");
+    study->add_option("-o", request.output, "Folder for tables and page; default out/NAME-study")->type_name("DIR");
     study
-        ->add_option("--reference", request.reference,
-                     "What is true: the folder of an earlier render, values:A,B,... for bounces of one colour each, or an unbiased "
-                     "method that makes a reference with a seed of its own, which is kept in the cache; without it walk or "
-                     "bidirectional, whichever has less variance for as many rays in the bounce where it is worst")
+        ->add_option(
+            "--reference", request.reference,
+            "The reference: the folder of an earlier render, values:A,B,... for bounces of one grey value each, or an unbiased "
+            "method, whose pictures are made with a seed of their own and kept in the cache; default walk or "
+            "bidirectional, whichever has less variance for as many rays in the bounce where it is worst")
         ->type_name("R");
     study
         ->add_option("--reference-spp", request.reference_samples,
-                     "Samples a pixel of a reference that is made; 16 times those of walk at the largest budget without it")
+                     "Samples a pixel of a reference that is made; default 16 times those of walk at the largest budget")
         ->type_name("N")
         ->check(whole_from(4, std::uint64_t{1} << 40));
-    study->add_option("--budgets", request.budgets, "Seconds of a run, growing; chosen without it")
+    study->add_option("--budgets", request.budgets, "Seconds of a run, in ascending order; chosen automatically by default")
         ->type_name("S,S,...")
         ->delimiter(',')
         ->check(above_zero());
-    study->add_option("--samples", request.samples, "Instead of --budgets: samples a pixel of a run, growing")
+    study->add_option("--samples", request.samples, "Instead of --budgets: samples a pixel of a run, in ascending order")
         ->type_name("N,N,...")
         ->delimiter(',')
         ->check(whole_from(1, std::uint64_t{1} << 40));
@@ -37,16 +38,16 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
         ->type_name("N")
         ->check(whole_from(1, 100000))
         ->capture_default_str();
-    study->add_option("-n", request.bounces, "The last bounce that is looked at")
+    study->add_option("-n", request.bounces, "The last bounce that is compared")
         ->type_name("BOUNCES")
         ->check(whole_from(0, 100000));
     study
         ->add_option("--error", request.error,
-                     "Relative RMSE for the time to a given error; without it the smallest that all methods reach")
+                     "Relative RMSE for the time to a given error; default the smallest that all methods reach")
         ->type_name("REL")
         ->check(above_zero());
-    study->add_flag("--resume", request.resume, "Go on with a study that was cut off");
-    add_seed(*study, request.seed, "Seed that the seeds of all runs come from");
+    study->add_flag("--resume", request.resume, "Continue a study that was cut off");
+    add_seed(*study, request.seed, "Seed from which the seeds of all runs are derived");
     add_threads(*study, request.threads);
     add_definitions(*study, request.definition_texts);
     study->add_flag("--quiet", request.quiet, "Print nothing but errors");

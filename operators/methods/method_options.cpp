@@ -173,63 +173,65 @@ std::vector<MethodOption> make_options() {
     return {
         choice(
             "direct", "HOW",
-            "How a walk finds lights. By directions: hemisphere (uniform), cosine, bsdf (of the material). By points: surfaces "
-            "(all "
-            "of them), light (on lights), solid-angle (on lights, uniform as seen). Both: mis (bsdf and light by the power "
-            "heuristic, the default), mis-balance, mis-solid-angle",
+            "How a walk samples direct light. By directions: hemisphere (uniform), cosine, bsdf (of the material). By points: "
+            "surfaces (on all surfaces), light (on lights), solid-angle (on lights, uniform in solid angle). By both: mis (bsdf "
+            "and "
+            "light with the power heuristic, the default), mis-balance, mis-solid-angle",
             strategies, [](const auto& m) requires requires { m.direct; } { return strategy(m.direct); },
             [](auto& m, const Strategy& s) {
                 m.direct = {s.direct, m.direct.lights, s.place, s.heuristic};
             }),
         choice(
             "lights", "WHICH",
-            "Which light is asked: mixed (half by power, half alike, the default), uniform, power, contribution (radiance times "
-            "solid angle), all (each in turn)",
+            "How the light to sample is chosen: mixed (half by power, half uniform, the default), uniform, power, contribution "
+            "(radiance times solid angle), all (each in turn)",
             light_choices, [](const auto& m) requires requires { m.direct; } {
                 return asks_lights(m.direct) ? std::optional(m.direct.lights) : std::nullopt;
             },
             [](auto& m, LightChoice c) { m.direct.lights = c; }),
         option(
             Kind::text, "roulette", "HOW",
-            "How walks end: none (not before the last picture, the default), albedo (by what the last reflection left of the "
-            "weight), throughput (by what all of them left), or a probability of going on, such as 0.9",
+            "How Russian roulette ends walks: none (not before the last picture, the default), albedo (by what the last reflection "
+            "left of the weight), throughput (by what all reflections left), or a probability of going on, such as 0.9",
             [](const auto& m) requires requires { m.roulette; } { return m.roulette; },
             [](auto& m, const Roulette& r) { m.roulette = r; }, read_roulette, print_roulette,
             "none, albedo, throughput or a number above 0 and at most 1"),
         option(
             Kind::text, "split", "L,C",
-            "At the first surface point of each camera ray, ask L times for light and let C walks go on; 1,1 without it",
+            "At the first surface point of each camera ray, take L light samples and let C walks go on; default 1,1",
             [](const auto& m) requires requires { m.split; } { return m.split; }, [](auto& m, const Split& s) { m.split = s; },
             read_split, [](const Split& s) { return fmt::format("{},{}", s.lights, s.walks); },
             "two whole numbers from 1 to 4096 with a comma between, such as 8,8"),
         choice(
             "sampler", "NAME",
-            "Random numbers of the methods that make paths: sobol (scrambled Sobol' points) or independent; the scene's without it",
+            "For the methods that make paths, the random numbers: sobol (scrambled Sobol' points) or independent; default the "
+            "scene's",
             samplers, [](const auto& m) requires requires { m.sampler; } { return m.sampler; },
             [](auto& m, SamplerKind s) { m.sampler = s; }),
         choice(
             "plan", "NAME",
-            "Of the methods that make paths: auto, and what the scene does not need is left out, as `neumann plan` tells (the "
-            "default); full, and nothing is left out",
+            "For the methods that make paths: auto leaves out what the scene does not need, as `neumann plan` tells (the default); "
+            "full leaves nothing out",
             plans, [](const auto& m) requires requires { m.plan; } { return m.plan; },
             [](auto& m, method::LeavingOut p) { m.plan = p; }),
         whole<std::size_t>(
-            "patches", "N", "Patches of guided, patches, matrix and gather; about as many", 0, std::uint64_t{1} << 40,
+            "patches", "N", "For guided, patches, matrix and gather: the approximate number of patches", 0, std::uint64_t{1} << 40,
             [](const auto& m) requires requires { m.patches; } { return m.patches; },
             [](auto& m, std::size_t n) { m.patches = n; }),
         whole<std::uint32_t>(
-            "directions", "N", "Rays of a patch, of guided, patches, matrix and gather", 1, 1u << 20,
+            "directions", "N", "For guided, patches, matrix and gather: the number of rays of a patch", 1, 1u << 20,
             [](const auto& m) requires requires { m.directions; } { return m.directions; },
             [](auto& m, std::uint32_t n) { m.directions = n; }),
         whole<int>(
             "ways", "BOUNCE",
-            "Of bidirectional: pictures of every way (s, t) to make this bounce, s vertices from the light and t from the camera, "
-            "weighted and by itself",
+            "For bidirectional: write pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
+            "camera, with and without its weight",
             1, 1000, [](const auto& m) requires requires { m.ways; } { return m.ways; }, [](auto& m, int n) { m.ways = n; }),
         option(
             Kind::flag, "importance", "",
-            "Of patches: pictures of K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows with the "
-            "radiance given off at each point, per area and projected solid angle (m⁻²·sr⁻¹), mean over directions",
+            "For patches: show the importance K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows "
+            "with "
+            "the radiance given off at each point, per area and projected solid angle (m⁻²·sr⁻¹), as a mean over directions",
             [](const auto& m) requires requires { m.importance; } { return m.importance; },
             [](auto& m, bool on) { m.importance = on; },
             [](const std::string& text) {
@@ -275,10 +277,11 @@ std::vector<std::string> method_names() {
 
 const std::string& method_help() {
     static const std::string text =
-        "walk: one walk for all bounces, the default; guided: the same with directions drawn by the fields of a matrix solution; "
-        "surface: the same by points on all surfaces; light: from the lights to the camera; bidirectional: from both ends, joined "
-        "everywhere; classic: by mirrors and glass alone, some of all paths; pointwise: each bounce by itself, slow and plain; "
-        "matrix: T and R on patches, fast; gather: the same with K once more at the pixel; patches: the patches as they are";
+        "walk: one walk from the camera for all bounces, the default; guided: the same with directions sampled from a matrix "
+        "solution; surface: the same with points sampled on all surfaces; light: walks from the lights to the camera; "
+        "bidirectional: walks from both ends, joined everywhere; classic: mirrors and glass alone, which leaves out other paths; "
+        "pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K applied once "
+        "more at the pixel; patches: the patches as they are";
     return text;
 }
 

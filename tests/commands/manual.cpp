@@ -134,7 +134,7 @@ TEST_F(Manual, FilesOfRender) {
 
 TEST_F(Manual, DefaultsAndWhatExcludesWhat) {
     const std::string text = page({"render"});
-    EXPECT_NE(text.find("\n  --seed N\n      Seed of the random numbers; 0 without it.\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n  --seed N\n      Seed of the random numbers; default 0.\n"), std::string::npos) << text;
     EXPECT_NE(text.find("\n  -n BOUNCES\n      The last bounce with a picture of its own. Not together with --tail.\n"),
               std::string::npos);
     EXPECT_NE(page({"replay"}).find("Only together with --pixel."), std::string::npos);
