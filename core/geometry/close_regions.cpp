@@ -107,7 +107,9 @@ std::optional<CloseRegion> region_of_triangle(const DoubleFaces& faces, const Fa
         largest = glm::max(largest, Vec3(w.x, w.y, 1.0 - w.x - w.y));
     }
     region.bounds = region.bounds.grown(distance);
-    region.clear = std::min({largest.x, largest.y, largest.z});
+    std::sort(&largest.x, &largest.x + 3);
+    region.from_edge = largest.x;
+    region.from_corner = largest.y;
     return region;
 }
 
@@ -129,7 +131,7 @@ std::optional<CloseRegion> close_region(const DoubleFaces& faces, const Face& a,
         }
     }
     if (bounds.is_empty()) return std::nullopt;
-    return CloseRegion{bounds, 1.0, {}};
+    return CloseRegion{bounds, 1.0, 1.0, {}};
 }
 
 }  // namespace neumann

@@ -10,9 +10,9 @@ namespace neumann {
 
 struct CloseRegion {
     Bounds bounds;
-    // For a triangle: points whose barycentric weights are all at least `clear` are outside the region, and so are points outside
-    // the polygon, which is given by the weights of the second and third vertex.
-    double clear;
+    // For a triangle: points of the region have a barycentric weight of at most `from_edge`, and two of at most `from_corner`. They
+    // lie in the polygon, which is given by the weights of the second and third vertex.
+    double from_edge, from_corner;
     std::vector<Vec2> weights;
 };
 

@@ -15,9 +15,17 @@ namespace {
 namespace index = boost::geometry::index;
 
 constexpr std::size_t largest_asked_one_by_one = 16;
-// Regions that reach at most this far from the edges (as a barycentric weight) are not stored individually.
-constexpr double along_edges = 1.0 / 64.0;
+// Regions that reach at most this far from the edges (as a barycentric weight) are not stored individually. Where a fine mesh ends
+// at a wall, it is close to few points of such a strip.
+constexpr double along_edges = 1.0 / 64.0, along_edges_of_small = 1.0 / 4096.0, small = 1.0 / 16.0;
 constexpr double reach_in_errors = 64.0;
+
+// The number of cells along an edge: few enough that they need no more memory than the boxes, but at least 64.
+int cells_for(std::size_t boxes) {
+    int count = 64;
+    while (count < 1024 && static_cast<std::size_t>(count) * static_cast<std::size_t>(count) < 128 * boxes) count *= 2;
+    return count;
+}
 
 bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     if (!faces.triangle(a) || !faces.triangle(b)) return false;
@@ -97,9 +105,9 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
     if (const Triangle* t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
-        if (t->clear() == Triangle::unknown) examine(f);
+        if (!t->is_examined()) examine(f);
         if (t->is_clear(w)) return false;
-        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) < t->clear()) return around(p).size() > 1;
+        if (t->is_near_edge(w)) return around(p).size() > 1;
     } else if (is_clear_round(f)) {
         return false;
     }
@@ -111,7 +119,7 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     if (const Triangle* t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
         if (t->is_clear(w, cosine)) return false;
-        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < t->clear()) return true;
+        if (t->is_near_edge(w, cosine)) return true;
     } else if (is_clear_round(f)) {
         return false;
     }
@@ -123,9 +131,10 @@ void Neighbours::examine(const Face& f) const {
     const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
     std::vector<Face> others;
     append_near(bounds.center(), bounds.radius() + reach_in_errors * error + aside, others);
-    double clear = 0.0;
-    Triangle::Cells cells;
+    const auto is_small = [&](const Face& other) { return faces_.size(other) < small * faces_.size(f); };
+    double strip = 0.0, corner = 0.0;
     std::vector<std::pair<Box, Other>> boxes;
+    std::vector<std::vector<Vec2>> polygons;
     for (const Face& other : others) {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
@@ -135,19 +144,25 @@ void Neighbours::examine(const Face& f) const {
         const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
         const double near = touch ? errors : reach(f, other);
         const auto steep = close_region(faces_, f, other, near + largest_error_);
-        if (steep && steep->clear <= along_edges) {
-            clear = std::max(clear, steep->clear);
+        if (steep && steep->from_corner <= along_edges) {
+            corner = std::max(corner, steep->from_corner);
+        } else if (steep && steep->from_edge <= (is_small(other) ? along_edges_of_small : along_edges)) {
+            strip = std::max(strip, steep->from_edge);
         } else if (const auto region = close_region(faces_, f, other, near + aside)) {
             const Vec3 &low = region->bounds.low, &high = region->bounds.high;
             boxes.push_back({{{low.x, low.y, low.z}, {high.x, high.y, high.z}}, {other, near}});
-            cells.mark(region->weights);
+            polygons.push_back(region->weights);
         }
     }
-    const Triangle::Cells* kept =
-        boxes.empty() ? nullptr : &surroundings_.emplace(f, Surroundings{cells, Boxes(boxes)}).first->second.cells;
+    const WeightCells* kept = nullptr;
+    if (!boxes.empty()) {
+        WeightCells cells(cells_for(boxes.size()));
+        for (const auto& polygon : polygons) cells.mark(polygon);
+        kept = &surroundings_.emplace(f, Surroundings{std::move(cells), Boxes(boxes)}).first->second.cells;
+    }
     // Rounded up, and above 0, so that points on an edge are never clear.
     if (const Triangle* t = faces_.triangle(f))
-        t->set_clear(std::nextafter(static_cast<float>(clear), 1.0f), kept);
+        t->set_close(std::nextafter(static_cast<float>(strip), 1.0f), std::nextafter(static_cast<float>(corner), 1.0f), kept);
     else
         std::atomic_ref(round_[f.shape]).store(kept ? State::not_clear : State::clear, std::memory_order_release);
 }

@@ -62,7 +62,7 @@ private:
 
     // The faces close to the interior of a face, in boxes; for a triangle, the cells allow a quick first test.
     struct Surroundings {
-        Triangle::Cells cells;
+        WeightCells cells;
         Boxes boxes;
     };
     void examine(const Face& f) const;

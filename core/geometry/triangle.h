@@ -58,22 +58,26 @@ public:
     bool is_hit(const Meeting& m) const { return is_inside(m.weights) && m.distance > 0.0 && rounding_ < 1.0f; }
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
-    // Cells in which another surface may be within rounding. Outside of them, points whose barycentric weights are all large enough
-    // are clear. Neighbours computes this when it is first needed, and keeps the cells.
-    using Cells = WeightCells<64>;
-    static constexpr float unknown = 2.0f;  // larger than any barycentric weight
+    // Where another surface may be within rounding: strips along the edges, where one barycentric weight is small; corners, where
+    // two are; and cells. Neighbours computes this when it is first needed, and keeps the cells.
     static constexpr double grazing = 0.1;  // rays with a smaller cosine are never clear if there are cells
     // `cosine`: of the ray that hits there. The distance to the edges must also cover the displacement of Embree's ray, which grows
     // for grazing rays.
     bool is_clear(const Vec2& w, double cosine = 1.0) const {
-        if (std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < clear()) return false;
-        const Cells* cells = std::atomic_ref(not_clear_).load(std::memory_order_relaxed);
+        if (is_near_edge(w, cosine)) return false;
+        const WeightCells* cells = std::atomic_ref(cells_).load(std::memory_order_relaxed);
         return !cells || (std::abs(cosine) >= grazing && !cells->is_marked(w));
     }
-    float clear() const { return std::atomic_ref(clear_).load(std::memory_order_acquire); }
-    void set_clear(float from_edges, const Cells* but_for) const {
-        std::atomic_ref(not_clear_).store(but_for, std::memory_order_relaxed);
-        std::atomic_ref(clear_).store(from_edges, std::memory_order_release);
+    bool is_near_edge(const Vec2& w, double cosine = 1.0) const {
+        const double low = std::min(w.x, w.y), high = std::max(w.x, w.y), third = 1.0 - w.x - w.y;
+        return std::min(low, third) * std::abs(cosine) < std::atomic_ref(strip_).load(std::memory_order_acquire) ||
+               std::max(low, std::min(high, third)) * std::abs(cosine) < std::atomic_ref(corner_).load(std::memory_order_relaxed);
+    }
+    bool is_examined() const { return std::atomic_ref(strip_).load(std::memory_order_acquire) < unknown; }
+    void set_close(float strip, float corner, const WeightCells* cells) const {
+        std::atomic_ref(cells_).store(cells, std::memory_order_relaxed);
+        std::atomic_ref(corner_).store(corner, std::memory_order_relaxed);
+        std::atomic_ref(strip_).store(strip, std::memory_order_release);
     }
 
 private:
@@ -84,11 +88,12 @@ private:
     Vec3 vertex_, normal_;
     Vec3 dual1_, dual2_;  // weights of a point x: dot(x − vertex, dual)
     double error_;
-    mutable const Cells* not_clear_ = nullptr;
+    mutable const WeightCells* cells_ = nullptr;
     float rounding_;  // of Embree's hits, as a barycentric weight; 1 if the triangle is too thin to have a hit in double
     float margin_;  // hits keep this barycentric distance from the edges, so that doubles resolve on which side of an adjacent wall
                     // they are; 0 if the triangle is too thin for that
-    mutable float clear_ = unknown;
+    static constexpr float unknown = 2.0f;  // larger than any barycentric weight
+    mutable float strip_ = unknown, corner_ = 0.0f;
 };
 
 }  // namespace neumann
