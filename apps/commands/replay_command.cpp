@@ -104,8 +104,7 @@ SamplingSettings settings_of(const RecordedRun& run, const Scene& scene, const P
     settings.walk.bounces = run.bounces;
     settings.walk.rest_probability = run.rest_probability;
     settings.replicate_size = run.replicate_size;
-    if (const auto* guided = std::get_if<method::Guided>(&run.method))
-        settings.tables = direction_tables(*guided, scene, run.bounces, run.seed, default_memory());
+    set_up(run.method, scene, run.bounces, run.seed, default_memory(), settings);
     return settings;
 }
 

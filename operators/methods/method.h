@@ -42,6 +42,15 @@ struct Guided : PathOptions {
     bool operator==(const Guided&) const = default;
 };
 
+// Corrected fields: walks from the camera read approximate fields on patches at the second diffuse surface, and the errors of the
+// fields are carried by points that all pixels share.
+struct Corrected : PathOptions {
+    static constexpr const char* name = "corrected";
+    std::optional<std::size_t> patches = {};
+    std::optional<std::uint32_t> directions = {};
+    bool operator==(const Corrected&) const = default;
+};
+
 // Walks from the camera that choose the next vertex uniformly by area on all surfaces.
 struct Surface : PathOptions {
     static constexpr const char* name = "surface";
@@ -105,8 +114,8 @@ struct Patches : FieldOptions {
 
 }  // namespace method
 
-using Method = std::variant<method::Walk, method::Guided, method::Surface, method::Light, method::Bidirectional, method::Classic,
-                            method::Pointwise, method::Matrix, method::Gather, method::Patches>;
+using Method = std::variant<method::Walk, method::Guided, method::Corrected, method::Surface, method::Light, method::Bidirectional,
+                            method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);

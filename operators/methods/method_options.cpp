@@ -16,9 +16,9 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Walk{},          method::Guided{},  method::Surface{},   method::Light{},
-                                         method::Bidirectional{}, method::Classic{}, method::Pointwise{}, method::Matrix{},
-                                         method::Gather{},        method::Patches{}};
+    static const std::vector<Method> all{method::Walk{},   method::Guided{},        method::Corrected{}, method::Surface{},
+                                         method::Light{},  method::Bidirectional{}, method::Classic{},   method::Pointwise{},
+                                         method::Matrix{}, method::Gather{},        method::Patches{}};
     return all;
 }
 
@@ -215,11 +215,11 @@ std::vector<MethodOption> make_options() {
             plans, [](const auto& m) requires requires { m.plan; } { return m.plan; },
             [](auto& m, method::LeavingOut p) { m.plan = p; }),
         whole<std::size_t>(
-            "patches", "N", "For guided, patches, matrix and gather: the approximate number of patches", 0, std::uint64_t{1} << 40,
-            [](const auto& m) requires requires { m.patches; } { return m.patches; },
+            "patches", "N", "For guided, corrected, patches, matrix and gather: the approximate number of patches", 0,
+            std::uint64_t{1} << 40, [](const auto& m) requires requires { m.patches; } { return m.patches; },
             [](auto& m, std::size_t n) { m.patches = n; }),
         whole<std::uint32_t>(
-            "directions", "N", "For guided, patches, matrix and gather: the number of rays of a patch", 1, 1u << 20,
+            "directions", "N", "For guided, corrected, patches, matrix and gather: the number of rays of a patch", 1, 1u << 20,
             [](const auto& m) requires requires { m.directions; } { return m.directions; },
             [](auto& m, std::uint32_t n) { m.directions = n; }),
         whole<int>(

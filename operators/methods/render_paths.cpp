@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
+#include "operators/correction/approximation.h"
 #include "operators/guide/direction_tables.h"
 #include "operators/methods/render_job.h"
 #include "operators/methods/sampling.h"
@@ -176,6 +177,10 @@ Method as_it_ran(Method method, const SamplingSettings& settings) {
                 m.patches = settings.tables->settings().patches;
                 m.directions = settings.tables->settings().rays;
             }
+            if constexpr (std::same_as<M, method::Corrected>) {
+                m.patches = settings.approximation->settings().patches;
+                m.directions = settings.approximation->settings().rays;
+            }
         },
         method);
     return method;
@@ -192,10 +197,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
 
     SamplingGoal to_reach = sampling_goal(goal);
     double setup_seconds = 0.0;
-    if (const auto* guided = std::get_if<method::Guided>(&method)) {
-        const Stopwatch clock;
-        settings.tables =
-            direction_tables(*guided, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()));
+    const Stopwatch clock;
+    if (set_up(method, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()), settings)) {
         setup_seconds = clock.seconds();
         // The set-up counts towards the time limit.
         if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
@@ -224,10 +227,10 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         check_memory(goal, scene.film, 2 * *both->ways + 2);
         series.ways = render_ways(scene, settings, *both->ways, sampled.samples, {job.watch.stop, job.watch.progress});
     }
-    if (settings.tables) {
+    if (setup_seconds > 0.0) {
         series.setup_seconds = setup_seconds;
         series.seconds += setup_seconds;
-        series.rays += settings.tables->rays();
+        series.rays += settings.tables ? settings.tables->rays() : settings.approximation->rays();
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
 

@@ -1,6 +1,7 @@
 #include "operators/methods/sampling.h"
 
 #include "core/base/error.h"
+#include "operators/correction/approximation.h"
 #include "operators/guide/direction_tables.h"
 #include "operators/methods/method_options.h"
 #include "operators/walk/direct_light.h"
@@ -17,6 +18,7 @@ template <class M>
 PathMethod kind() {
     if constexpr (std::same_as<M, method::Walk>) return PathMethod::walk;
     if constexpr (std::same_as<M, method::Guided>) return PathMethod::guided;
+    if constexpr (std::same_as<M, method::Corrected>) return PathMethod::corrected;
     if constexpr (std::same_as<M, method::Surface>) return PathMethod::surface;
     if constexpr (std::same_as<M, method::Light>) return PathMethod::light;
     if constexpr (std::same_as<M, method::Bidirectional>) return PathMethod::bidirectional;
@@ -60,13 +62,16 @@ SamplingSettings settings_of(const M&, const Scene&) {
     throw InputError(fmt::format("--method {} has no samples of paths: its bounces are read from fields on patches", M::name));
 }
 
-}  // namespace
-
-SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed) {
-    SamplingSettings settings = std::visit([&](const auto& m) { return settings_of(m, scene); }, method);
-    settings.walk.left_out = plan.walk;
-    settings.seed = seed;
-    return settings;
+std::shared_ptr<const Approximation> approximation(const method::Corrected& corrected, const Scene& scene, int bounces,
+                                                   std::uint64_t seed, double memory) {
+    ApproximationSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
+    if (corrected.patches) settings.patches = *corrected.patches;
+    if (corrected.directions) {
+        settings.rays = *corrected.directions;
+        if (!std::has_single_bit(settings.rays))
+            throw InputError(fmt::format("--directions {}: --method corrected expects a power of two", settings.rays));
+    }
+    return std::make_shared<const Approximation>(scene, settings);
 }
 
 std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& guided, const Scene& scene, int bounces,
@@ -80,6 +85,25 @@ std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& gu
                                          CellDistribution::cells));
     }
     return std::make_shared<const DirectionTables>(scene, settings);
+}
+
+}  // namespace
+
+SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed) {
+    SamplingSettings settings = std::visit([&](const auto& m) { return settings_of(m, scene); }, method);
+    settings.walk.left_out = plan.walk;
+    settings.seed = seed;
+    return settings;
+}
+
+bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings) {
+    if (const auto* guided = std::get_if<method::Guided>(&method))
+        settings.tables = direction_tables(*guided, scene, bounces, seed, memory);
+    else if (const auto* corrected = std::get_if<method::Corrected>(&method))
+        settings.approximation = approximation(*corrected, scene, bounces, seed, memory);
+    else
+        return false;
+    return true;
 }
 
 }  // namespace neumann

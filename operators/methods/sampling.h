@@ -5,16 +5,14 @@
 #include "operators/pictures/sampling_settings.h"
 #include "operators/plan/plan.h"
 
-#include <memory>
-
 namespace neumann {
 
 // Sets everything but the bounces, the rest, the tables and the replicate size. Throws InputError if the method cannot render the
 // scene.
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed);
 
-// Builds the guide's tables. Throws InputError.
-std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& guided, const Scene& scene, int bounces,
-                                                        std::uint64_t seed, double memory);
+// Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`. Returns whether it needs
+// anything. Throws InputError.
+bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings);
 
 }  // namespace neumann

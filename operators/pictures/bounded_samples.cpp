@@ -12,6 +12,8 @@ bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
             const DirectLight direct = settings.walk.direct.direct;
             return direct == DirectLight::bsdf || direct == DirectLight::mis;
         }
+        case PathMethod::corrected:
+            return true;
         case PathMethod::bidirectional:
             return !settings.ways_of_last_bounce;  // half of these have no MIS weight
         default:

@@ -1,6 +1,7 @@
 #include "operators/pictures/picture_sampler.h"
 
 #include "operators/pictures/path_group.h"
+#include "operators/pictures/pixel_average.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -30,45 +31,6 @@ struct Workspace {
     Tally tally;
 };
 
-// Records the samples of one quantity that are not finite, sets them to zero, and returns the sum of the others.
-Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, std::uint32_t pixel, std::uint64_t replicate,
-                         Workspace& work) {
-    Rgb sum(0.0);
-    for (std::size_t i = 0; i < size; ++i) {
-        Rgb& x = samples[i * work.sum.size() + q];
-        if (!is_finite(x)) {
-            work.tally.keep({static_cast<int>(q), {pixel, {pixel, replicate * size + i}}});
-            x = Rgb(0.0);
-        }
-        sum += x;
-    }
-    return sum;
-}
-
-// Writes the means of one pixel's samples in a replicate into work.sum, and the range of the samples of each quantity into
-// `ranges`.
-void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_weights,
-             const std::optional<glm::dmat3>& colors, std::span<SampleRange> ranges, Workspace& work) {
-    const std::size_t quantities = work.sum.size();
-    std::copy_n(samples.begin(), quantities, work.sum.begin());
-    for (std::size_t i = 1; i < size; ++i)
-        for (std::size_t q = 0; q < quantities; ++q) work.sum[q] += samples[i * quantities + q];
-    for (std::size_t q = 0; q < quantities; ++q) {
-        Rgb& sum = work.sum[q];
-        LargestSamples& largest = work.tally.largest[q];
-        largest.add_count(size);
-        if (!is_finite(sum)) [[unlikely]]
-            sum = leave_out_non_finite(samples, size, q, pixel, replicate, work);
-        // If no sample is negative, none exceeds the sum.
-        if (has_negative_weights || max_component(sum) > largest.threshold())
-            for (std::size_t i = 0; i < size; ++i)
-                largest.add(max_component(glm::abs(samples[i * quantities + q])), {pixel, {pixel, replicate * size + i}});
-        for (std::size_t i = 0; i < size; ++i) ranges[q].add(samples[i * quantities + q]);
-        sum *= 1.0 / static_cast<double>(size);
-        if (colors) sum = *colors * sum;
-    }
-}
-
 // Appends work.sum as the r-th replicate: nodes of equal size are merged, like carries when 1 is added to a binary number.
 void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace& work) {
     PixelMoments::set(work.carry, work.sum);
@@ -81,8 +43,9 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspac
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<TermEstimator, SplatSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
+std::variant<TermEstimator, SplatSampler, CorrectedSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
     if (splats(settings.method)) return SplatSampler(scene, settings);
+    if (settings.method == PathMethod::corrected) return CorrectedSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 
@@ -100,6 +63,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
         throw std::logic_error("PictureSampler: not a node of the tree of replicates");
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
         return whole_pictures->run(first, count, tally, watch, std::move(memory));
+    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_))
+        return corrected->run(first, count, tally, watch, std::move(memory));
     const TermEstimator& estimator = std::get<TermEstimator>(sampler_);
     const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
     const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
@@ -131,7 +96,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
                         begin + static_cast<std::uint32_t>(i), first + r, std::holds_alternative<SignedFilter>(scene_.film.filter),
-                        settings_.colors, std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()), work);
+                        settings_.colors, work.sum, std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()),
+                        work.tally);
                 append(r, work.waiting[i], work);
             }
         }

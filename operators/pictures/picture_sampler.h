@@ -4,6 +4,7 @@
 #include "core/sampling/independent_sampler.h"
 #include "core/sampling/sobol_sampler.h"
 #include "core/scene/scene.h"
+#include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/splat_sampler.h"
 #include "operators/pictures/tally.h"
 #include "operators/pictures/term_estimators.h"
@@ -42,7 +43,7 @@ public:
 private:
     const Scene& scene_;
     Settings settings_;
-    std::variant<TermEstimator, SplatSampler> sampler_;
+    std::variant<TermEstimator, SplatSampler, CorrectedSampler> sampler_;
     SobolPoints sobol_;
 };
 

@@ -1,5 +1,6 @@
 // Traces paths again for an observer: the same walks with AnySampler, which keeps the code small but is slower.
 #include "operators/pictures/any_sampler.h"
+#include "operators/pictures/corrected_group.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/picture_sampler.h"
 #include "operators/pictures/splat_group.h"
@@ -13,6 +14,7 @@ namespace neumann {
 std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
         return whole_pictures->retrace(replicate, first, observer);
+    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->retrace(replicate, first, observer);
     const std::uint32_t size = settings_.replicate_size,
                         pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()), begin = first / size,
                         end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
@@ -59,6 +61,36 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
         work, WatchedPaths(observer));
     for (std::size_t k = 0; k < group.samples.size(); ++k) group.samples[k] *= group.weights[k / Q];
     return std::move(group.samples);
+}
+
+namespace {
+
+// Reports the walks into which a path was split as steps of the path.
+class SplitPaths : public PathObserver {
+public:
+    SplitPaths(PathObserver& observer, const std::vector<CorrectedWalker>& walkers) : observer_(observer), walkers_(walkers) {}
+    bool watches(std::uint32_t walker) const override { return observer_.watches(walkers_[walker].path); }
+    void step(std::uint32_t walker, const PathStep& step) override { observer_.step(walkers_[walker].path, step); }
+    void found(std::uint32_t walker, std::size_t quantity, const Rgb& value, const Vec2* pixel) override {
+        observer_.found(walkers_[walker].path, quantity, value, pixel);
+    }
+
+private:
+    PathObserver& observer_;
+    const std::vector<CorrectedWalker>& walkers_;
+};
+
+}  // namespace
+
+std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u),
+                        end = std::min(first / size + pixels_at_once, pixels_) * size;
+    std::uint64_t rays = 0, given_up = 0;
+    const auto points = points_->make(replicate, rays, given_up, [] { return false; });
+    Workspace<AnySampler> work(settings_.quantities());
+    SplitPaths split(observer, work.walkers.walker);
+    trace_group(replicate, first, end - first, points ? &*points : nullptr, work, WatchedPaths(split));
+    return std::move(work.group.samples);
 }
 
 }  // namespace neumann

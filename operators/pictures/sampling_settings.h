@@ -11,11 +11,13 @@
 
 namespace neumann {
 
+class Approximation;
 class DirectionTables;
 
 enum class PathMethod {
     walk,           // walks from the camera that sample the BSDF
     guided,         // walks from the camera that sample tables of the incident light
+    corrected,      // walks from the camera that read approximate fields, whose errors are carried by shared points
     surface,        // walks from the camera that sample the next vertex on all surfaces
     light,          // light tracing
     bidirectional,  // bidirectional path tracing
@@ -24,10 +26,13 @@ enum class PathMethod {
 };
 // Whether samples contribute to pixels all over the film.
 inline bool splats(PathMethod method) { return method == PathMethod::light || method == PathMethod::bidirectional; }
+// Whether the errors of pixels go together, so that a replicate is a whole picture.
+inline bool shares_samples(PathMethod method) { return splats(method) || method == PathMethod::corrected; }
 
 struct SamplingSettings {
     PathMethod method = PathMethod::walk;
     std::shared_ptr<const DirectionTables> tables = {};  // for `guided`
+    std::shared_ptr<const Approximation> approximation = {};  // for `corrected`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;

@@ -1,15 +1,13 @@
 #include "operators/pictures/splat_sampler.h"
 
 #include "operators/pictures/splat_group.h"
+#include "operators/pictures/whole_pictures.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <algorithm>
 #include <atomic>
-#include <bit>
 
 namespace neumann {
 
@@ -114,7 +112,6 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                                   const std::function<bool(double)>& part_done) const {
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = pixels_ * settings_.replicate_size, at_once = paths_at_once * groups_at_once;
-    picture.assign(pixels_ * Q, Rgb(0.0));
     std::vector<Rgb> splatted(picture.size(), Rgb(0.0));
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work(Q);
@@ -166,58 +163,34 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     for (const Workspace& work : workspaces) tally.merge(work.tally);
     for (LargestSamples& largest : tally.largest) largest.add_count(samples);
     const double each = 1.0 / settings_.replicate_size;
-    std::vector<Rgb> mean(Q, Rgb(0.0));
     for (std::size_t i = 0; i < picture.size(); ++i) {
         picture[i] = (picture[i] + splatted[i]) * each;
         if (settings_.colors) picture[i] = *settings_.colors * picture[i];
-        mean[i % Q] += picture[i];
     }
-    for (const Rgb& sum : mean) picture.push_back(sum / static_cast<double>(pixels_));
     return true;
 }
 
 std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
                                              std::vector<double> memory) const {
-    const std::size_t Q = settings_.quantities(), stride = Q * PixelMoments::doubles_per_quantity;
-    std::vector<std::vector<double>> waiting(static_cast<std::size_t>(std::countr_zero(count)) + 1);
-    std::vector<double> carry = std::move(memory);
-    std::vector<Rgb> picture;
+    const std::size_t Q = settings_.quantities();
     Ranges ranges;
     ranges.own.of.resize(pixels_ * Q);
     ranges.shares.of.resize(pixels_ * Q);
     Tally new_tally(Q);
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
-    // Calls f for every pixel and for index pixels_, which holds the means over the picture.
-    const auto for_each_pixel = [&](const auto& f) {
-        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels_ + 1, 256), [&](const auto& range) {
-            for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) f(pixel);
-        });
-    };
-    for (std::uint64_t r = 0; r < count; ++r) {
-        const auto part_done = [&](double part) {
-            const double done = (static_cast<double>(r) + part) / static_cast<double>(count);
-            return watch && watch(static_cast<std::uint64_t>(done * pixels_));
-        };
-        if (!sample_picture(first + r, picture, ranges, new_tally, part_done)) return std::nullopt;
-        carry.resize((pixels_ + 1) * stride);
-        const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
-        for_each_pixel(
-            [&](std::size_t pixel) { PixelMoments::set(of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * Q, Q)); });
-        // Nodes of equal size are merged, like carries when 1 is added to a binary number.
-        std::size_t level = 0;
-        for (; r >> level & 1; ++level) {
-            const auto n = static_cast<double>(std::uint64_t{1} << level);
-            for_each_pixel([&](std::size_t pixel) { PixelMoments::merge(of(waiting[level], pixel), n, of(carry, pixel), n); });
-            std::swap(waiting[level], carry);
-        }
-        std::swap(waiting[level], carry);
-    }
+    auto node =
+        run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
+                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const std::function<bool(double)>& part_done) {
+                               return sample_picture(replicate, picture, ranges, new_tally, part_done);
+                           });
+    if (!node) return std::nullopt;
     tally.merge(new_tally);
     // Most paths contribute nothing to a given pixel, so 0 is among the samples.
     for (SampleRange& range : ranges.shares.of)
         if (range.largest[0] >= range.smallest[0] || settings_.method == PathMethod::light) range.add(Rgb(0.0));
     ranges.own.merge(ranges.shares);
-    return MomentsNode{first, count, std::move(waiting.back()), std::move(ranges.own)};
+    node->ranges = std::move(ranges.own);
+    return node;
 }
 
 }  // namespace neumann

@@ -31,7 +31,7 @@ private:
     struct Ranges {
         SampleRanges own, shares;
     };
-    // Samples a replicate's picture: all quantities of each pixel, and then their means. Returns false if the work was dropped.
+    // Adds a replicate's picture, all quantities of each pixel. Returns false if the work was dropped.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
                         const std::function<bool(double)>& part_done) const;
     // Traces paths first … first + samples − 1 of the replicate. `found(path, quantity, value)`: a contribution to the path's own

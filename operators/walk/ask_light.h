@@ -32,9 +32,9 @@ void choose_question(const DirectLightSampler& direct, std::size_t question, con
 }
 
 // T: casts the rays of the light samples and calls found(walk, value) for those that are seen. Returns the number of rays cast.
-template <class Transport, class Observer, class Found>
+template <class Transport, class AnyWalkers, class Observer, class Found>
 std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out, int bounce,
-                   Walkers& walkers, const Observer& observer, const Found& found) {
+                   AnyWalkers& walkers, const Observer& observer, const Found& found) {
     auto& asking = walkers.asking;
     asking.clear();
     for (const std::uint32_t i : walkers.alive) {

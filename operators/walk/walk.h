@@ -10,9 +10,9 @@
 #pragma once
 
 #include "core/base/hot.h"
-#include "core/scene/pass_lights.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
+#include "operators/walk/first_vertices.h"
 #include "operators/walk/observer.h"
 #include "operators/walk/walk_settings.h"
 
@@ -47,17 +47,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     };
 
     // Le, where T finds the first vertices.
-    out.rays[0] += rays.size();
-    walkers.set_out(T, rays, observer, [&](Walker& w, std::uint32_t i) {
-        w.wo = -w.w;
-        const auto passes = [&](const SurfacePoint& light, const SurfacePoint& beyond) {
-            observer.casts(i, Walker::from_light, 0, {light, w.w});
-            observer.meets(i, beyond);
-        };
-        if (scene.hide_emitters && (w.x.is_infinite() || !pass_lights(emitters, T, w.w, w.x, out.rays[0], passes))) return false;
-        find(i, 0, emitters.emitted(w.x, w.wo));
-        return !w.x.is_infinite();
-    });
+    find_first_vertices(scene, T, rays, walkers, out.rays[0], observer, [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
 
     const Split& split = settings.split;
     Places<Continuation> places(rays.size());

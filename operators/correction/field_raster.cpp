@@ -1,0 +1,187 @@
+#include "operators/correction/field_raster.h"
+
+#include "core/base/hot.h"
+#include "core/emitter/light_sampler.h"
+#include "core/sampling/sobol_sampler.h"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t direct_light_stream = 0x726173746572ull;
+// Nodes per patch on average, of all fields and of K Le alone.
+constexpr double nodes_of_patch = 2.0, fine_nodes_of_patch = 24.0;
+constexpr double most_nodes_along = 1024.0;
+constexpr std::uint32_t light_samples = 16;
+
+}  // namespace
+
+FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed)
+    : space_(&fields.space()), stride_(fields.stride() - 3) {
+    const Patches& patches = space_->patches();
+    std::vector<double> patches_of(patches.charts().size());
+    has_side_.resize(patches.charts().size());
+    for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+        const std::uint32_t chart = patches.chart_number(patch);
+        patches_of[chart] += 1.0;
+        for (const bool front : {true, false})
+            has_side_[chart][front ? 0 : 1] =
+                sides.has(patches.charts()[chart].shape(), front) && space_->facet(patch, front) != space_->facets().size();
+    }
+    std::size_t nodes = 0, fine_nodes = 0;
+    for (std::uint32_t chart = 0; chart < patches.charts().size(); ++chart) {
+        add_rectangle(patches.charts()[chart]);
+        const double n = patches_of[chart];
+        grids_.push_back(make_grid(chart, n > 1.0 ? nodes_of_patch * n : 0.0, nodes));
+        fine_grids_.push_back(make_grid(chart, n > 1.0 ? fine_nodes_of_patch * n : 0.0, fine_nodes));
+    }
+    values_.resize(nodes * stride_);
+    fine_.resize(fine_nodes * 3);
+    fill(fields);
+    fill_direct(scene, seed);
+}
+
+void FieldRaster::add_rectangle(const Chart& chart) {
+    Rectangle& r = rectangles_.emplace_back();
+    if (!chart.is_plane()) return;
+    const auto& corners = chart.corners();
+    const Vec3 x = glm::normalize(corners[1] - corners[0]), y = glm::cross(chart.normal(), x);
+    Vec2 low(0.0), high(0.0);
+    for (const Vec3& corner : corners) {
+        const Vec2 p(glm::dot(corner - corners[0], x), glm::dot(corner - corners[0], y));
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const Vec2 size = high - low;
+    r = {corners[0] + x * low.x + y * low.y, x / size.x, y / size.y, true};
+}
+
+FieldRaster::Grid FieldRaster::make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const {
+    const Rectangle& r = rectangles_[chart];
+    const Vec2 size =
+        r.is_plane ? Vec2(1.0 / glm::length(r.across), 1.0 / glm::length(r.down)) : space_->patches().charts()[chart].lengths();
+    Grid grid;
+    const double cell = std::sqrt(size.x * size.y / std::max(cells, 1.0));
+    const auto along = [&](double length) {
+        return cells == 0.0 ? 1u : static_cast<std::uint32_t>(std::clamp(length / cell, 1.0, most_nodes_along)) + 1;
+    };
+    grid.columns = along(size.x);
+    grid.rows = along(size.y);
+    for (const int side : {0, 1}) {
+        grid.first[static_cast<std::size_t>(side)] = nodes;
+        if (has_side_[chart][static_cast<std::size_t>(side)]) nodes += std::size_t{grid.columns} * grid.rows;
+    }
+    return grid;
+}
+
+SurfacePoint FieldRaster::node(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t row) const {
+    static constexpr double inside = 1e-3;
+    const auto at = [](std::uint32_t i, std::uint32_t n) {
+        return n == 1 ? 0.5 : std::clamp(static_cast<double>(i) / (n - 1), inside, 1.0 - inside);
+    };
+    const Vec2 st(at(column, grid.columns), at(row, grid.rows));
+    const Chart& on = space_->patches().charts()[chart];
+    const Rectangle& r = rectangles_[chart];
+    if (!r.is_plane) return on.point(space_->geometry(), st);
+    const Vec3 position = r.corner + r.across * (st.x / glm::dot(r.across, r.across)) + r.down * (st.y / glm::dot(r.down, r.down));
+    Vec2 of_chart = on.coordinates(space_->geometry(), position);
+    of_chart = glm::clamp(of_chart, inside, 1.0 - inside);  // the chart need not fill its rectangle
+    return on.point(space_->geometry(), of_chart);
+}
+
+void FieldRaster::fill(const FieldStack& fields) {
+    const Patches& patches = space_->patches();
+    oneapi::tbb::parallel_for(std::size_t{0}, grids_.size(), [&](std::size_t number) {
+        const auto chart = static_cast<std::uint32_t>(number);
+        const Grid& grid = grids_[chart];
+        for (const std::size_t side : {0u, 1u}) {
+            if (!has_side_[chart][side]) continue;
+            float* to = values_.data() + grid.first[side] * stride_;
+            for (std::uint32_t row = 0; row < grid.rows; ++row)
+                for (std::uint32_t column = 0; column < grid.columns; ++column, to += stride_) {
+                    const SurfacePoint p = node(chart, grid, column, row);
+                    const PatchSpace::Reading reading =
+                        space_->read(p, patches.place(chart, p.position), side == 0 ? p.normal : -p.normal);
+                    for (std::size_t q = 0; q < 4; ++q) {
+                        if (reading.weight[q] == 0.0) continue;
+                        const float* const from = fields[reading.unknown[q]] + 3;
+                        for (std::size_t k = 0; k < stride_; ++k) to[k] += static_cast<float>(reading.weight[q]) * from[k];
+                    }
+                }
+        }
+    });
+}
+
+namespace {
+
+// K Le at a point with normal n on the lit side, without the reflectance.
+NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& lights, const SurfacePoint& p, const Vec3& n,
+                              SobolSampler& sampler, std::uint64_t& rays) {
+    std::array<LightSample, RayCaster::packet_size> waiting;
+    std::array<double, RayCaster::packet_size> cosine;
+    std::size_t count = 0;
+    Rgb sum(0.0);
+    const auto look = [&] {
+        const std::uint32_t seen = geometry.visible(
+            count, [&](std::size_t i) { return std::pair<const SurfacePoint&, const SurfacePoint&>(p, waiting[i].point); },
+            RayCaster::Rays::alike);
+        for (std::size_t i = 0; i < count; ++i)
+            if (seen >> i & 1u) sum += waiting[i].weight * cosine[i];
+        rays += count;
+        count = 0;
+    };
+    for (std::uint32_t i = 0; i < light_samples; ++i) {
+        sampler.start(i);
+        waiting[count] = lights.sample(p.position, sampler.next2());
+        if (!(waiting[count].pdf > 0.0)) continue;
+        cosine[count] = glm::dot(n, waiting[count].w);
+        if (cosine[count] > 0.0 && ++count == waiting.size()) look();
+    }
+    if (count > 0) look();
+    return sum * (inv_pi / light_samples);
+}
+
+}  // namespace
+
+void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed) {
+    if (scene.emitters.empty()) return;
+    const LightSampler lights(scene.geometry, scene.emitters);
+    const SobolPoints points(light_samples);
+    struct Row {
+        std::uint32_t chart, row;
+        bool front;
+    };
+    std::vector<Row> rows;
+    for (std::uint32_t chart = 0; chart < fine_grids_.size(); ++chart)
+        for (const bool front : {true, false})
+            if (has_side_[chart][front ? 0 : 1])
+                for (std::uint32_t row = 0; row < fine_grids_[chart].rows; ++row) rows.push_back({chart, row, front});
+    std::atomic<std::uint64_t> rays = 0;
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, rows.size()), [&](const auto& range) {
+        std::uint64_t cast = 0;
+        for (std::size_t r = range.begin(); r < range.end(); ++r) {
+            const auto [chart, row, front] = rows[r];
+            const Grid& grid = fine_grids_[chart];
+            const std::size_t first = grid.first[front ? 0 : 1] + std::size_t{row} * grid.columns;
+            for (std::uint32_t column = 0; column < grid.columns; ++column) {
+                const SurfacePoint p = node(chart, grid, column, row);
+                const Vec3 n = front ? p.normal : -p.normal;
+                SobolSampler sampler(points, seed ^ direct_light_stream, static_cast<std::uint32_t>(first + column));
+                const SurfaceSide side = scene.materials.side(p, n);
+                const Rgb light =
+                    std::get<Diffuse>(*side.bsdf).reflectance(side.p) * light_at_node(scene.geometry, lights, p, n, sampler, cast);
+                for (int c = 0; c < 3; ++c)
+                    fine_[3 * (first + column) + static_cast<std::size_t>(c)] = static_cast<float>(light[c]);
+            }
+        }
+        rays += cast;
+    });
+    rays_ = rays;
+}
+
+}  // namespace neumann

@@ -1,0 +1,97 @@
+// Fields f_k ≈ K^k Le, k ≥ 1, on diffuse sides, interpolated bilinearly on a raster over each chart, so that a hit reads all
+// bounces from four neighbouring places. K Le has a finer raster of its own, as its shadows have edges.
+#pragma once
+
+#include "operators/correction/diffuse_sides.h"
+#include "operators/matrix/field_stack.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace neumann {
+
+class FieldRaster {
+public:
+    // `fields` has the bounces 0 … N and the rest. Keeps references to the scene and to the space of `fields`.
+    FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed);
+
+    // The number of fields, f_1 … f_N and Σ_{k>N} f_k.
+    std::size_t size() const { return stride_ / 3; }
+    std::uint64_t rays() const { return rays_; }  // cast for K Le
+
+    // Whether there are fields, and patches on which points may be drawn, on this side.
+    bool covers(const SurfacePoint& p, bool front) const { return has_side_[space_->patches().chart_of(p)][front ? 0 : 1]; }
+    // Calls add(k, f_k(p)) for k = 1, …, size(), on a side that has fields.
+    template <class Add>
+    void read(const SurfacePoint& p, bool front, const Add& add) const {
+        const std::uint32_t number = space_->patches().chart_of(p);
+        const Place place = place_on(number, p.position);
+        const Corners many = corners(grids_[number], place, front), fine = corners(fine_grids_[number], place, front);
+        add(std::size_t{1}, blend(fine_.data(), 3, 0, fine));
+        for (std::size_t k = 2; k <= size(); ++k) add(k, blend(values_.data(), stride_, 3 * (k - 1), many));
+    }
+
+private:
+    // Nodes at (i/(columns−1), j/(rows−1)) of the chart's rectangle.
+    struct Grid {
+        std::uint32_t columns = 0, rows = 0;
+        std::array<std::size_t, 2> first{};  // of the front and of the back
+    };
+    // The rectangle around a plane chart: coordinates in it are dot products of p − corner with across and down. Round shapes have
+    // coordinates of their own.
+    struct Rectangle {
+        Vec3 corner{0.0}, across{0.0}, down{0.0};
+        bool is_plane = false;
+    };
+    struct Place {
+        float s, t;  // in [0, 1]
+    };
+    struct Corners {
+        std::array<std::size_t, 4> node;
+        std::array<float, 4> weight;
+    };
+    Place place_on(std::uint32_t chart, const Vec3& position) const {
+        const Rectangle& r = rectangles_[chart];
+        Vec2 st;
+        if (r.is_plane) {
+            const Vec3 d = position - r.corner;
+            st = {glm::dot(d, r.across), glm::dot(d, r.down)};
+        } else {
+            st = space_->patches().charts()[chart].coordinates(space_->geometry(), position);
+        }
+        return {std::clamp(static_cast<float>(st.x), 0.0f, 1.0f), std::clamp(static_cast<float>(st.y), 0.0f, 1.0f)};
+    }
+    static Corners corners(const Grid& grid, const Place& place, bool front) {
+        const float x = place.s * static_cast<float>(grid.columns - 1), y = place.t * static_cast<float>(grid.rows - 1);
+        const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
+        const std::uint32_t right = i + 1 < grid.columns ? 1 : 0, below = j + 1 < grid.rows ? grid.columns : 0;
+        const float a = x - static_cast<float>(i), b = y - static_cast<float>(j);
+        const std::size_t node = grid.first[front ? 0 : 1] + std::size_t{j} * grid.columns + i;
+        return {{node, node + right, node + below, node + below + right}, {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b}};
+    }
+    static Rgb blend(const float* values, std::size_t stride, std::size_t offset, const Corners& c) {
+        float sum[3] = {};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const float* v = values + c.node[i] * stride + offset;
+            for (int k = 0; k < 3; ++k) sum[k] += c.weight[i] * v[k];
+        }
+        return {sum[0], sum[1], sum[2]};
+    }
+    void add_rectangle(const Chart& chart);
+    Grid make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const;
+    // A point of the raster, a little inside of the chart.
+    SurfacePoint node(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t row) const;
+    void fill(const FieldStack& fields);
+    void fill_direct(const Scene& scene, std::uint64_t seed);
+
+    const PatchSpace* space_;
+    std::size_t stride_;
+    std::vector<std::array<bool, 2>> has_side_;  // one per chart, as everything by chart below
+    std::vector<Rectangle> rectangles_;
+    std::vector<Grid> grids_, fine_grids_;
+    std::vector<float> values_, fine_;
+    std::uint64_t rays_ = 0;
+};
+
+}  // namespace neumann

@@ -1,0 +1,45 @@
+// Makes the shared points of a replicate: set 0 for the pixels, set j + 1 for the points of set j, each independent of the others.
+// Set j needs one bounce less than set j − 1, so that it has the terms 1 … N − 1 − j by themselves and the later ones as a sum.
+#pragma once
+
+#include "operators/correction/approximation.h"
+#include "operators/correction/corrected_walk.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+class PointMaker {
+public:
+    // `samples`: light samples and walks of each point, both powers of two. Keeps references.
+    PointMaker(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& walk, const Approximation& fields,
+               SamplerKind sampler, std::uint64_t seed, std::uint32_t points, const FirstVertex& samples);
+
+    // Set 0. Adds the rays to `rays` and walks given up to `given_up`. Nothing if `stop` returns true meanwhile.
+    std::optional<SharedPoints> make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,
+                                     const std::function<bool()>& stop) const;
+    std::size_t sets() const { return sets_; }
+
+private:
+    template <class Sampler>
+    struct Workspace;
+    template <class Sampler>
+    SharedPoints make_set(std::uint64_t replicate, std::size_t set, const SharedPoints* next, std::uint64_t& rays,
+                          std::uint64_t& given_up) const;
+
+    const Scene& scene_;
+    const DirectLightSampler& direct_;
+    WalkSettings walk_;
+    const Approximation& fields_;
+    SamplerKind sampler_;
+    std::uint64_t seed_;
+    std::uint32_t points_;
+    FirstVertex samples_;
+    std::size_t sets_;
+    SobolPoints light_net_, direction_net_;
+};
+
+}  // namespace neumann

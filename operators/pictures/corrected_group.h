@@ -1,0 +1,70 @@
+// A group of camera samples of CorrectedSampler, which advance together.
+#pragma once
+
+#include "operators/pictures/any_sampler.h"
+#include "operators/pictures/corrected_sampler.h"
+#include "operators/pictures/path_group.h"
+
+namespace neumann {
+
+template <class Sampler>
+struct CorrectedSampler::Workspace {
+    explicit Workspace(std::size_t quantities) : mean(quantities), tally(quantities) {}
+    PathGroup group;
+    CorrectedWalkers<Sampler> walkers;
+    std::vector<Sampler> camera, directions;  // of the group's samples, and of its pixels
+    std::vector<Rgb> mean;
+    Tally tally;
+};
+
+// Samples all terms of samples first … first + samples − 1 of the replicate into work.group.
+template <class Sampler, class Observer>
+void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
+                                   Workspace<Sampler>& work, const Observer& observer) const {
+    const std::uint32_t size = settings_.replicate_size, first_pixel = first / size;
+    const std::size_t Q = settings_.quantities();
+    PathGroup& group = work.group;
+    group.rays.resize(samples);
+    group.weights.resize(samples);
+    work.camera.clear();
+    work.directions.clear();
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const std::uint32_t number = (first + i) / size;
+        const Pixel pixel = pixel_of(scene_->film, number);
+        if ((first + i) % size == 0) {
+            work.camera.push_back(make_sampler<Sampler>(settings_.sampler, camera_net_, settings_.seed, number));
+            work.directions.push_back(
+                make_sampler<Sampler>(settings_.sampler, direction_net_, settings_.seed ^ direction_stream, number));
+        } else {
+            work.camera.push_back(work.camera.back());
+        }
+        work.camera.back().start(replicate * size + (first + i) % size);
+        const CameraSample sample = sample_camera(*scene_, pixel.x, pixel.y, work.camera.back());
+        group.rays[i] = sample.ray;
+        group.weights[i] = sample.weight;
+    }
+    group.samples.assign(samples * Q, Rgb(0.0));
+    TermSamples out{group.samples, work.tally.rays};
+    work.walkers.walker.assign(samples, {});
+    for (std::uint32_t i = 0; i < samples; ++i) work.walkers.walker[i].path = i;
+    find_first_vertices(*scene_, scene_->geometry, std::span<const CameraRay>(group.rays), work.walkers, out.rays[0], observer,
+                        [&](std::uint32_t i, const Rgb& Le) {
+                            group.samples[i * Q] += Le;
+                            observer.finds(i, 0, Le);
+                        });
+    work.walkers.samplers = work.camera;
+    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *settings_.approximation, points, first_);
+    corrected(
+        work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
+        [&](std::uint32_t i, std::uint32_t g) -> const Sampler& {
+            Sampler& sampler = work.directions[(first + i) / size - first_pixel];
+            sampler.start((replicate * size + (first + i) % size) * first_.directions + g);
+            return sampler;
+        },
+        out, observer);
+    work.tally.given_up += out.given_up;
+    for (std::uint32_t i = 0; i < samples; ++i)
+        for (Rgb& x : std::span(group.samples).subspan(i * Q, Q)) x *= group.weights[i];
+}
+
+}  // namespace neumann

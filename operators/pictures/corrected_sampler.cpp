@@ -1,0 +1,106 @@
+#include "operators/pictures/corrected_sampler.h"
+
+#include "operators/pictures/corrected_group.h"
+#include "operators/pictures/pixel_average.h"
+#include "operators/pictures/whole_pictures.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <stdexcept>
+
+namespace neumann {
+
+namespace {
+
+constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0, .survival = 0.25};
+constexpr FirstVertex at_point{.lights = 64, .directions = 128, .clamp = 10.0, .survival = 1.0};
+// Rays for the points of a replicate, as a part of those for its pixels, roughly.
+constexpr double share_of_points = 0.3;
+constexpr double fewest_points = 64.0, most_points = 4096.0;
+
+std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {
+    const double of_pixel = settings.replicate_size * (1.0 + at_pixel.lights + 2.0 * at_pixel.directions),
+                 of_point = at_point.lights + 2.0 * at_point.directions, sets = std::clamp(settings.walk.bounces, 1, 8);
+    return std::bit_floor(static_cast<std::uint32_t>(
+        std::clamp(share_of_points * pixels * of_pixel / (of_point * sets), fewest_points, most_points)));
+}
+
+}  // namespace
+
+CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
+      direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
+      first_(at_pixel),
+      camera_net_(settings.replicate_size),
+      direction_net_(settings.replicate_size * at_pixel.directions) {
+    if (!settings.approximation) throw std::logic_error("PictureSampler: corrected fields are missing");
+    points_ = std::make_shared<const PointMaker>(scene, *direct_, settings_.walk, *settings_.approximation, settings_.sampler,
+                                                 settings_.seed, choose_points(pixels_, settings_), at_point);
+}
+
+template <class Sampler>
+bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                      const std::function<bool(double)>& part_done) const {
+    const std::size_t Q = settings_.quantities();
+    std::atomic<bool> dropped = false;
+    std::uint64_t rays = 0;
+    std::optional<SharedPoints> points;
+    if (points_->sets() > 0) {
+        points = points_->make(replicate, rays, tally.given_up, [&] { return part_done(0.0); });
+        if (!points) return false;
+    }
+    tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
+    oneapi::tbb::enumerable_thread_specific<Workspace<Sampler>> workspaces([&] {
+        Workspace<Sampler> work(Q);
+        for (std::size_t q = 0; q < Q; ++q) work.tally.largest[q].outdo(tally.largest[q]);
+        return work;
+    });
+    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
+    const std::uint32_t groups = (pixels_ + pixels_at_once - 1) / pixels_at_once;
+    std::atomic<std::uint32_t> done = 0;
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
+        if (dropped) return;
+        Workspace<Sampler>& work = workspaces.local();
+        for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
+            const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels_);
+            trace_group(replicate, begin * size, (end - begin) * size, points ? &*points : nullptr, work);
+            for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+                average(std::span(work.group.samples).subspan((pixel - begin) * size * Q, size * Q), size, pixel, replicate, true,
+                        settings_.colors, work.mean, std::span(ranges.of).subspan(pixel * Q, Q), work.tally);
+                std::copy(work.mean.begin(), work.mean.end(), picture.begin() + static_cast<std::ptrdiff_t>(pixel * Q));
+            }
+        }
+        done += static_cast<std::uint32_t>(range.size());
+        if (part_done(static_cast<double>(done) / groups)) dropped = true;
+    });
+    if (dropped) return false;
+    for (const Workspace<Sampler>& work : workspaces) tally.merge(work.tally);
+    return true;
+}
+
+std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+                                                 std::vector<double> memory) const {
+    const std::size_t Q = settings_.quantities();
+    SampleRanges ranges;
+    ranges.of.resize(pixels_ * Q);
+    Tally new_tally(Q);
+    for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
+    auto node =
+        run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
+                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const std::function<bool(double)>& part_done) {
+                               return settings_.sampler == SamplerKind::sobol
+                                          ? sample_picture<SobolSampler>(replicate, picture, ranges, new_tally, part_done)
+                                          : sample_picture<IndependentSampler>(replicate, picture, ranges, new_tally, part_done);
+                           });
+    if (!node) return std::nullopt;
+    tally.merge(new_tally);
+    node->ranges = std::move(ranges);
+    return node;
+}
+
+}  // namespace neumann

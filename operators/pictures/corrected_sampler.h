@@ -1,0 +1,48 @@
+// Samples the terms by corrected fields (operators/correction/corrected_walk.h). All pixels of a replicate share points, so a
+// replicate is a whole picture.
+#pragma once
+
+#include "operators/correction/point_maker.h"
+#include "operators/pictures/path_observer.h"
+#include "operators/pictures/sampling_settings.h"
+#include "operators/pictures/tally.h"
+#include "operators/statistics/series_moments.h"
+
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+class CorrectedSampler {
+public:
+    // Keeps a reference to the scene.
+    CorrectedSampler(const Scene& scene, const SamplingSettings& settings);
+
+    // As PictureSampler::run().
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+                                   std::vector<double> memory) const;
+    // As PictureSampler::retrace().
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
+
+private:
+    template <class Sampler>
+    struct Workspace;
+    // Independent random numbers for the walks from first diffuse vertices.
+    static constexpr std::uint64_t direction_stream = 0x676174686572ull;
+    template <class Sampler, class Observer = NoObserver>
+    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
+                     Workspace<Sampler>& work, const Observer& observer = {}) const;
+    template <class Sampler>
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                        const std::function<bool(double)>& part_done) const;
+
+    const Scene* scene_;
+    SamplingSettings settings_;
+    std::uint32_t pixels_;
+    std::shared_ptr<const DirectLightSampler> direct_;
+    FirstVertex first_;
+    std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to settings_.approximation
+    SobolPoints camera_net_, direction_net_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,19 @@
+// The mean of one pixel's samples in a replicate.
+#pragma once
+
+#include "operators/pictures/tally.h"
+#include "operators/statistics/sample_ranges.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+
+namespace neumann {
+
+// `samples`: sample by sample, all quantities of each. Writes the means into `mean` and adds the samples to the pixel's ranges and
+// to the tally; samples that are not finite are recorded there and left out. `colors`: as SamplingSettings::colors.
+void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_samples,
+             const std::optional<glm::dmat3>& colors, std::span<Rgb> mean, std::span<SampleRange> ranges, Tally& tally);
+
+}  // namespace neumann
