@@ -55,6 +55,7 @@ struct CorrectedWalkers : Together<CorrectedWalker> {
     std::vector<Sampler> samplers;      // one for each walker
     std::vector<std::uint32_t> asking;  // walkers whose light sample, or shared point, needs a ray
     std::vector<std::uint32_t> single, splitting;
+    std::vector<float> fields;
 };
 
 class CorrectedWalk {
@@ -114,14 +115,19 @@ private:
     }
     // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.
     template <class Sampler, class Found>
-    bool goes_on(CorrectedWalker& w, Sampler& sampler, const Found& found) const {
+    bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
         if (!w.reads || !fields_->covers(w.x, front)) return true;
         const double g = kernel(w.from, w.from_normal, w.x.position, front ? w.x.normal : -w.x.normal);
         const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
         const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
         const Rgb weight = on ? w.beta * (1.0 - 1.0 / w.survival) : w.beta;
-        if (!on || w.survival < 1.0) fields_->read(w.x, front, [&](std::size_t k, const Rgb& f) { found(k, weight * f); });
+        if (!on || w.survival < 1.0) {
+            fields.resize(3 * fields_->size());
+            fields_->read(w.x, front, fields.data());
+            for (std::size_t k = 0; k < fields_->size(); ++k)
+                found(k + 1, weight * Rgb(fields[3 * k], fields[3 * k + 1], fields[3 * k + 2]));
+        }
         w.beta /= w.survival;
         return on;
     }
@@ -237,7 +243,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers<Sampler>& walkers, c
                 if (!is_black(emitted)) find(i, w.beta * emitted * direct_.weight_of_hit(w.pdf * w.directions, w.from, w.w, w.x));
             }
             return !w.x.is_infinite() && !ending.is_last(bounce) &&
-                   goes_on(w, walkers.samplers[i], [&](std::size_t k, const Rgb& x) { find_later(i, k, x); });
+                   goes_on(w, walkers.samplers[i], walkers.fields, [&](std::size_t k, const Rgb& x) { find_later(i, k, x); });
         });
     }
 }

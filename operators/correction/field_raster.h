@@ -22,14 +22,12 @@ public:
 
     // Whether there are fields, and patches on which points may be drawn, on this side.
     bool covers(const SurfacePoint& p, bool front) const { return has_side_[space_->patches().chart_of(p)][front ? 0 : 1]; }
-    // Calls add(k, f_k(p)) for k = 1, …, size(), on a side that has fields.
-    template <class Add>
-    void read(const SurfacePoint& p, bool front, const Add& add) const {
+    // f_1(p), f_2(p), … on a side that has fields: three floats each, 3 size() in all.
+    void read(const SurfacePoint& p, bool front, float* fields) const {
         const std::uint32_t number = space_->patches().chart_of(p);
         const Place place = place_on(number, p.position);
-        const Corners many = corners(grids_[number], place, front), fine = corners(fine_grids_[number], place, front);
-        add(std::size_t{1}, blend(fine_.data(), 3, 0, fine));
-        for (std::size_t k = 2; k <= size(); ++k) add(k, blend(values_.data(), stride_, 3 * (k - 1), many));
+        blend(values_.data(), stride_, stride_, corners(grids_[number], place, front), fields);
+        blend(fine_.data(), 3, 3, corners(fine_grids_[number], place, front), fields);
     }
 
 private:
@@ -70,13 +68,11 @@ private:
         const std::size_t node = grid.first[front ? 0 : 1] + std::size_t{j} * grid.columns + i;
         return {{node, node + right, node + below, node + below + right}, {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b}};
     }
-    static Rgb blend(const float* values, std::size_t stride, std::size_t offset, const Corners& c) {
-        float sum[3] = {};
-        for (std::size_t i = 0; i < 4; ++i) {
-            const float* v = values + c.node[i] * stride + offset;
-            for (int k = 0; k < 3; ++k) sum[k] += c.weight[i] * v[k];
-        }
-        return {sum[0], sum[1], sum[2]};
+    static void blend(const float* values, std::size_t stride, std::size_t count, const Corners& c, float* __restrict to) {
+        const float *const v0 = values + c.node[0] * stride, *const v1 = values + c.node[1] * stride,
+                           *const v2 = values + c.node[2] * stride, *const v3 = values + c.node[3] * stride;
+        for (std::size_t k = 0; k < count; ++k)
+            to[k] = (c.weight[0] * v0[k] + c.weight[1] * v1[k]) + (c.weight[2] * v2[k] + c.weight[3] * v3[k]);
     }
     void add_rectangle(const Chart& chart);
     Grid make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const;

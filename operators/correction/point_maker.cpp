@@ -34,6 +34,7 @@ struct PointMaker::Workspace {
     CorrectedWalkers<Sampler> walkers;
     std::vector<Sampler> light, walk;  // of the points
     std::vector<Rgb> terms;
+    std::vector<float> fields;  // at a point
     std::vector<std::uint64_t> rays;
 };
 
@@ -73,6 +74,7 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, points_ / points_at_once, 1), [&](const auto& range) {
         Workspace<Sampler>& work = workspaces.local();
         work.rays.assign(quantities, 0);
+        work.fields.resize(3 * fields.size());
         TermSamples out{{}, work.rays};
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
             const std::uint32_t first = group * points_at_once;
@@ -114,9 +116,10 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
                 const SharedPoints::Point& p = made.points[first + i];
                 Rgb* const errors = made.errors.data() + (first + i) * (quantities - 1);
                 for (std::size_t k = 1; k < quantities; ++k) errors[k - 1] = work.terms[i * quantities + k];
-                fields.read(p.y, glm::dot(p.y.normal, p.normal) > 0.0, [&](std::size_t k, const Rgb& f) {
-                    if (k <= N || walk.rest_probability > 0.0) errors[std::min(k, N + 1) - 1] -= f;
-                });
+                fields.read(p.y, glm::dot(p.y.normal, p.normal) > 0.0, work.fields.data());
+                for (std::size_t k = 0; k < fields.size(); ++k)
+                    if (k < N || walk.rest_probability > 0.0)
+                        errors[std::min(k, N)] -= Rgb(work.fields[3 * k], work.fields[3 * k + 1], work.fields[3 * k + 2]);
             }
         }
         for (const std::uint64_t n : work.rays) cast += n;

@@ -1,11 +1,15 @@
 // A group of camera samples of CorrectedSampler, which advance together.
 #pragma once
 
+#include "operators/correction/point_maker.h"
 #include "operators/pictures/any_sampler.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/path_group.h"
 
 namespace neumann {
+
+// Of each camera sample.
+inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0, .survival = 0.25};
 
 template <class Sampler>
 struct CorrectedSampler::Workspace {
@@ -53,12 +57,12 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first,
                             observer.finds(i, 0, Le);
                         });
     work.walkers.samplers = work.camera;
-    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *settings_.approximation, points, first_);
+    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *settings_.approximation, points, at_pixel);
     corrected(
         work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
         [&](std::uint32_t i, std::uint32_t g) -> const Sampler& {
             Sampler& sampler = work.directions[(first + i) / size - first_pixel];
-            sampler.start((replicate * size + (first + i) % size) * first_.directions + g);
+            sampler.start((replicate * size + (first + i) % size) * at_pixel.directions + g);
             return sampler;
         },
         out, observer);

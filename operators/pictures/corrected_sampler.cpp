@@ -15,7 +15,6 @@ namespace neumann {
 
 namespace {
 
-constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0, .survival = 0.25};
 constexpr FirstVertex at_point{.lights = 64, .directions = 128, .clamp = 10.0, .survival = 1.0};
 // Rays for the points of a replicate, as a part of those for its pixels, roughly.
 constexpr double share_of_points = 0.3;
@@ -35,7 +34,6 @@ CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& s
       settings_(settings),
       pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
-      first_(at_pixel),
       camera_net_(settings.replicate_size),
       direction_net_(settings.replicate_size * at_pixel.directions) {
     if (!settings.approximation) throw std::logic_error("PictureSampler: corrected fields are missing");

@@ -2,16 +2,22 @@
 // replicate is a whole picture.
 #pragma once
 
-#include "operators/correction/point_maker.h"
+#include "core/sampling/sobol_sampler.h"
 #include "operators/pictures/path_observer.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/pictures/tally.h"
 #include "operators/statistics/series_moments.h"
+#include "operators/walk/observer.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace neumann {
+
+class DirectLightSampler;
+class PointMaker;
+struct SharedPoints;
 
 class CorrectedSampler {
 public:
@@ -40,7 +46,6 @@ private:
     SamplingSettings settings_;
     std::uint32_t pixels_;
     std::shared_ptr<const DirectLightSampler> direct_;
-    FirstVertex first_;
     std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to settings_.approximation
     SobolPoints camera_net_, direction_net_;
 };

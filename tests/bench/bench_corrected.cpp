@@ -20,6 +20,7 @@ using namespace neumann;
 
 constexpr int bounces = 8, first_judged = 1, last_judged = 6;
 constexpr double goals[] = {1e-2, 1e-3};
+constexpr std::uint64_t reference_samples = 512;
 
 double processor_seconds() {
     rusage used;
@@ -33,19 +34,20 @@ struct Run {
     std::vector<double> errors;
 };
 
-double relative_squares(const PixelEstimate& term) {
+// The standard errors' squares relative to a reference of little noise: a picture's own means are large where its noise is.
+double relative_squares(const PixelEstimate& term, const Image& reference) {
     double mean = 0.0, sum = 0.0;
-    const auto n = static_cast<double>(term.mean.pixels.size());
-    for (const Rgb& x : term.mean.pixels) mean += mean_component(x) / n;
-    for (std::size_t i = 0; i < term.mean.pixels.size(); ++i)
+    const auto n = static_cast<double>(reference.pixels.size());
+    for (const Rgb& x : reference.pixels) mean += mean_component(x) / n;
+    for (std::size_t i = 0; i < reference.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c) {
-            const double x = term.mean.pixels[i][c], e = term.standard_error.pixels[i][c];
+            const double x = reference.pixels[i][c], e = term.standard_error.pixels[i][c];
             sum += e * e / (x * x + 1e-2 * mean * mean) / (3.0 * n);
         }
     return sum;
 }
 
-Run run(const Scene& scene, const Method& method, std::uint64_t samples, std::uint64_t seed) {
+Run run(const Scene& scene, const Method& method, std::uint64_t samples, std::uint64_t seed, const std::vector<Image>& reference) {
     const double begin = processor_seconds();
     Goal goal{.bounces = bounces, .samples = samples, .seed = seed};
     goal.only_pictures = true;
@@ -55,7 +57,7 @@ Run run(const Scene& scene, const Method& method, std::uint64_t samples, std::ui
     found.rays = static_cast<double>(series.rays);
     for (int i = first_judged; i <= last_judged; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        found.errors.push_back(relative_squares(series.term(k)));
+        found.errors.push_back(relative_squares(series.term(k), reference[k]));
         found.error += found.errors.back() / (last_judged - first_judged + 1);
         const MeanWithError m = series.means_of_term(k).all;
         found.error_of_mean = std::max(found.error_of_mean, m.standard_error / m.mean);
@@ -76,13 +78,20 @@ int main(int argc, char** argv) {
     const std::string resolution = argc > 2 ? argv[2] : "256";
     const std::uint64_t walk_samples = argc > 3 ? std::stoull(argv[3]) : 64;
     const Scene scene = read_scene(path, {{"res", resolution}});
-    const Run walk = run(scene, method::Walk{}, walk_samples, 1);
+    std::vector<Image> reference;
+    {
+        Goal goal{.bounces = bounces, .samples = reference_samples, .seed = 2};
+        goal.only_pictures = true;
+        const BounceSeries series = render(scene, method::Corrected{}, goal);
+        for (int i = 0; i <= bounces; ++i) reference.push_back(series.term(static_cast<std::size_t>(i)).mean);
+    }
+    const Run walk = run(scene, method::Walk{}, walk_samples, 1, reference);
     print("walk", walk, walk_samples);
     double least = 1e300;
     for (const double goal : goals) {
         // Doubles the samples of its four replicates until the goal is reached.
         for (std::uint64_t samples = 4;; samples *= 2) {
-            const Run r = run(scene, method::Corrected{}, samples, 1);
+            const Run r = run(scene, method::Corrected{}, samples, 1, reference);
             print("corrected", r, samples);
             if (r.error > goal && samples < 1024) continue;
             const double walk_needs = walk.seconds * walk.error / goal, needs = r.seconds * std::min(r.error / goal, 1.0);
