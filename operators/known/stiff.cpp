@@ -50,9 +50,13 @@ struct Sampling {
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
 std::vector<Sampling> samplings() {
-    return {{method::Walk{}, 16, 8, 0.9},     {method::Guided{{}, 100, 2048}, 32, 8, 0.9},
-            {method::Surface{}, 16},          {method::Light{}, 2048, 2},
-            {method::Bidirectional{}, 32, 4}, {method::Classic{}, 16},
+    return {{method::Walk{}, 16, 8, 0.9},
+            {method::Guided{{}, 100, 2048}, 32, 8, 0.9},
+            {method::Corrected{{}, 100, 32}, 16},
+            {method::Surface{}, 16},
+            {method::Light{}, 2048, 2},
+            {method::Bidirectional{}, 32, 4},
+            {method::Classic{}, 16},
             {method::Pointwise{}, 16, 5}};
 }
 

@@ -2,6 +2,7 @@
 // those of the pictures.
 #include "operators/pictures/replay.h"
 #include "core/reader/read_scene.h"
+#include "operators/correction/approximation.h"
 #include "operators/guide/direction_tables.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,9 @@ protected:
                            .replicate_size = size};
         if (s.method == PathMethod::guided)
             s.tables = std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
+        if (s.method == PathMethod::corrected)
+            s.approximation = std::make_shared<const Approximation>(
+                scene, ApproximationSettings{.patches = 100, .rays = 16, .bounces = bounces, .seed = 5});
         return s;
     }
 };
@@ -92,14 +96,17 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    PathMethod, ReplayEvery,
-    testing::Values(Case{"Walk", PathMethod::walk}, Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
-                    Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}}, Case{"Guided", PathMethod::guided},
-                    Case{"Surface", PathMethod::surface}, Case{"Classic", PathMethod::classic}, Case{"Light", PathMethod::light},
-                    Case{"LightIndependent", PathMethod::light, SamplerKind::independent}, Case{"Bidirectional", PathMethod::bidirectional},
-                    Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(PathMethod, ReplayEvery,
+                         testing::Values(Case{"Walk", PathMethod::walk},
+                                         Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
+                                         Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}},
+                                         Case{"Guided", PathMethod::guided}, Case{"Corrected", PathMethod::corrected},
+                                         Case{"Surface", PathMethod::surface}, Case{"Classic", PathMethod::classic},
+                                         Case{"Light", PathMethod::light},
+                                         Case{"LightIndependent", PathMethod::light, SamplerKind::independent},
+                                         Case{"Bidirectional", PathMethod::bidirectional},
+                                         Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 // Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.
 TEST(Replay, APathIsJoined) {

@@ -1,0 +1,168 @@
+// Corrected fields are unbiased whatever the fields are, in every bounce and in the rest; their intervals hold; and the bits do not
+// depend on threads.
+#include "core/reader/read_scene.h"
+#include "operators/correction/approximation.h"
+#include "operators/known/enclosures.h"
+#include "operators/pictures/picture_sampler.h"
+#include "operators/statistics/student_t.h"
+#include "tests/physics/seed.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace neumann {
+namespace {
+
+using physics::fixed_seed;
+
+Scene stock_scene(const std::string& name, int resolution) {
+    return read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", std::to_string(resolution)}});
+}
+
+SamplingSettings walk_settings(int bounces, std::uint32_t size, std::uint64_t seed, double rest) {
+    return {.walk = {.bounces = bounces, .rest_probability = rest}, .seed = seed, .replicate_size = size};
+}
+SamplingSettings corrected_settings(const Scene& scene, int bounces, std::uint32_t size, std::uint64_t seed, double rest,
+                                    std::size_t patches = 300, std::uint32_t rays = 32) {
+    SamplingSettings settings = walk_settings(bounces, size, seed, rest);
+    settings.method = PathMethod::corrected;
+    settings.approximation = std::make_shared<const Approximation>(
+        scene, ApproximationSettings{.patches = patches, .rays = rays, .bounces = bounces, .seed = seed});
+    return settings;
+}
+
+SeriesMoments::Result sample(const Scene& scene, const SamplingSettings& settings, std::uint64_t replicates) {
+    const PictureSampler sampler(scene, settings);
+    Tally tally(sampler.quantities());
+    SeriesMoments moments(sampler.width(), sampler.height(), sampler.quantities());
+    moments.add(*sampler.run(0, replicates, tally));
+    EXPECT_EQ(tally.non_finite_samples(), 0u);
+    return moments.result();
+}
+
+// The means of the picture, of all terms and of the rest, in each channel: 64 replicates or more on both sides, so that 4.5
+// standard errors are passed once in 30,000 times, and once in 200 runs of all scenes (about 170 figures). How much it could see is
+// printed.
+void expect_same_means(const Scene& scene, const SeriesMoments::Result& walk, const SeriesMoments::Result& corrected,
+                       std::size_t quantities, double worst_allowed) {
+    double largest = 0.0, worst = 0.0;
+    for (std::size_t q = 0; q < quantities; ++q)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const MeanWithError a = corrected.means_of_term(q).channel[c], b = walk.means_of_term(q).channel[c];
+            const double error = std::hypot(a.standard_error, b.standard_error);
+            if (error == 0.0) {
+                EXPECT_NEAR(a.mean, b.mean, 1e-12 * std::abs(b.mean)) << q;
+                continue;
+            }
+            EXPECT_LE(std::abs(a.mean - b.mean), 4.5 * error)
+                << "bounce " << q << ", channel " << c << ": " << a.mean << ", the walk " << b.mean;
+            largest = std::max(largest, std::abs(a.mean - b.mean) / error);
+            worst = std::max(worst, error / std::max(b.mean, 1e-2 * walk.means_of_term(1).channel[c].mean));
+        }
+    std::printf("largest |z| %.2f, largest error of a mean %.2f%%\n", largest, 100.0 * worst);
+    EXPECT_LE(worst, worst_allowed) << "no power";
+    static_cast<void>(scene);
+}
+
+class CorrectedFieldsSlow : public testing::TestWithParam<const char*> {};
+
+TEST_P(CorrectedFieldsSlow, AgreeWithTheWalkInEveryBounce) {
+    const Scene scene = stock_scene(GetParam(), 16);
+    constexpr int bounces = 5;
+    const bool rest = std::string(GetParam()) != "facing-mirrors" && std::string(GetParam()) != "glass-ball" &&
+                      std::string(GetParam()) != "metal-room";
+    const auto walk = sample(scene, walk_settings(bounces, 32, fixed_seed, rest ? 0.5 : 0.0), 256);
+    const auto corrected = sample(scene, corrected_settings(scene, bounces, 8, fixed_seed + 1, rest ? 0.5 : 0.0), 64);
+    expect_same_means(scene, walk, corrected, bounces + (rest ? 2 : 1), 0.08);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, CorrectedFieldsSlow,
+                         testing::Values("cornell-box", "door-ajar", "facing-mirrors", "floating-panels", "glass-ball",
+                                         "glossy-floor", "metal-room", "mitsuba-cornell", "outdoor", "sphere-segment"));
+
+// Nothing depends on the quality of the fields: from a ray for each of a few patches, 170% off.
+TEST(CorrectedFields, AreUnbiasedFromBadFields) {
+    const Scene scene = stock_scene("mitsuba-cornell", 8);
+    const auto walk = sample(scene, walk_settings(3, 32, fixed_seed, 0.5), 256);
+    const auto corrected = sample(scene, corrected_settings(scene, 3, 8, fixed_seed + 1, 0.5, 10, 1), 128);
+    expect_same_means(scene, walk, corrected, 5, 0.05);
+}
+
+// K^i Le = ρ^i in a furnace of any shape, seen from inside; the rest is ρ^7/(1 − ρ). 64 replicates; 6 enclosures of 8 figures and 3
+// channels, false alarm of |z| > 4.5 (63 degrees of freedom) 0.5%.
+TEST(CorrectedFieldsSlow, EveryFurnaceIsThePowerOfTheAlbedo) {
+    const Rgb colour(0.25, 0.5, 0.75);
+    for (known::ClosedScene& enclosure : known::enclosures({colour, known::grey(1.0)})) {
+        SCOPED_TRACE(enclosure.name);
+        enclosure.maker.parts.camera.fov = 2.0;
+        enclosure.maker.parts.camera.near_clip = 1e-6;
+        enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
+        const Scene scene = enclosure.maker.make();
+        constexpr int bounces = 6;
+        const auto found = sample(scene, corrected_settings(scene, bounces, 8, fixed_seed, 1.0, 100), 64);
+        for (std::size_t q = 0; q <= bounces + 1; ++q)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double rho = colour[static_cast<int>(c)];
+                const double exact =
+                    q <= bounces ? std::pow(rho, static_cast<double>(q)) : std::pow(rho, bounces + 1.0) / (1.0 - rho);
+                const MeanWithError m = found.means_of_term(q).channel[c];
+                EXPECT_NEAR(m.mean, exact, 4.5 * m.standard_error + 1e-12) << "bounce " << q;
+                EXPECT_LE(m.standard_error, 0.02 * exact) << "no power, bounce " << q;
+            }
+    }
+}
+
+// 95% intervals of pixels, of blocks of 4 × 4 (from whole replicates) and of means hold the truth of many seeds together. Of four
+// replicates; the numbers of a seed go together, so that the shares have standard errors of about 1% and of 2% for means.
+TEST(CorrectedFieldsSlow, IntervalsHoldTheTruth) {
+    const Scene scene = stock_scene("mitsuba-cornell", 16);
+    constexpr int bounces = 4, seeds = 120;
+    std::vector<SeriesMoments::Result> all;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed)
+        all.push_back(sample(scene, corrected_settings(scene, bounces, 4, fixed_seed + seed, 0.0), 4));
+    const double t = student_t_quantile(0.95, 3.0);
+    for (std::size_t q = 1; q <= bounces; ++q) {
+        std::vector<Rgb> truth(all[0].pixels(), Rgb(0.0));
+        double mean = 0.0;
+        std::vector<Estimate> terms;
+        for (const auto& one : all) {
+            terms.push_back(one.term(q));
+            for (std::size_t p = 0; p < truth.size(); ++p) truth[p] += terms.back().mean.pixels[p] / static_cast<double>(seeds);
+            mean += one.means_of_term(q).all.mean / seeds;
+        }
+        double held = 0.0, means_held = 0.0;
+        for (std::size_t s = 0; s < all.size(); ++s) {
+            for (std::size_t p = 0; p < truth.size(); ++p)
+                for (int c = 0; c < 3; ++c)
+                    held += std::abs(terms[s].mean.pixels[p][c] - truth[p][c]) <= t * terms[s].standard_error.pixels[p][c];
+            const MeanWithError m = all[s].means_of_term(q).all;
+            means_held += std::abs(m.mean - mean) <= t * m.standard_error;
+        }
+        held /= 3.0 * static_cast<double>(truth.size() * all.size());
+        means_held /= static_cast<double>(all.size());
+        std::printf("bounce %zu: pixels %.3f, means %.3f\n", q, held, means_held);
+        EXPECT_GE(held, 0.93) << q;
+        EXPECT_LE(held, 0.97) << q;
+        EXPECT_GE(means_held, 0.87) << q;
+    }
+}
+
+TEST(CorrectedFields, SameBitsOnAnyThreads) {
+    const Scene scene = stock_scene("cornell-box", 12);
+    std::vector<std::vector<double>> bits;
+    for (const int threads : {1, 2, 7}) {
+        const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                                static_cast<std::size_t>(threads));
+        const PictureSampler sampler(scene, corrected_settings(scene, 3, 4, 7, 0.7));
+        Tally tally(sampler.quantities());
+        bits.push_back(sampler.run(0, 2, tally)->data);
+    }
+    for (const auto& other : bits) EXPECT_EQ(std::memcmp(other.data(), bits[0].data(), bits[0].size() * sizeof(double)), 0);
+}
+
+}  // namespace
+}  // namespace neumann
