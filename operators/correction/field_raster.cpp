@@ -35,7 +35,6 @@ FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const Fi
     }
     std::size_t nodes = 0, fine_nodes = 0;
     for (std::uint32_t chart = 0; chart < patches.charts().size(); ++chart) {
-        add_rectangle(patches.charts()[chart]);
         const double n = patches_of[chart];
         grids_.push_back(make_grid(chart, n > 1.0 ? nodes_of_patch * n : 0.0, nodes));
         fine_grids_.push_back(make_grid(chart, n > 1.0 ? fine_nodes_of_patch * n : 0.0, fine_nodes));
@@ -46,25 +45,8 @@ FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const Fi
     fill_direct(scene, seed);
 }
 
-void FieldRaster::add_rectangle(const Chart& chart) {
-    Rectangle& r = rectangles_.emplace_back();
-    if (!chart.is_plane()) return;
-    const auto& corners = chart.corners();
-    const Vec3 x = glm::normalize(corners[1] - corners[0]), y = glm::cross(chart.normal(), x);
-    Vec2 low(0.0), high(0.0);
-    for (const Vec3& corner : corners) {
-        const Vec2 p(glm::dot(corner - corners[0], x), glm::dot(corner - corners[0], y));
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    const Vec2 size = high - low;
-    r = {corners[0] + x * low.x + y * low.y, x / size.x, y / size.y, true};
-}
-
 FieldRaster::Grid FieldRaster::make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const {
-    const Rectangle& r = rectangles_[chart];
-    const Vec2 size =
-        r.is_plane ? Vec2(1.0 / glm::length(r.across), 1.0 / glm::length(r.down)) : space_->patches().charts()[chart].lengths();
+    const Vec2 size = space_->patches().charts()[chart].lengths();
     Grid grid;
     const double cell = std::sqrt(size.x * size.y / std::max(cells, 1.0));
     const auto along = [&](double length) {
@@ -84,14 +66,7 @@ SurfacePoint FieldRaster::node(std::uint32_t chart, const Grid& grid, std::uint3
     const auto at = [](std::uint32_t i, std::uint32_t n) {
         return n == 1 ? 0.5 : std::clamp(static_cast<double>(i) / (n - 1), inside, 1.0 - inside);
     };
-    const Vec2 st(at(column, grid.columns), at(row, grid.rows));
-    const Chart& on = space_->patches().charts()[chart];
-    const Rectangle& r = rectangles_[chart];
-    if (!r.is_plane) return on.point(space_->geometry(), st);
-    const Vec3 position = r.corner + r.across * (st.x / glm::dot(r.across, r.across)) + r.down * (st.y / glm::dot(r.down, r.down));
-    Vec2 of_chart = on.coordinates(space_->geometry(), position);
-    of_chart = glm::clamp(of_chart, inside, 1.0 - inside);  // the chart need not fill its rectangle
-    return on.point(space_->geometry(), of_chart);
+    return space_->patches().charts()[chart].point(space_->geometry(), {at(column, grid.columns), at(row, grid.rows)});
 }
 
 void FieldRaster::fill(const FieldStack& fields) {

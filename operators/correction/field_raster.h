@@ -31,16 +31,10 @@ public:
     }
 
 private:
-    // Nodes at (i/(columns−1), j/(rows−1)) of the chart's rectangle.
+    // Nodes at the chart's coordinates (i/(columns−1), j/(rows−1)).
     struct Grid {
         std::uint32_t columns = 0, rows = 0;
         std::array<std::size_t, 2> first{};  // of the front and of the back
-    };
-    // The rectangle around a plane chart: coordinates in it are dot products of p − corner with across and down. Round shapes have
-    // coordinates of their own.
-    struct Rectangle {
-        Vec3 corner{0.0}, across{0.0}, down{0.0};
-        bool is_plane = false;
     };
     struct Place {
         float s, t;  // in [0, 1]
@@ -50,14 +44,7 @@ private:
         std::array<float, 4> weight;
     };
     Place place_on(std::uint32_t chart, const Vec3& position) const {
-        const Rectangle& r = rectangles_[chart];
-        Vec2 st;
-        if (r.is_plane) {
-            const Vec3 d = position - r.corner;
-            st = {glm::dot(d, r.across), glm::dot(d, r.down)};
-        } else {
-            st = space_->patches().charts()[chart].coordinates(space_->geometry(), position);
-        }
+        const Vec2 st = space_->patches().charts()[chart].coordinates(space_->geometry(), position);
         return {std::clamp(static_cast<float>(st.x), 0.0f, 1.0f), std::clamp(static_cast<float>(st.y), 0.0f, 1.0f)};
     }
     static Corners corners(const Grid& grid, const Place& place, bool front) {
@@ -74,7 +61,6 @@ private:
         for (std::size_t k = 0; k < count; ++k)
             to[k] = (c.weight[0] * v0[k] + c.weight[1] * v1[k]) + (c.weight[2] * v2[k] + c.weight[3] * v3[k]);
     }
-    void add_rectangle(const Chart& chart);
     Grid make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const;
     // A point of the raster, a little inside of the chart.
     SurfacePoint node(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t row) const;
@@ -84,7 +70,6 @@ private:
     const PatchSpace* space_;
     std::size_t stride_;
     std::vector<std::array<bool, 2>> has_side_;  // one per chart, as everything by chart below
-    std::vector<Rectangle> rectangles_;
     std::vector<Grid> grids_, fine_grids_;
     std::vector<float> values_, fine_;
     std::uint64_t rays_ = 0;

@@ -2,6 +2,7 @@
 // Set j needs one bounce less than set j − 1, so that it has the terms 1 … N − 1 − j by themselves and the later ones as a sum.
 #pragma once
 
+#include "core/sampling/sobol_sampler.h"
 #include "operators/correction/approximation.h"
 #include "operators/correction/corrected_walk.h"
 

@@ -3,6 +3,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/correction/approximation.h"
 #include "operators/known/enclosures.h"
+#include "operators/methods/render.h"
 #include "operators/pictures/picture_sampler.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/seed.h"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -47,8 +49,8 @@ SeriesMoments::Result sample(const Scene& scene, const SamplingSettings& setting
 // The means of the picture, of all terms and of the rest, in each channel: 64 replicates or more on both sides, so that 4.5
 // standard errors are passed once in 30,000 times, and once in 200 runs of all scenes (about 170 figures). How much it could see is
 // printed.
-void expect_same_means(const Scene& scene, const SeriesMoments::Result& walk, const SeriesMoments::Result& corrected,
-                       std::size_t quantities, double worst_allowed) {
+void expect_same_means(const SeriesMoments::Result& walk, const SeriesMoments::Result& corrected, std::size_t quantities,
+                       double worst_allowed) {
     double largest = 0.0, worst = 0.0;
     for (std::size_t q = 0; q < quantities; ++q)
         for (std::size_t c = 0; c < 3; ++c) {
@@ -65,34 +67,49 @@ void expect_same_means(const Scene& scene, const SeriesMoments::Result& walk, co
         }
     std::printf("largest |z| %.2f, largest error of a mean %.2f%%\n", largest, 100.0 * worst);
     EXPECT_LE(worst, worst_allowed) << "no power";
-    static_cast<void>(scene);
 }
 
-class CorrectedFieldsSlow : public testing::TestWithParam<const char*> {};
+struct Case {
+    const char* scene;
+    double rest;                          // 0: light goes round among mirrors or in glass for long
+    std::uint64_t of_walk, of_corrected;  // replicates
+    double worst;                         // error of a mean, relative to it, that the test may have
+    friend void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
+};
 
+class CorrectedFieldsSlow : public testing::TestWithParam<Case> {};
+
+// What mirrors and glass throw on is found by chance, so that there the errors are large.
 TEST_P(CorrectedFieldsSlow, AgreeWithTheWalkInEveryBounce) {
-    const Scene scene = stock_scene(GetParam(), 16);
+    const Case& c = GetParam();
+    const Scene scene = stock_scene(c.scene, 16);
     constexpr int bounces = 5;
-    const bool rest = std::string(GetParam()) != "facing-mirrors" && std::string(GetParam()) != "glass-ball" &&
-                      std::string(GetParam()) != "metal-room";
-    const auto walk = sample(scene, walk_settings(bounces, 32, fixed_seed, rest ? 0.5 : 0.0), 256);
-    const auto corrected = sample(scene, corrected_settings(scene, bounces, 8, fixed_seed + 1, rest ? 0.5 : 0.0), 64);
-    expect_same_means(scene, walk, corrected, bounces + (rest ? 2 : 1), 0.08);
+    const auto walk = sample(scene, walk_settings(bounces, 32, fixed_seed, c.rest), c.of_walk);
+    const auto corrected = sample(scene, corrected_settings(scene, bounces, 8, fixed_seed + 1, c.rest), c.of_corrected);
+    expect_same_means(walk, corrected, bounces + (c.rest > 0.0 ? 2 : 1), c.worst);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CorrectedFieldsSlow,
-                         testing::Values("cornell-box", "door-ajar", "facing-mirrors", "floating-panels", "glass-ball",
-                                         "glossy-floor", "metal-room", "mitsuba-cornell", "outdoor", "sphere-segment"));
+                         testing::Values(Case{"cornell-box", 0.5, 256, 64, 0.02}, Case{"door-ajar", 0.5, 256, 64, 0.04},
+                                         Case{"facing-mirrors", 0.0, 512, 128, 0.08}, Case{"floating-panels", 0.5, 256, 64, 0.02},
+                                         Case{"glass-ball", 0.0, 512, 128, 0.35}, Case{"glossy-floor", 0.5, 256, 64, 0.08},
+                                         Case{"metal-room", 0.0, 256, 64, 0.04}, Case{"mitsuba-cornell", 0.5, 256, 64, 0.03},
+                                         Case{"outdoor", 0.5, 256, 64, 0.03}, Case{"sphere-segment", 0.5, 256, 64, 0.02}),
+                         [](const auto& info) {
+                             std::string name = info.param.scene;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
 
 // Nothing depends on the quality of the fields: from a ray for each of a few patches, 170% off.
 TEST(CorrectedFields, AreUnbiasedFromBadFields) {
     const Scene scene = stock_scene("mitsuba-cornell", 8);
     const auto walk = sample(scene, walk_settings(3, 32, fixed_seed, 0.5), 256);
     const auto corrected = sample(scene, corrected_settings(scene, 3, 8, fixed_seed + 1, 0.5, 10, 1), 128);
-    expect_same_means(scene, walk, corrected, 5, 0.05);
+    expect_same_means(walk, corrected, 5, 0.05);
 }
 
-// K^i Le = ρ^i in a furnace of any shape, seen from inside; the rest is ρ^7/(1 − ρ). 64 replicates; 6 enclosures of 8 figures and 3
+// K^i Le = ρ^i in a furnace of any shape, seen from inside; the rest is ρ^5/(1 − ρ). 64 replicates; 6 enclosures of 6 figures and 3
 // channels, false alarm of |z| > 4.5 (63 degrees of freedom) 0.5%.
 TEST(CorrectedFieldsSlow, EveryFurnaceIsThePowerOfTheAlbedo) {
     const Rgb colour(0.25, 0.5, 0.75);
@@ -102,7 +119,7 @@ TEST(CorrectedFieldsSlow, EveryFurnaceIsThePowerOfTheAlbedo) {
         enclosure.maker.parts.camera.near_clip = 1e-6;
         enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
         const Scene scene = enclosure.maker.make();
-        constexpr int bounces = 6;
+        constexpr int bounces = 4;
         const auto found = sample(scene, corrected_settings(scene, bounces, 8, fixed_seed, 1.0, 100), 64);
         for (std::size_t q = 0; q <= bounces + 1; ++q)
             for (std::size_t c = 0; c < 3; ++c) {
@@ -111,43 +128,52 @@ TEST(CorrectedFieldsSlow, EveryFurnaceIsThePowerOfTheAlbedo) {
                     q <= bounces ? std::pow(rho, static_cast<double>(q)) : std::pow(rho, bounces + 1.0) / (1.0 - rho);
                 const MeanWithError m = found.means_of_term(q).channel[c];
                 EXPECT_NEAR(m.mean, exact, 4.5 * m.standard_error + 1e-12) << "bounce " << q;
-                EXPECT_LE(m.standard_error, 0.02 * exact) << "no power, bounce " << q;
+                EXPECT_LE(m.standard_error, 0.04 * exact) << "no power, bounce " << q;
             }
     }
 }
 
-// 95% intervals of pixels, of blocks of 4 × 4 (from whole replicates) and of means hold the truth of many seeds together. Of four
-// replicates; the numbers of a seed go together, so that the shares have standard errors of about 1% and of 2% for means.
+// 95% intervals of pixels and of the picture's mean hold the truth of 200 seeds together, by four replicates as in a short render.
+// What a seed's points bring goes into all of its pixels, so that the share of pixels has a standard error of 0.4% over seeds, and
+// that of means one of 1.5%.
 TEST(CorrectedFieldsSlow, IntervalsHoldTheTruth) {
-    const Scene scene = stock_scene("mitsuba-cornell", 16);
-    constexpr int bounces = 4, seeds = 120;
-    std::vector<SeriesMoments::Result> all;
-    for (std::uint64_t seed = 0; seed < seeds; ++seed)
-        all.push_back(sample(scene, corrected_settings(scene, bounces, 4, fixed_seed + seed, 0.0), 4));
+    const Scene scene = stock_scene("mitsuba-cornell", 12);
+    constexpr int bounces = 4;
+    constexpr std::uint64_t seeds = 200;
+    struct Found {
+        Image mean, error;
+        MeanWithError of_picture;
+    };
+    std::vector<std::vector<Found>> terms(bounces + 1);
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        const BounceSeries series =
+            render(scene, method::Corrected{{}, 300, 32}, {.bounces = bounces, .samples = 16, .seed = fixed_seed + seed});
+        for (std::size_t q = 1; q <= bounces; ++q) {
+            const PixelEstimate term = series.term(q);
+            terms[q].push_back({term.mean, term.pixel_errors(), series.means_of_term(q).all});
+        }
+    }
     const double t = student_t_quantile(0.95, 3.0);
     for (std::size_t q = 1; q <= bounces; ++q) {
-        std::vector<Rgb> truth(all[0].pixels(), Rgb(0.0));
+        const std::size_t pixels = terms[q][0].mean.pixels.size();
+        std::vector<Rgb> truth(pixels, Rgb(0.0));
         double mean = 0.0;
-        std::vector<Estimate> terms;
-        for (const auto& one : all) {
-            terms.push_back(one.term(q));
-            for (std::size_t p = 0; p < truth.size(); ++p) truth[p] += terms.back().mean.pixels[p] / static_cast<double>(seeds);
-            mean += one.means_of_term(q).all.mean / seeds;
+        for (const Found& f : terms[q]) {
+            for (std::size_t p = 0; p < pixels; ++p) truth[p] += f.mean.pixels[p] / static_cast<double>(seeds);
+            mean += f.of_picture.mean / seeds;
         }
         double held = 0.0, means_held = 0.0;
-        for (std::size_t s = 0; s < all.size(); ++s) {
-            for (std::size_t p = 0; p < truth.size(); ++p)
-                for (int c = 0; c < 3; ++c)
-                    held += std::abs(terms[s].mean.pixels[p][c] - truth[p][c]) <= t * terms[s].standard_error.pixels[p][c];
-            const MeanWithError m = all[s].means_of_term(q).all;
-            means_held += std::abs(m.mean - mean) <= t * m.standard_error;
+        for (const Found& f : terms[q]) {
+            for (std::size_t p = 0; p < pixels; ++p)
+                for (int c = 0; c < 3; ++c) held += std::abs(f.mean.pixels[p][c] - truth[p][c]) <= t * f.error.pixels[p][c];
+            means_held += std::abs(f.of_picture.mean - mean) <= t * f.of_picture.standard_error;
         }
-        held /= 3.0 * static_cast<double>(truth.size() * all.size());
-        means_held /= static_cast<double>(all.size());
+        held /= 3.0 * static_cast<double>(pixels * seeds);
+        means_held /= seeds;
         std::printf("bounce %zu: pixels %.3f, means %.3f\n", q, held, means_held);
         EXPECT_GE(held, 0.93) << q;
         EXPECT_LE(held, 0.97) << q;
-        EXPECT_GE(means_held, 0.87) << q;
+        EXPECT_GE(means_held, 0.95 - 3.0 * 0.0154) << q;
     }
 }
 
