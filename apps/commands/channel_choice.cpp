@@ -26,12 +26,12 @@ Radius find_radius(const PatchScene& scene, int c) {
     double applications = 0.0;
     // Light trapped in glass by total reflection has many eigenvectors with eigenvalue 1, so that searches do not converge.
     if (has_glass(scene.system().space())) {
-        const RadiusBounds bounds = radius_bounds(K, most_for_bounds, [] { return !interrupted(); });
+        const RadiusBounds bounds = radius_bounds(K, most_for_bounds, {.stop = interrupted});
         applications += bounds.applications;
         if (bounds.meet()) return {bounds.high, applications, ""};
     }
     EigenLimits limits;
-    limits.go_on = [](const EigenStep&) { return !interrupted(); };
+    limits.watch.stop = interrupted;
     const Eigenpairs leading = leading_eigenpairs(K, 1, false, limits);
     return {leading.radius(), applications + leading.applications, leading.why};
 }

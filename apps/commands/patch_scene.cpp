@@ -44,9 +44,7 @@ PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene>
     : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     const TracedSettings traced = settings(options);
     try {
-        system_ = std::make_unique<TracedSystem>(*scene_, traced, [] {
-            if (interrupted()) throw RunError("interrupted");
-        });
+        system_ = std::make_unique<TracedSystem>(*scene_, traced, Watch{.stop = interrupted});
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }

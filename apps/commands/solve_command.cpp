@@ -144,7 +144,7 @@ SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bo
     problem.most = request.most;
     if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
     problem.reflectance = &K.reflectance();
-    return {chosen, solve_side_by_side(problem, {histories, interrupted})};
+    return {chosen, solve_side_by_side(problem, histories, {.stop = interrupted})};
 }
 
 int solve_command(const SolveRequest& request) {

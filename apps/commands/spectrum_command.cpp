@@ -38,13 +38,16 @@ public:
     // Limits for a part that may take this fraction of the time left.
     EigenLimits part(double part, const std::string& what) const {
         const double end = watch_.seconds() + part * left();
-        return {static_cast<double>(request_.most), [this, end, what](const EigenStep& step) {
-                    tell_([&] {
-                        return fmt::format("{}   {:.0f} applications of K   largest residual {:.1e}   {:.0f} s", what,
-                                           step.applications, step.residual, watch_.seconds());
-                    });
-                    return !interrupted() && watch_.seconds() < end;
-                }};
+        EigenLimits limits;
+        limits.most = static_cast<double>(request_.most);
+        limits.look = [this, what](const EigenStep& step) {
+            tell_([&] {
+                return fmt::format("{}   {:.0f} applications of K   largest residual {:.1e}   {:.0f} s", what, step.applications,
+                                   step.residual, watch_.seconds());
+            });
+        };
+        limits.watch.stop = [this, end] { return interrupted() || watch_.seconds() >= end; };
+        return limits;
     }
 
 private:
@@ -65,7 +68,7 @@ ChannelSpectrum channel_spectrum(const PatchScene& scene, int c, int eigenvalues
     s.leading = leading_eigenpairs(K, eigenvalues, false, limits);
     s.radius = s.leading.radius();
     if (!std::isfinite(s.radius)) {
-        s.bounds = radius_bounds(K, most_for_bounds, [] { return !interrupted(); });
+        s.bounds = radius_bounds(K, most_for_bounds, {.stop = interrupted});
         if (s.bounds->meet()) s.radius = s.bounds->high;
     }
     return s;
@@ -80,7 +83,7 @@ void judge(ChannelSpectrum& s, const PatchScene& scene, int c, const std::vector
     if (s.convergence != Convergence::converges) return;
     const TracedChannel K = system.channel(c);
     try {
-        const StoppableChannel stoppable(K, [&] { return !limits.go_on({}); });
+        const StoppableChannel stoppable(K, limits.watch);
         const auto rows = power_rows(stoppable, system.emitted(c), system.direct(c), power_left, SpectrumReport::most_bounces);
         for (std::size_t i = 0; i < s.bounces.size(); ++i) s.bounces[i] = bounces_until(rows, SpectrumReport::remaining[i]);
     } catch (const Stopped&) {

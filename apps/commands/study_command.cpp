@@ -140,7 +140,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     } else {
         status("short runs that measure how fast the methods are", 0.0);
         auto plan = plan_study({request.budgets, request.samples, request.reference_samples}, methods, data.bounces, request.seed,
-                               scene, pilot, interrupted);
+                               scene, pilot, {.stop = interrupted});
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);
     }
@@ -149,7 +149,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         choice = journal.plan.at("choice");
         if (request.reference.empty()) request.reference = journal.plan.at("reference").at("method");
     } else if (request.reference.empty()) {
-        auto chosen = choose_reference(scene, pilot, data.bounces, interrupted);
+        auto chosen = choose_reference(scene, pilot, data.bounces, {.stop = interrupted});
         if (!chosen) return nothing_done();
         request.reference = chosen->method;
         choice = chosen->why;

@@ -61,7 +61,8 @@ void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) 
         const Effort& effort = data.plan.efforts[method][budget];
         const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
         data.peak_is_of_run = restart_peak_memory();
-        const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot, interrupted);
+        const auto result =
+            run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot, {.stop = interrupted});
         if (!result) return;
         StudyRun run = make_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();

@@ -46,10 +46,10 @@ private:
 template <int C, class Op, class Look>
 TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::optional<ExitantVector<C>>& second,
                           const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings,
-                          const Look& look) {
+                          const Watch& watch, const Look& look) {
     const Coarsening coarsening(space, coarser);
     const auto K = [&](ExitantVector<C> x) {
-        settings.checkpoint();
+        if (watch.stop()) throw Stopped();
         return product(std::move(x));
     };
     const auto K_coarse = [&](const ExitantVector<C>& x) { return coarsening.mean<C>(K(coarsening.prolong<C>(x))); };
@@ -82,15 +82,15 @@ TracedSeries apply_powers(const Op& product, ExitantVector<C> term, const std::o
 
 template <int C>
 TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                         const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
+                         const TracedSeriesSettings& settings, const Watch& watch) {
+    const RayTable table(space, settings.rays, settings.seed, watch);
     const ReflectionMatrix<C> R(scene.materials, space);
     const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
     std::optional<ExitantVector<C>> direct;
     if (sample_lights) direct = direct_light<C>(scene, R, settings.light_samples, settings.seed);
     const PowerBalance<C> balance(table, R);
     TracedSeries series =
-        apply_powers<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings,
+        apply_powers<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings, watch,
                         [&](TracedSeries& s, const ExitantVector<C>& term) { s.power.push_back(balance.of(term)); });
     if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
     series.rays = table.seen().size() + series.light_rays;
@@ -99,12 +99,12 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
 
 template <int C>
 TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                           const TracedSeriesSettings& settings) {
-    const RayTable table(space, settings.rays, settings.seed, settings.checkpoint);
+                           const TracedSeriesSettings& settings, const Watch& watch) {
+    const RayTable table(space, settings.rays, settings.seed, watch);
     const ReflectionMatrix<C> R(scene.materials, space);
     TracedSeries series = apply_powers<C>(adjoint(R * TransportMatrix<C>(table)),
                                           camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space,
-                                          coarser, settings, [](TracedSeries&, const ExitantVector<C>&) {});
+                                          coarser, settings, watch, [](TracedSeries&, const ExitantVector<C>&) {});
     series.fine.average_over_directions();
     series.coarse.average_over_directions();
     series.rays = table.seen().size() + std::uint64_t{settings.camera_samples} * static_cast<std::uint64_t>(scene.film.crop_width) *
@@ -115,13 +115,15 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
 }  // namespace
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                          const TracedSeriesSettings& settings) {
-    return is_grey(scene) ? trace_light<1>(scene, space, coarser, settings) : trace_light<4>(scene, space, coarser, settings);
+                          const TracedSeriesSettings& settings, const Watch& watch) {
+    return is_grey(scene) ? trace_light<1>(scene, space, coarser, settings, watch)
+                          : trace_light<4>(scene, space, coarser, settings, watch);
 }
 
 TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                              const TracedSeriesSettings& settings) {
-    return is_grey(scene) ? trace_adjoint<1>(scene, space, coarser, settings) : trace_adjoint<4>(scene, space, coarser, settings);
+                              const TracedSeriesSettings& settings, const Watch& watch) {
+    return is_grey(scene) ? trace_adjoint<1>(scene, space, coarser, settings, watch)
+                          : trace_adjoint<4>(scene, space, coarser, settings, watch);
 }
 
 }  // namespace neumann

@@ -7,7 +7,6 @@
 #include "operators/matrix/traced_channel.h"
 
 #include <cstdint>
-#include <functional>
 
 namespace neumann {
 
@@ -21,10 +20,9 @@ struct TracedSettings {
 class TracedSystem {
 public:
     // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another, and if
-    // the patches and rays need too much memory. `checkpoint` is called now and then while T is traced, from any thread, and may
-    // throw to stop.
-    TracedSystem(
-        const Scene& scene, const TracedSettings& settings, const std::function<void()>& checkpoint = [] {});
+    // the patches and rays need too much memory. Throws Stopped if `watch` stops it while T is
+    // traced.
+    TracedSystem(const Scene& scene, const TracedSettings& settings, const Watch& watch = {});
     TracedSystem(const TracedSystem&) = delete;
     TracedSystem& operator=(const TracedSystem&) = delete;
 

@@ -97,7 +97,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
         throw InputError(
             "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
     auto rendered = given && !goal.seconds
-                        ? render_fields_once(job.scene, settings, job.watch.stop)
+                        ? render_fields_once(job.scene, settings, job.watch)
                         : std::optional(render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given), job.watch));
     if (!rendered) throw RunError("interrupted before the pictures were finished: nothing was written");
     FieldRun& run = *rendered;

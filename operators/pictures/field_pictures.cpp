@@ -29,8 +29,6 @@ struct Workspace {
     std::array<std::uint64_t, 3> rays{};
 };
 
-struct GivenUp {};
-
 EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
     std::vector<std::vector<EnergyShares>> all;
     for (const TracedSeries& series : replicates) {
@@ -133,7 +131,7 @@ PictureMeans FieldPictures::means(std::size_t first, std::size_t last) const {
     return means;
 }
 
-std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop) {
+std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const Watch& watch) {
     const Stopwatch field_watch;
     const auto asked = static_cast<double>(settings.patching.patches);
     check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
@@ -148,16 +146,14 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
-    const auto checkpoint = [&] {
-        if (stop()) throw GivenUp();
-    };
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
         const auto trace = result.importance ? trace_importance : trace_series;
         try {
             series.push_back(trace(scene, space, coarser,
                                    {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r,
-                                    settings.rest, settings.samples, checkpoint}));
-        } catch (const GivenUp&) {
+                                    settings.rest, settings.samples},
+                                   watch));
+        } catch (const Stopped&) {
             return std::nullopt;
         }
         result.rays[later] += series.back().rays;
@@ -245,7 +241,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::atomic<bool> dropped = false;
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
-        if (stop()) dropped = true;
+        if (watch.stop()) dropped = true;
         if (dropped) return;
         Workspace& work = workspaces.local();
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) render(group, work);

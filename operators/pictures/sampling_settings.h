@@ -5,7 +5,6 @@
 #include "operators/walk/walk_settings.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -40,8 +39,5 @@ struct SamplingSettings {
 
     std::size_t quantities() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
 };
-
-// Called from any thread with the number of pixels done; if it returns true, the work is dropped.
-using PixelWatch = std::function<bool(std::uint64_t pixels_done)>;
 
 }  // namespace neumann

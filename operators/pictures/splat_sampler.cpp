@@ -111,7 +111,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
 }
 
 bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
-                                  const std::function<bool(double)>& part_done) const {
+                                  const Watch& watch) const {
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = pixels_ * settings_.replicate_size, at_once = paths_at_once * groups_at_once;
     picture.assign(pixels_ * Q, Rgb(0.0));
@@ -160,7 +160,8 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                                splatted[s.pixel * Q + s.quantity] += s.value;
                                ranges.shares.of[s.pixel * Q + s.quantity].add(s.value);
                            }
-                           if (part_done(static_cast<double>(chunk->end) / samples)) dropped = true;
+                           watch.progress({.fraction = static_cast<double>(chunk->end) / samples});
+                           if (watch.stop()) dropped = true;
                        }));
     if (dropped) return false;
     for (const Workspace& work : workspaces) tally.merge(work.tally);
@@ -176,7 +177,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     return true;
 }
 
-std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                              std::vector<double> memory) const {
     const std::size_t Q = settings_.quantities(), stride = Q * PixelMoments::doubles_per_quantity;
     std::vector<std::vector<double>> waiting(static_cast<std::size_t>(std::countr_zero(count)) + 1);
@@ -194,11 +195,11 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
         });
     };
     for (std::uint64_t r = 0; r < count; ++r) {
-        const auto part_done = [&](double part) {
-            const double done = (static_cast<double>(r) + part) / static_cast<double>(count);
-            return watch && watch(static_cast<std::uint64_t>(done * pixels_));
+        Watch of_picture = watch;
+        of_picture.progress = [&](const RenderProgress& part) {
+            watch.progress({.fraction = (static_cast<double>(r) + part.fraction) / static_cast<double>(count)});
         };
-        if (!sample_picture(first + r, picture, ranges, new_tally, part_done)) return std::nullopt;
+        if (!sample_picture(first + r, picture, ranges, new_tally, of_picture)) return std::nullopt;
         carry.resize((pixels_ + 1) * stride);
         const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
         for_each_pixel(

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "operators/solvers/channel_operator.h"
-
-#include <functional>
+#include "operators/watch.h"
 
 namespace neumann {
 
@@ -16,8 +15,7 @@ struct RadiusBounds {
 
 // ρ(K) ≤ ‖K^n 1‖∞^(1/n), for every n. And where y ≥ 0 is not 0 and K y ≥ a y, ρ(K) ≥ a (Collatz and Wielandt): y is 1 on the
 // unknowns whose row of K^n is as large as the largest, which are closed among themselves once all others have lost some.
-// n = 16, 32, 64 …, until they meet or there have been `most` applications; fewer where go_on() is false.
-RadiusBounds radius_bounds(
-    const ChannelOperator& K, double most, const std::function<bool()>& go_on = [] { return true; });
+// n = 16, 32, 64 …, until they meet or there have been `most` applications; fewer where `watch` stops it.
+RadiusBounds radius_bounds(const ChannelOperator& K, double most, const Watch& watch = {});
 
 }  // namespace neumann

@@ -112,7 +112,8 @@ private:
         if (columns_ >= m_nev && columns_ <= before) note();
         const EigenStep last = history_.empty() ? EigenStep{product_.applications()} : history_.back();
         if (product_.applications() >= limits_.most) end("");
-        if (!limits_.go_on({product_.applications(), last.residual})) end("stopped");
+        limits_.look({product_.applications(), last.residual});
+        if (limits_.watch.stop()) end("stopped");
     }
     // After a restart.
     void note() {
@@ -189,7 +190,8 @@ OperatorNorms operator_norms(const ChannelOperator& K, const EigenLimits& limits
     } else {
         square.watch = [&](const double*) {
             // Each is one of K and one of K*.
-            if (2.0 * square.applications() >= limits.most || !limits.go_on({2.0 * square.applications()})) throw Ended();
+            limits.look({2.0 * square.applications()});
+            if (2.0 * square.applications() >= limits.most || limits.watch.stop()) throw Ended();
         };
         Spectra::SymEigsSolver<Product> lanczos(square, 1, 20);
         try {

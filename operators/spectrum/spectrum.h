@@ -5,6 +5,7 @@
 #pragma once
 
 #include "operators/solvers/channel_operator.h"
+#include "operators/watch.h"
 
 #include <complex>
 #include <functional>
@@ -21,7 +22,8 @@ struct EigenStep {
 // When a search ends that does not find what it looks for.
 struct EigenLimits {
     double most = 10000.0;  // applications of K; also where it is foretold to take more
-    std::function<bool(const EigenStep&)> go_on = [](const EigenStep&) { return true; };  // asked before each
+    std::function<void(const EigenStep&)> look = [](const EigenStep&) {};  // called before each
+    Watch watch = {};                                                      // a search that it stops has found nothing
 };
 
 // In the norms Σ m|f|, (Σ m f²)^½ and max |f|, m the measure: where f is radiance and m étendue, the first is power. `one_at`: the

@@ -71,15 +71,18 @@ TEST(FieldPictures, AreGivenUpSoonAfterTheInterruption) {
     settings.patching.patches = 500;
     settings.replicates = 2;
     std::atomic<int> asked = 0;
-    ASSERT_TRUE(render_fields(scene, settings, [&] {
+    Watch watch;
+    watch.stop = [&] {
         ++asked;
         return false;
-    }));
+    };
+    ASSERT_TRUE(render_fields(scene, settings, watch));
     const int all = asked;
     EXPECT_GT(all, 50);
     for (const int patience : {0, 5, all / 4, all / 2, all - 40}) {
         asked = 0;
-        EXPECT_FALSE(render_fields(scene, settings, [&] { return asked++ >= patience; })) << patience << " of " << all;
+        watch.stop = [&] { return asked++ >= patience; };
+        EXPECT_FALSE(render_fields(scene, settings, watch)) << patience << " of " << all;
         EXPECT_LE(asked, patience + 1 + oneapi::tbb::this_task_arena::max_concurrency()) << patience << " of " << all;
     }
 }

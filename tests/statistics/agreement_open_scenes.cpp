@@ -89,7 +89,7 @@ void expect_agreement(const std::string& lights, bool found_by_chance) {
         settings.samples = 8;
         settings.replicates = 32;
         settings.seed = 5;
-        const FieldPictures pictures = *render_fields(scene, settings, [] { return false; });
+        const FieldPictures pictures = *render_fields(scene, settings);
         Means found;
         for (std::size_t i = 0; i <= bounces; ++i) found.push_back(pictures.mean_of_term(i));
         expect_alike(found, walked, method == FieldMethod::matrix ? "matrix" : "gather", 0.04, 0.01);

@@ -187,9 +187,9 @@ TEST_P(Determinism, ADroppedBlockLeavesNoTrace) {
     const Scene scene = cornell_box();
     const PictureSampler sampler(scene, settings(GetParam()));
     Tally tally(sampler.quantities()), expected(sampler.quantities());
-    EXPECT_FALSE(sampler.run(0, 2, tally, [](std::uint64_t) { return true; }));
+    EXPECT_FALSE(sampler.run(0, 2, tally, {.stop = [] { return true; }}));
     expect_same(tally, expected);
-    const MomentsNode again = *sampler.run(0, 2, tally), plain = *sampler.run(0, 2, expected, [](std::uint64_t) { return false; });
+    const MomentsNode again = *sampler.run(0, 2, tally), plain = *sampler.run(0, 2, expected);
     EXPECT_TRUE(same_bits(again.data, plain.data));
     expect_same(tally, expected);
 }
