@@ -33,6 +33,8 @@ public:
 
     // 1 if the scene is grey, otherwise 3.
     int channels() const { return static_cast<int>(R_.size()); }
+    // "grey", or "red", "green", "blue".
+    const char* channel_name(int c) const;
     const ReflectionMatrix<1>& reflection(int c) const { return R_[static_cast<std::size_t>(c)]; }
     // A channel of K; it refers to the table and R of this object.
     TracedChannel channel(int c) const { return {table_, reflection(c)}; }
