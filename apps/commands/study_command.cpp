@@ -172,8 +172,11 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     }
 
     run_all(data, journal, status);
-    data.points = judge(data, journal);
-    const auto pictures = summarise(data);
+    const Film& film = scene.film;
+    data.points = study_points(journal.runs, data.plan, data.reference.pictures, [&](std::size_t n, std::size_t q) {
+        return journal.picture(n, q, film.crop_width, film.crop_height, data.pictures());
+    });
+    const auto pictures = summarise(data.points, data.plan, data.reference.pictures, request.error);
     if (!pictures.empty()) {
         const Json json = study_json(data, pictures);
         folder.write("study.csv", study_csv(data));
