@@ -1,8 +1,8 @@
 #include "apps/commands/patch_scene.h"
 
-#include "apps/commands/definitions.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/commands/parse_definitions.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"

@@ -1,8 +1,8 @@
 #include "apps/commands/study_command.h"
 
-#include "apps/commands/definitions.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/commands/parse_definitions.h"
 #include "apps/commands/study_runs.h"
 #include "apps/files/output_folder.h"
 #include "core/base/error.h"

@@ -5,7 +5,7 @@
 #include "operators/solvers/stoppable.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/remaining.h"
-#include "operators/spectrum/rounding.h"
+#include "operators/spectrum/rounding_floor.h"
 
 #include <fmt/format.h>
 #include <cmath>

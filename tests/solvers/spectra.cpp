@@ -1,9 +1,9 @@
-// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/known/spectra.cpp.
+// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/known/eigenvalues.cpp.
 #include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/radius_bounds.h"
-#include "operators/spectrum/rounding.h"
+#include "operators/spectrum/rounding_floor.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>

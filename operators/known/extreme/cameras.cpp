@@ -1,6 +1,6 @@
 // Cameras in odd places, and with nothing to see.
 #include "core/base/error.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"
 #include "operators/matrix/scene_patches.h"

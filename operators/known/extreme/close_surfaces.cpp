@@ -1,5 +1,5 @@
 // Surfaces that are nearer to each other than floats of the scene's size can tell: creases, thin gaps, boxes that touch.
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/scene_maker.h"
 

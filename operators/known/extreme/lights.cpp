@@ -1,5 +1,5 @@
 // Lights that are small, large, or low.
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"

@@ -1,6 +1,6 @@
 // In a picture: every sample that is no number is counted and none is painted black in silence.
 #include "core/base/error.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/scene_maker.h"
 #include "operators/methods/render.h"
 

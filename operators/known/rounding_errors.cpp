@@ -6,10 +6,10 @@
 //     added with compensation             2 u
 //
 // against the exact sum (1−ρ^n)/(1−ρ) for the ρ that is left after rounding.
-#include "operators/spectrum/rounding.h"
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/series/compensated_sum.h"
+#include "operators/spectrum/rounding_floor.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Needles, and shapes in one place.
 #include "core/sampling/independent_sampler.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/extreme/unit_cube.h"
 

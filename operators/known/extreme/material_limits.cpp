@@ -2,7 +2,7 @@
 #include "core/material/fresnel.h"
 #include "core/sampling/independent_sampler.h"
 #include "core/sampling/warp.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
 #include "operators/known/quadrature.h"
 #include "operators/known/scene_maker.h"
