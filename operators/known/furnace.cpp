@@ -148,10 +148,10 @@ void add_laws(Cases& cases) {
                                  start.weight = grey((1.0 - r) / r);
                                  return start;
                              };
-                             for (const Technique way : {Technique::mis, Technique::bsdf})
+                             for (const Technique technique : {Technique::mis, Technique::bsdf})
                                  figures.sampled(
-                                     fmt::format("absorbed/emitted, {}", short_name(way)),
-                                     scaled(sharp_probe(scene, absorbed, way,
+                                     fmt::format("absorbed/emitted, {}", short_name(technique)),
+                                     scaled(sharp_probe(scene, absorbed, technique,
                                                         {.samples = 1024, .bounces = 0, .rest_probability = 1.0, .seed = seed})
                                                 .reflected,
                                             AreaSampler(scene.geometry).area() / emitted),

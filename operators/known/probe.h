@@ -38,11 +38,11 @@ StartPicker anywhere(const Scene& scene);
 enum class Technique { mis, bsdf, light, pointwise, surfaces };
 // Those that also go by mirrors and glass.
 inline constexpr Technique specular_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
-std::string name(Technique way);
+std::string name(Technique technique);
 // In a word, for names of cases.
-std::string short_name(Technique way);
+std::string short_name(Technique technique);
 // The others find a light by chance, with a probability that is its form factor, and need many more samples.
-inline bool looks_for_lights(Technique way) { return way == Technique::mis || way == Technique::light; }
+inline bool looks_for_lights(Technique technique) { return technique == Technique::mis || technique == Technique::light; }
 
 // How walks go on: by directions of the material, by points on all surfaces, by mirrors alone.
 enum class GoingOn { material, surfaces, specular };
@@ -59,7 +59,7 @@ struct ProbeSettings {
     int give_up = 1'000'000;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = default_seed;
-    std::optional<DirectLightSettings> direct = {};  // of a walk, in place of its way's
+    std::optional<DirectLightSettings> direct = {};  // of a walk, in place of its technique's
     Roulette roulette = {};
     GoingOn going_on = GoingOn::material;  // of a walk
     Split split = {};                      // likewise
@@ -84,11 +84,11 @@ struct Estimates {
     std::uint64_t samples = 0;
 };
 
-Estimates probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort);
+Estimates probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings);
 
 // Goes on to more samples until the standard errors of all terms from K Le on that are not 0, and of the rest if it is asked for,
 // are at most 0.19% of them, or a batch has `most` samples.
-Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort,
+Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings,
                       std::uint32_t most = 1u << 17);
 
 inline Rgb power_of(const Rgb& rho, int i) { return {std::pow(rho.r, i), std::pow(rho.g, i), std::pow(rho.b, i)}; }

@@ -1,7 +1,7 @@
 #include "operators/solvers/side_by_side.h"
 
 #include "core/base/stopwatch.h"
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
 
 #include <string_view>

@@ -26,11 +26,11 @@ constexpr double first_forecast = 512.0;
 struct Ended {};
 
 // What Spectra asks of a matrix.
-class Product {
+class SpectraMatrix {
 public:
     using Scalar = double;
 
-    Product(Eigen::Index size, std::function<void(const Vector&, Vector&)> apply)
+    SpectraMatrix(Eigen::Index size, std::function<void(const Vector&, Vector&)> apply)
         : apply_(std::move(apply)), input_(size), output_(size) {}
 
     // Told the place of each vector that K is to be applied to; may throw to end a search.
@@ -58,7 +58,8 @@ private:
     mutable double applications_ = 0.0;
 };
 
-Eigenpairs finish(const Product& product, const Eigen::VectorXcd& values, const Eigen::MatrixXcd& vectors, Eigen::Index count) {
+Eigenpairs finish(const SpectraMatrix& product, const Eigen::VectorXcd& values, const Eigen::MatrixXcd& vectors,
+                  Eigen::Index count) {
     Eigenpairs result;
     for (Eigen::Index i = 0; i < values.size(); ++i) result.pairs.push_back({values[i], vectors.col(i).normalized(), 0.0});
     std::stable_sort(result.pairs.begin(), result.pairs.end(),
@@ -76,9 +77,9 @@ Eigenpairs finish(const Product& product, const Eigen::VectorXcd& values, const 
 }
 
 // Arnoldi's method that can be looked at, and ended, at any application of K.
-class Arnoldi : public Spectra::GenEigsSolver<Product> {
+class Arnoldi : public Spectra::GenEigsSolver<SpectraMatrix> {
 public:
-    Arnoldi(Product& product, Eigen::Index wanted, Eigen::Index dimensions, const EigenLimits& limits)
+    Arnoldi(SpectraMatrix& product, Eigen::Index wanted, Eigen::Index dimensions, const EigenLimits& limits)
         : GenEigsSolver(product, wanted, dimensions), product_(product), limits_(limits) {
         product.watch = [this](const double* x) { look(x); };
     }
@@ -155,7 +156,7 @@ private:
         return m_fac.matrix_H()(columns_, columns_ - 1) * std::abs(y[columns_ - 1]);
     }
 
-    Product& product_;
+    SpectraMatrix& product_;
     const EigenLimits& limits_;
     Eigen::Index columns_ = 0;  // of V and H that are whole
     double forecast_ = first_forecast;
@@ -178,7 +179,7 @@ OperatorNorms operator_norms(const ChannelOperator& K, const EigenLimits& limits
     // D K*K D⁻¹ with D = diag(√m) is symmetric.
     const Vector root = K.measure().cwiseSqrt();
     Vector once(n);
-    Product square(n, [&](const Vector& x, Vector& y) {
+    SpectraMatrix square(n, [&](const Vector& x, Vector& y) {
         K.apply(x.cwiseQuotient(root), once);
         K.apply_adjoint(once, y);
         y.array() *= root.array();
@@ -193,7 +194,7 @@ OperatorNorms operator_norms(const ChannelOperator& K, const EigenLimits& limits
             limits.look({2.0 * square.applications()});
             if (2.0 * square.applications() >= limits.most || limits.watch.stop()) throw Ended();
         };
-        Spectra::SymEigsSolver<Product> lanczos(square, 1, 20);
+        Spectra::SymEigsSolver<SpectraMatrix> lanczos(square, 1, 20);
         try {
             lanczos.init();
             lanczos.compute(Spectra::SortRule::LargestMagn, 1000, 1e-13);
@@ -215,7 +216,7 @@ double Eigenpairs::radius() const {
 
 Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint, const EigenLimits& limits) {
     const Eigen::Index n = K.size(), wanted = std::min<Eigen::Index>(count, n);
-    Product product(n, [&](const Vector& x, Vector& y) { adjoint ? K.apply_adjoint(x, y) : K.apply(x, y); });
+    SpectraMatrix product(n, [&](const Vector& x, Vector& y) { adjoint ? K.apply_adjoint(x, y) : K.apply(x, y); });
     if (wanted <= 0) return {};
     if (n <= small || wanted > n - 2) {
         const Eigen::EigenSolver<Eigen::MatrixXd> solver(product.formed());

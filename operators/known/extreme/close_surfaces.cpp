@@ -48,8 +48,9 @@ void groove(Figures& figures, std::uint64_t seed, double half_length, double p, 
     std::vector<double> exact;
     for (int i = 1; i <= 3; ++i) exact.push_back(std::pow(rho, i) * s * std::pow(1.0 - s, i - 1));
     const StartPicker start = on_shape(scene, floor, moved(to_world, {p, 0.3, 0}), turned(to_world, {0, 0, 1}));
-    for (const Technique way : {Technique::mis, Technique::bsdf})
-        figures.terms(sharp_probe(scene, start, way, {.samples = 1024, .bounces = 3, .seed = seed}), exact, 1, 4.0 * 0.5684 * p);
+    for (const Technique technique : {Technique::mis, Technique::bsdf})
+        figures.terms(sharp_probe(scene, start, technique, {.samples = 1024, .bounces = 3, .seed = seed}), exact, 1,
+                      4.0 * 0.5684 * p);
 }
 
 // Form factors of rectangles from a point, for the corner that is nearest to it; Howell, A Catalog of Radiation Heat Transfer
@@ -72,9 +73,9 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
     const Scene scene = maker.make();
     const auto measure = [&](const char* where, double x, double F) {
         const StartPicker start = on_shape(scene, ground, moved(to_world, {x, 0, 0}), turned(to_world, {0, 0, 1}));
-        for (const Technique way : {Technique::mis, Technique::bsdf})
-            figures.sampled(fmt::format("K Le {}, {}", where, short_name(way)),
-                            sharp_probe(scene, start, way, {.samples = 1024, .bounces = 1, .seed = seed}).terms[1],
+        for (const Technique technique : {Technique::mis, Technique::bsdf})
+            figures.sampled(fmt::format("K Le {}, {}", where, short_name(technique)),
+                            sharp_probe(scene, start, technique, {.samples = 1024, .bounces = 1, .seed = seed}).terms[1],
                             rho * (1.0 - F));
     };
     const double side = perpendicular_corner(0.5, 1.0 + gap, gap) - perpendicular_corner(0.5, gap, gap);

@@ -23,9 +23,9 @@ Cases extreme_shape_cases() {
                              const Vec3 across(0, 0.01, 0), along(20, 0, 0);
                              maker.add(strips(Vec3(0, 0, 1) - 0.5 * (across + along), across, along, pieces), lamp(2.0));
                              const Scene scene = maker.make();
-                             for (const Technique way : {Technique::mis, Technique::light})
-                                 figures.sampled(fmt::format("K Le, {}", short_name(way)),
-                                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way,
+                             for (const Technique technique : {Technique::mis, Technique::light})
+                                 figures.sampled(fmt::format("K Le, {}", short_name(technique)),
+                                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), technique,
                                                              {.samples = 1024, .bounces = 1, .seed = seed})
                                                      .terms[1],
                                                  rectangle_overhead(20.0, 0.01, 1.0));
