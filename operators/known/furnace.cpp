@@ -82,7 +82,7 @@ void add_lengths(Cases& cases) {
                              TermSeries series(K, Vector::Ones(1));
                              const double L = 1.0 / (1.0 - rho);
                              for (const double goal : {1e-6, 1e-12}) {
-                                 // Of L: the sum is rounded, and its terms are (rounding.cpp). What is smaller is not to be seen.
+                                 // Of L: the sum is rounded, and its terms are (rounding_errors.cpp). What is smaller is not to be seen.
                                  const double rounding = std::numeric_limits<double>::epsilon() * (2.0 + 0.5 * rho / (1.0 - rho));
                                  if (rounding > 0.1 * goal) continue;
                                  while (L - series.sum()[0] > goal * L) series.advance();
