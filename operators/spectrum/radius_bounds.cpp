@@ -10,7 +10,7 @@ RadiusBounds radius_bounds(const ChannelOperator& K, double most, const Watch& w
     constexpr int first = 16;
     RadiusBounds bounds{0.0, std::numeric_limits<double>::infinity(), 0.0};
     Vector x = Vector::Ones(K.size()), next(K.size());
-    double log_size = 0.0;  // of K^n 1; x is that, scaled
+    double log_size = 0.0;  // log ‖K^n 1‖∞; x is K^n 1, scaled to the norm 1
     for (int n = 1, look = first; bounds.applications < most && !watch.stop(); ++n) {
         K.apply(x, next);
         ++bounds.applications;
