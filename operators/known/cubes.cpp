@@ -127,7 +127,7 @@ double point_factor(const Vec3& p, const Vec3& n, const Parallelogram& patch) {
     }
     return std::abs(sum) / (2.0 * pi);
 }
-// What the middle of a face receives of g: no patch of the face itself is seen.
+// The mean of g that arrives at the middle of a face, which sees no patch of its own face.
 double gathered(const Cube& cube, const Vector& x, const Parallelogram& face) {
     double sum = 0.0;
     for (Eigen::Index u = 0; u < cube.size(); ++u) {
@@ -138,7 +138,8 @@ double gathered(const Cube& cube, const Vector& x, const Parallelogram& face) {
     return sum;
 }
 
-// Piecewise constant radiance on n × n patches a face has errors of its own, h² ln h from the corners: these are known too.
+// Piecewise constant radiance on n × n patches a face has discretisation errors of order h² ln h from the corners, which are
+// known too.
 void add_patches(Cases& cases) {
     struct Row {
         int n;

@@ -17,7 +17,7 @@ struct Receiver {
     Vec3 point, normal;
 };
 
-// By ways that look for the light, and by chance where that is not too rare.
+// By all techniques that sample lights, and by the others where the light is large enough to be found by chance.
 void add_point(Cases& cases, const std::string& name, const Shape& light, const Receiver& receiver, double F) {
     for (const Technique technique :
          {Technique::mis, Technique::light, Technique::bsdf, Technique::pointwise, Technique::surfaces}) {
@@ -49,7 +49,7 @@ Parallelogram flat(const TriangleMesh& mesh) {
     return turned ? Parallelogram{corner, b, a} : Parallelogram{corner, a, b};
 }
 
-// Averages over the receiver. Where both touch, light sampling has infinite variance (∫ G² diverges).
+// Means over the receiver. If it touches the light, light sampling has infinite variance (∫ G² diverges).
 struct Pair {
     const char* name;
     TriangleMesh receiver, light;
@@ -135,7 +135,7 @@ void add_sky(Cases& cases) {
              }});
 }
 
-// Without extent, and asked for by every walk alike: ρ I cosθ/(π d²) and ρ E0 cosθ/π, to rounding.
+// Lights without extent, which every walk samples alike: ρ I cosθ/(π d²) and ρ E0 cosθ/π, to rounding.
 void add_point_lights(Cases& cases) {
     cases.push_back(
         {"direct-light/point-and-parallel", "rho I cos/(pi d^2), rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {

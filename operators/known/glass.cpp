@@ -15,7 +15,7 @@ namespace {
 constexpr double n = 1.5;
 
 Surface glass(double eta = n) { return boundary(Dielectric(eta), Dielectric(1.0 / eta)); }
-// At 0, 45, 60, 80 and 89.9 degrees; Fresnel's equations in high precision.
+// At 0, 45, 60, 80 and 89.9 degrees, from Fresnel's equations in high precision.
 constexpr std::pair<double, double> reflected[] = {
     {0.0, 0.04}, {45.0, 0.050239911012}, {60.0, 0.089186712802}, {80.0, 0.387704354691}, {89.9, 0.989911876919}};
 
@@ -97,7 +97,8 @@ void sphere(Figures& figures, std::uint64_t seed, Technique technique) {
     figures.near("trapped light, largest term", most, 0.0, 0.0);
 }
 
-// What goes to and fro within a pane is one bounce, 2R/(1 + R) in all; nothing turns, so a lamp behind is seen where it is.
+// A thin pane counts all reflections within it as one bounce, 2R/(1 + R) in all. It does not refract, so a lamp behind it is seen
+// where it is.
 void pane(Figures& figures, std::uint64_t seed, Technique technique) {
     const double theta = pi / 3.0, R = 0.089186712802, share = 2.0 * R / (1.0 + R);
     figures.near("2R/(1 + R) at 60 degrees", share, 0.163767537, 1e-9);
@@ -117,7 +118,7 @@ void pane(Figures& figures, std::uint64_t seed, Technique technique) {
     }
 }
 
-// Le = 1 − ρ on a wall of reflectance ρ gives L = 1 everywhere outside glass, whatever glass is in the room.
+// Le = 1 − ρ on walls of reflectance ρ gives L = 1 everywhere outside of glass, whatever glass stands in the room.
 void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique technique) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 2.0, true}, glowing(0.5, 0.5));

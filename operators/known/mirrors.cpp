@@ -1,5 +1,5 @@
-// Mirrors: light goes one way only, so that every term is a product along a path that geometry gives, without variance, in
-// whichever way lights are looked for.
+// Mirrors: light follows a single path, which geometry gives, and every term is a product along it. Samples have no variance,
+// whatever the technique for direct light.
 #include "core/material/retroreflector.h"
 #include "core/sampling/warp.h"
 #include "operators/known/groups.h"
@@ -16,12 +16,12 @@ namespace {
 constexpr double mirror_rho = 0.9;
 
 Conductor mirror() { return Conductor({}, grey(mirror_rho)); }
-// Few samples are enough: all have to be the same. Operators start anew for every term.
+// Few samples are enough, because all must be equal. Pointwise operators start again for every term, so they have fewer bounces.
 ProbeSettings probe_settings(Technique technique, int bounces, std::uint64_t seed) {
     return {.samples = 2, .bounces = technique == Technique::pointwise ? std::min(bounces, 12) : bounces, .seed = seed};
 }
 
-// The first and the last few terms one by one, and the worst of all.
+// Figures for the first and the last few terms, and for the worst of all.
 void add_terms(Figures& figures, const Estimates& found, const std::function<double(int)>& exact, double tolerance) {
     double worst = 0.0, spread = 0.0;
     const int last = static_cast<int>(found.terms.size()) - 1;

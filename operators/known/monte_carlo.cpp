@@ -1,4 +1,4 @@
-// What is known of estimators themselves: the variance of one sample, where it is finite; the tail of the samples, where it is not;
+// Properties of the estimators themselves: the variance of one sample where it is finite, the tail of the samples where it is not,
 // and how the error falls. All samples are independent here.
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
@@ -109,8 +109,8 @@ void coverage(Figures& figures, std::uint64_t seed) {
     }
 }
 
-// The ceiling touches the walls, so that from K² on light sampling has infinite variance: the alarm is raised, and not elsewhere.
-// What it has sampled by then is no value with an interval, and is not compared.
+// The ceiling touches the walls, so from K² on light sampling has infinite variance. The alarm must be raised there and nowhere
+// else. Means of infinite variance have no interval and are not compared.
 void touching_light(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     const auto upper = [](const LargestSamples& largest) {
@@ -124,7 +124,7 @@ void touching_light(Figures& figures, std::uint64_t seed) {
         const Estimates found = probe(scene, middle_of_floor(scene), technique, independent(16384, 2, seed));
         figures.at_least(fmt::format("K^2 Le by {}: tail index", short_name(technique)), upper(found.largest[2]), 2.0);
     }
-    // 4e6 paths of another program: its own error as ours for as many.
+    // From 4e6 paths of another program, whose error is that of as many paths here.
     ProbeSettings balance = independent(65536, 2, seed);
     balance.direct = DirectLightSettings{.direct = DirectLight::mis, .heuristic = Heuristic::balance};
     const Estimates mixed = probe(scene, middle_of_floor(scene), Technique::mis, balance);

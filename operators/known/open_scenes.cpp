@@ -1,5 +1,6 @@
 // Scenes that light leaves, under a sky of radiance 1. A convex body sees only the sky; a cavity, a wedge and a corner of infinite
-// walls have terms that are constant on them; a groove and a tube are known by collocation, refined until it stands still.
+// walls have terms that are constant on them; a groove and a tube are computed by collocation, refined until the values no longer
+// change.
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 void under_the_sky(SceneMaker& maker) { maker.parts.lights.environment = ConstantEnvironment(grey(1.0)); }
 
-// K Le = ρ and K^i Le = 0 for i ≥ 2, exactly: anything else is a ray that hits the surface it starts on.
+// K Le = ρ and K^i Le = 0 for i ≥ 2, exactly. Any other value comes from a ray that hits the surface it starts on.
 void add_convex(Cases& cases, const char* name, const Shape& body) {
     cases.push_back({fmt::format("open/convex/{}", name), "rho, then exactly 0", [body](Figures& figures, std::uint64_t seed) {
                          const double rho = 0.5;

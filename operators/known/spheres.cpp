@@ -1,4 +1,4 @@
-// Inside a diffuse sphere every point sees every other alike: G is constant, K has rank one, and for any ρ(p) and Le(p)
+// Inside a diffuse sphere every point sees every other equally: G is constant, K has rank one, and for any ρ(p) and Le(p)
 //
 //     K^i Le (p) = ρ(p) <ρ>^(i−1) <Le>,   i ≥ 1,   <·> the mean over the sphere.
 //
@@ -22,7 +22,7 @@ const Vec3 center(0.3, -0.7, 1.1);
 constexpr double radius = 2.5;
 constexpr Technique all_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise,
                                         Technique::surfaces};
-// Operators start anew for every term.
+// Pointwise operators start again for every term.
 int bounces_of(Technique technique) { return technique == Technique::pointwise || technique == Technique::surfaces ? 3 : 8; }
 
 double height(const SurfacePoint& p) { return (p.position.z - center.z) / radius; }
@@ -59,7 +59,7 @@ Cases sphere_cases() {
                                            {.samples = 1024, .bounces = bounces_of(technique), .seed = seed}),
                                geometric(0.7 * 4.0 / 3.0, 0.5, bounces_of(technique)));
              }});
-        // Other ways need minutes to 0.2%.
+        // Other techniques need minutes to reach 0.2%.
         if (technique == Technique::mis)
             cases.push_back({"sphere/emitting-cap/" + name, "10 f rho^i, f = (1 - cos 20)/2: exact",
                              [technique](Figures& figures, std::uint64_t seed) {
@@ -82,7 +82,7 @@ Cases sphere_cases() {
                                geometric(0.4, 0.8, bounces_of(technique)));
              }});
     }
-    // Largest albedo above 1, mean below: converges, but that is to be warned of.
+    // The largest albedo is above 1 and the mean below: the series converges, but a warning is expected.
     for (const double z : {0.5, -0.5})
         cases.push_back(
             {z > 0.0 ? "sphere/albedo-above-1/bright-half" : "sphere/albedo-above-1/dark-half", "rho(p) 0.9^(i-1): exact",

@@ -1,5 +1,5 @@
-// Two surfaces that each see themselves and the other evenly: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact, values are the same
-// all over each surface, up to the rim where they meet, and one eigenvalue is negative, so that terms alternate.
+// Two surfaces, each of which sees itself and the other equally from all its points: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact.
+// Values are constant on each surface, up to the rim where they meet. One eigenvalue is negative, so the terms alternate.
 //
 //     concentric spheres, inner seen from outside:  F12 = 1,  F21 = (r1/r2)²,  F22 = 1 − F21;
 //     a sphere closed by a disc, with the fraction f of the sphere's area:  F_dd = 0, F_ds = 1, F_sd = 1 − f, F_ss = f.
@@ -73,7 +73,7 @@ void add_dome(Cases& cases, double f, bool disc_glows) {
 
 void add_concentric(Cases& cases, double inner, int bounces) {
     for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::light}) {
-        if (technique == Technique::light && inner > 0.5) continue;  // a narrow gap: much noise
+        if (technique == Technique::light && inner > 0.5) continue;  // too noisy in a narrow gap
         cases.push_back({fmt::format("two-patches/spheres-{:.2g}/{}", inner, short_name(technique)), "2 x 2 matrix: exact",
                          [=](Figures& figures, std::uint64_t seed) {
                              const double rho = 0.9, F21 = inner * inner;

@@ -22,7 +22,7 @@ Mat4 turned_and_moved(const Vec3& to) { return glm::rotate(glm::translate(Mat4(1
 Vec3 moved(const Mat4& to_world, const Vec3& p) { return Vec3(to_world * glm::dvec4(p, 1.0)); }
 Vec3 turned(const Mat4& to_world, const Vec3& n) { return glm::dmat3(to_world) * n; }
 
-// At p on a shape, which a ray from space would miss: the floats nearest to where it starts may be behind the surface.
+// The point p on a shape, made without a ray: the float nearest to the origin of a ray may be behind the surface.
 StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, const Vec3& normal) {
     SurfacePoint nearest;
     double distance = std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
     measure("below it", 0.5 - gap, 2.0 * (parallel_corner(gap, 0.5, gap) + parallel_corner(1.0 - gap, 0.5, gap)));
 }
 
-// All that shines alike is seen to be ρ^i from everywhere; what is inside of bodies is black.
+// In a furnace every visible surface has ρ^i; the insides of bodies are black.
 void bodies_in_furnace(Figures& figures, std::uint64_t seed, const std::vector<Shape>& bodies, const Mat4& to_world) {
     SceneMaker maker;
     for (const TriangleMesh& face : room({-1, -1, 0}, {1, 1, 2})) maker.add(transformed(face, to_world), glowing(0.8, 1.0));

@@ -11,8 +11,6 @@
 
 namespace neumann::known {
 
-namespace {}  // namespace
-
 void lecture_circle(Figures& figures, std::uint64_t seed) {
     const Vec3 center(1930.420, 1973.505, 0.0);
     const double distance = glm::length(center);

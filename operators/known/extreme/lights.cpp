@@ -10,7 +10,7 @@ namespace neumann::known {
 
 Cases extreme_light_cases() {
     Cases cases;
-    // Of side s at the middle of a room of side 2, Le s² kept: ρ Le s² cosθ cosθ'/(π r²) (1 + O(s²/r²)).
+    // A light of side s in the middle of a room of side 2, with constant Le s²: ρ Le s² cosθ cosθ'/(π r²) (1 + O(s²/r²)).
     for (const double s : {1e-2, 1e-4, 1e-6})
         for (const bool round : {false, true})
             cases.push_back({fmt::format("extreme/light-size-{:g}/{}", s, round ? "sphere" : "square"), "point light, 1 + s^2/r^2",
@@ -49,11 +49,11 @@ Cases extreme_light_cases() {
                      // By area the light above, of all of it that is far away, is found once in 1e8 times: by solid angle.
                      settings.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  }
-                 // A ray in 3e7 passes by the light, which few samples do not show.
+                 // One ray in 3e7 passes the light, which few samples do not show.
                  figures.sampled("K Le", sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), technique, settings).terms[1], exact,
                                  0.7 * 3.0 - exact);
              }});
-    // Light that grazes: ρ E cosθ/π, and the part of a sphere that is above the horizon (direct_light.cpp).
+    // Light that grazes: ρ E cosθ/π, and the part of a sphere that is above the horizon (first_bounce.cpp).
     cases.push_back(
         {"extreme/grazing/parallel", "rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {
              for (const double cosine : {1e-2, 1e-4, 1e-6}) {

@@ -1,4 +1,4 @@
-// Roughness, index and albedo at their ends.
+// Roughness, refractive index and albedo at the ends of their ranges.
 #include "core/material/fresnel.h"
 #include "core/sampling/independent_sampler.h"
 #include "core/sampling/warp.h"
@@ -13,8 +13,6 @@
 #include <limits>
 
 namespace neumann::known {
-
-namespace {}  // namespace
 
 Cases extreme_material_cases() {
     Cases cases;

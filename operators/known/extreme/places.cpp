@@ -8,8 +8,6 @@
 
 namespace neumann::known {
 
-namespace {}  // namespace
-
 Cases extreme_place_cases() {
     Cases cases;
     struct Place {
