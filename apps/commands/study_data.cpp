@@ -75,10 +75,10 @@ std::string repeating_command(const StudyData& data, const StudyRun& run) {
     std::string command = fmt::format("neumann render {} -n {} --spp {} --seed {} --method {}", data.request.scene, data.bounces,
                                       run.samples, run.seed, name_of(method));
     const auto add = [&](const std::string& name, const std::string& value) { command += fmt::format(" {} {}", name, value); };
-    for (const auto& [name, value] : differences_of(method).options)
-        if (name != "patches" && name != "directions") add("--" + name, value);
-    if (run.patches) add("--patches", std::to_string(run.patches));
-    if (run.directions) add("--directions", std::to_string(run.directions));
+    Effort effort{run.samples};
+    if (run.patches) effort.patches = run.patches;
+    if (run.directions) effort.directions = static_cast<std::uint32_t>(run.directions);
+    for (const auto& [name, value] : differences_of(with_effort(method, effort)).options) add("--" + name, value);
     for (const auto& [name, value] : data.request.definitions) add("-D", name + "=" + value);
     return command;
 }
