@@ -11,7 +11,8 @@ bool has_specular(const Materials& materials) {
 
 Paths paths_of(PathMethod method, const Scene& scene) {
     if (method == PathMethod::classic) return Paths::specular;
-    if (method == PathMethod::light && (has_specular(scene.materials) || scene.emitters.has_environment())) return Paths::seen_directly;
+    if (method == PathMethod::light && (has_specular(scene.materials) || scene.emitters.has_environment()))
+        return Paths::seen_directly;
     return method == PathMethod::surface && has_specular(scene.materials) ? Paths::without_specular : Paths::all;
 }
 

@@ -54,9 +54,10 @@ int main(int argc, char** argv) {
     const Scene scene = read_scene(path, {{"res", resolution}});
 
     std::vector<Generator> generators;
-    for (const auto& [name, method] : {std::pair("walk", PathMethod::walk), std::pair("guided", PathMethod::guided),
-                                       std::pair("surface", PathMethod::surface), std::pair("classic", PathMethod::classic),
-                                       std::pair("light", PathMethod::light), std::pair("bidirectional", PathMethod::bidirectional)}) {
+    for (const auto& [name, method] :
+         {std::pair("walk", PathMethod::walk), std::pair("guided", PathMethod::guided), std::pair("surface", PathMethod::surface),
+          std::pair("classic", PathMethod::classic), std::pair("light", PathMethod::light),
+          std::pair("bidirectional", PathMethod::bidirectional)}) {
         Generator g{.name = name, .settings = {}};
         g.settings.method = method;
         g.settings.replicate_size = largest_replicate;

@@ -92,14 +92,16 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    PathMethod, ReplayEvery,
-    testing::Values(Case{"Walk", PathMethod::walk}, Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
-                    Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}}, Case{"Guided", PathMethod::guided},
-                    Case{"Surface", PathMethod::surface}, Case{"Classic", PathMethod::classic}, Case{"Light", PathMethod::light},
-                    Case{"LightIndependent", PathMethod::light, SamplerKind::independent}, Case{"Bidirectional", PathMethod::bidirectional},
-                    Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(PathMethod, ReplayEvery,
+                         testing::Values(Case{"Walk", PathMethod::walk},
+                                         Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
+                                         Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}},
+                                         Case{"Guided", PathMethod::guided}, Case{"Surface", PathMethod::surface},
+                                         Case{"Classic", PathMethod::classic}, Case{"Light", PathMethod::light},
+                                         Case{"LightIndependent", PathMethod::light, SamplerKind::independent},
+                                         Case{"Bidirectional", PathMethod::bidirectional},
+                                         Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 // Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.
 TEST(Replay, APathIsJoined) {

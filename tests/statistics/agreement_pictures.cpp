@@ -74,8 +74,8 @@ TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const auto operators = render(scene, PathMethod::pointwise, DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
-        const auto walk =
-            render(scene, PathMethod::walk, direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 4096 : 512);
+        const auto walk = render(scene, PathMethod::walk, direct, 2 + static_cast<std::uint64_t>(direct),
+                                 direct == DirectLight::bsdf ? 4096 : 512);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what =

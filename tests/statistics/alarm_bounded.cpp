@@ -106,7 +106,8 @@ TEST(BoundedSamples, AreKnownByMethod) {
     EXPECT_TRUE(bounded(sky, PathMethod::walk, DirectLight::bsdf));
     EXPECT_FALSE(bounded(sky, PathMethod::walk, DirectLight::light));
     EXPECT_FALSE(bounded(sky, PathMethod::walk, DirectLight::surfaces));
-    for (const PathMethod method : {PathMethod::surface, PathMethod::light, PathMethod::classic}) EXPECT_FALSE(bounded(sky, method));
+    for (const PathMethod method : {PathMethod::surface, PathMethod::light, PathMethod::classic})
+        EXPECT_FALSE(bounded(sky, method));
     SamplingSettings ways;
     ways.method = PathMethod::bidirectional;
     ways.ways_of_last_bounce = true;

@@ -136,7 +136,8 @@ Count count(const Scene& scene, const std::vector<double>& truth, const Sampling
     return all;
 }
 
-Count count_and_print(const char* name, const Scene& scene, const std::vector<double>& truth, PathMethod method, SamplerKind sampler) {
+Count count_and_print(const char* name, const Scene& scene, const std::vector<double>& truth, PathMethod method,
+                      SamplerKind sampler) {
     const SamplingSettings settings{.method = method, .walk = {.bounces = 1, .rest_probability = 0.0}, .sampler = sampler};
     const Count c = count(scene, truth, settings, 16, 100);
     const auto percent = [&](std::uint64_t part) { return 100.0 * static_cast<double>(part) / static_cast<double>(c.of); };
@@ -159,7 +160,8 @@ TEST(PixelCoverage, WhereALampGoesDownBehindAScreen) {
     const auto exact = truth(scene, open_from, open_to);
     expect_right(count_and_print("walk, Sobol", scene, exact, PathMethod::walk, SamplerKind::sobol), "Sobol");
     expect_right(count_and_print("walk, independent", scene, exact, PathMethod::walk, SamplerKind::independent), "independent");
-    expect_right(count_and_print("bidirectional, Sobol", scene, exact, PathMethod::bidirectional, SamplerKind::sobol), "bidirectional");
+    expect_right(count_and_print("bidirectional, Sobol", scene, exact, PathMethod::bidirectional, SamplerKind::sobol),
+                 "bidirectional");
 }
 
 TEST(PixelCoverage, OfASliver) {
@@ -167,8 +169,8 @@ TEST(PixelCoverage, OfASliver) {
     const Scene scene = hidden_lamp(0.2, 24, -half, half);
     const auto exact = truth(scene, -half, half);
     for (const PathMethod method : {PathMethod::walk, PathMethod::light}) {
-        const Count c =
-            count_and_print(method == PathMethod::walk ? "sliver, walk" : "sliver, light", scene, exact, method, SamplerKind::sobol);
+        const Count c = count_and_print(method == PathMethod::walk ? "sliver, walk" : "sliver, light", scene, exact, method,
+                                        SamplerKind::sobol);
         EXPECT_GE(c.rate(), 0.95);
         EXPECT_GT(static_cast<double>(c.zeros), 0.5 * static_cast<double>(c.of)) << "a sliver that is mostly missed";
         EXPECT_LE(static_cast<double>(c.zeros_missed), 0.05 * static_cast<double>(c.of));

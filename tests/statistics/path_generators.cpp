@@ -84,7 +84,8 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
             EXPECT_LE(std::abs(z(a.moments.mean_of_term(i), b.moments.mean_of_term(i))), limit)
                 << c.light << ", " << c.camera << ", " << c.things << ", " << what << ", bounce " << i;
         };
-        const Result walk = find(PathMethod::walk, physics::fixed_seed), paths = find(PathMethod::bidirectional, physics::fixed_seed + 1),
+        const Result walk = find(PathMethod::walk, physics::fixed_seed),
+                     paths = find(PathMethod::bidirectional, physics::fixed_seed + 1),
                      trees = find(PathMethod::bidirectional, physics::fixed_seed + 2, {3, 2});
         EXPECT_GT(trees.tally.rays[2], paths.tally.rays[2]);
         const bool walk_misses = std::string(c.light) == "points" && std::string(c.things) != "rough";
