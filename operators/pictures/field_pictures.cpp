@@ -43,7 +43,7 @@ EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
 }  // namespace
 
 FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
-    : importance(settings.method == FieldMethod::importance),
+    : importance(settings.reading == FieldReading::importance),
       width_(film.crop_width),
       height_(film.crop_height),
       replicates_(settings.replicates),
@@ -171,9 +171,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     counts.all = table_rays * n_replicates;
     for (const TracedSeries& s : series) counts.lights += static_cast<double>(s.light_rays);
     counts.lights_of_facet = counts.lights / static_cast<double>(space.facets().size());
-    if (settings.method == FieldMethod::gather) counts.gathered = n_replicates * settings.samples * settings.gather_rays;
+    if (settings.reading == FieldReading::gather) counts.gathered = n_replicates * settings.samples * settings.gather_rays;
     counts.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
-    if (!shows_patches(settings.method)) counts.sampled_at_pixel = settings.bounces > 0 ? 2 : 1;
+    if (!shows_patches(settings.reading)) counts.sampled_at_pixel = settings.bounces > 0 ? 2 : 1;
     const ConvexBody body = HalfSpaces(scene.geometry).convex_body();
     counts.is_closed = body.found && body.is_closed;
     result.set_resolution(RayResolution(series, counts));
@@ -185,9 +185,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const SobolPoints sobol(settings.samples), gather_sobol(settings.samples * settings.gather_rays);
     // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With gather all
     // are, because the reader compares only some gather rays.
-    const std::uint32_t compared = settings.method == FieldMethod::gather ? settings.samples : (settings.samples + 3) / 4;
+    const std::uint32_t compared = settings.reading == FieldReading::gather ? settings.samples : (settings.samples + 3) / 4;
     const float difference_weight = 1.0f / static_cast<float>(compared * settings.replicates);
-    const FieldReader reader(scene, settings.method, settings.bounces, settings.gather_rays);
+    const FieldReader reader(scene, settings.reading, settings.bounces, settings.gather_rays);
     const std::uint32_t pixels_at_once = std::max(1u, samples_at_once / settings.samples);
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
     constexpr std::size_t each = FieldPictures::sums_of_quantity;

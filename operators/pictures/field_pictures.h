@@ -21,7 +21,7 @@
 namespace neumann {
 
 struct FieldSettings {
-    FieldMethod method = FieldMethod::matrix;
+    FieldReading reading = FieldReading::matrix;
     int bounces = 8;
     Patching patching;
     std::uint32_t rays = 32;           // rays of T per facet and replicate; a power of two

@@ -82,7 +82,7 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspac
 }
 
 std::variant<TermEstimator, SplatSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
-    if (splats(settings.method)) return SplatSampler(scene, settings);
+    if (splats(settings.generator)) return SplatSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 

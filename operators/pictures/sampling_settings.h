@@ -12,7 +12,7 @@ namespace neumann {
 
 class DirectionTables;
 
-enum class PathMethod {
+enum class PathGenerator {
     walk,           // walks from the camera that sample the BSDF
     guided,         // walks from the camera that sample tables of the incident light
     surface,        // walks from the camera that sample the next vertex on all surfaces
@@ -22,10 +22,12 @@ enum class PathMethod {
     pointwise       // separate walks for each term
 };
 // Whether samples contribute to pixels all over the film.
-inline bool splats(PathMethod method) { return method == PathMethod::light || method == PathMethod::bidirectional; }
+inline bool splats(PathGenerator generator) {
+    return generator == PathGenerator::light || generator == PathGenerator::bidirectional;
+}
 
 struct SamplingSettings {
-    PathMethod method = PathMethod::walk;
+    PathGenerator generator = PathGenerator::walk;
     std::shared_ptr<const DirectionTables> tables = {};  // for `guided`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;

@@ -93,7 +93,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
             spread(position, q, value, name(i), chunk, work);
         },
         work);
-    if (settings_.method == PathMethod::light) return;
+    if (settings_.generator == PathGenerator::light) return;
     for (std::uint32_t i = 0; i < samples; ++i) {
         const SamplePlace place{name(i).pixel, name(i)};
         for (std::size_t q = 0; q < Q; ++q) {
@@ -216,7 +216,7 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
     tally.merge(new_tally);
     // Most paths contribute nothing to a given pixel, so 0 is among the samples.
     for (SampleRange& range : ranges.shares.of)
-        if (range.largest[0] >= range.smallest[0] || settings_.method == PathMethod::light) range.add(Rgb(0.0));
+        if (range.largest[0] >= range.smallest[0] || settings_.generator == PathGenerator::light) range.add(Rgb(0.0));
     ranges.own.merge(ranges.shares);
     return MomentsNode{first, count, std::move(waiting.back()), std::move(ranges.own)};
 }

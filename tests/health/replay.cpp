@@ -16,7 +16,7 @@ constexpr int bounces = 3;
 
 struct Case {
     const char* name;
-    PathMethod method;
+    PathGenerator method;
     SamplerKind sampler = SamplerKind::sobol;
     Split split = {};
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -29,12 +29,12 @@ protected:
     // 49 pixels: the last of the 64 paths that advance together are fewer.
     Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "7"}});
     SamplingSettings settings() const {
-        SamplingSettings s{.method = GetParam().method,
+        SamplingSettings s{.generator = GetParam().method,
                            .walk = {.bounces = bounces, .split = GetParam().split, .rest_probability = 0.7},
                            .sampler = GetParam().sampler,
                            .seed = 5,
                            .replicate_size = size};
-        if (s.method == PathMethod::guided)
+        if (s.generator == PathGenerator::guided)
             s.tables = std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
         return s;
     }
@@ -80,7 +80,7 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     const PictureSampler sampler(scene, settings());
     for (std::uint32_t pixel = 0; pixel < 49; pixel += 6) {
         const Replay found = replay(sampler, {pixel, 2});
-        if (!splats(GetParam().method) || GetParam().method == PathMethod::bidirectional) {
+        if (!splats(GetParam().method) || GetParam().method == PathGenerator::bidirectional) {
             EXPECT_FALSE(found.steps.empty());
         }
         std::vector<Rgb> sum(sampler.quantities(), Rgb(0.0));
@@ -92,15 +92,15 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(PathMethod, ReplayEvery,
-                         testing::Values(Case{"Walk", PathMethod::walk},
-                                         Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
-                                         Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}},
-                                         Case{"Guided", PathMethod::guided}, Case{"Surface", PathMethod::surface},
-                                         Case{"Classic", PathMethod::classic}, Case{"Light", PathMethod::light},
-                                         Case{"LightIndependent", PathMethod::light, SamplerKind::independent},
-                                         Case{"Bidirectional", PathMethod::bidirectional},
-                                         Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
+INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
+                         testing::Values(Case{"Walk", PathGenerator::walk},
+                                         Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
+                                         Case{"WalkSplit", PathGenerator::walk, SamplerKind::sobol, {3, 2}},
+                                         Case{"Guided", PathGenerator::guided}, Case{"Surface", PathGenerator::surface},
+                                         Case{"Classic", PathGenerator::classic}, Case{"Light", PathGenerator::light},
+                                         Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
+                                         Case{"Bidirectional", PathGenerator::bidirectional},
+                                         Case{"BidirectionalSplit", PathGenerator::bidirectional, SamplerKind::sobol, {3, 2}}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.

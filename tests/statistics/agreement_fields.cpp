@@ -31,10 +31,10 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
     constexpr int N = 4;
     const RenderedSeries truth = walk(scene, N, 4096);
     const auto walked = truth.moments.result();
-    for (const FieldMethod method : {FieldMethod::matrix, FieldMethod::gather}) {
-        SCOPED_TRACE(method == FieldMethod::matrix ? "matrix" : "gather");
+    for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {
+        SCOPED_TRACE(method == FieldReading::matrix ? "matrix" : "gather");
         FieldSettings settings;
-        settings.method = method;
+        settings.reading = method;
         settings.bounces = N;
         settings.patching.patches = 3000;
         settings.rays = 64;
@@ -94,7 +94,7 @@ TEST(FieldPictures, AreGivenUpSoonAfterTheInterruption) {
 TEST(FieldPicturesInGapsSlow, DeepBouncesOfACornellBox) {
     const Scene scene = read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml", {{"res", "64"}});
     FieldSettings settings;
-    settings.method = FieldMethod::gather;
+    settings.reading = FieldReading::gather;
     settings.bounces = 48;
     settings.patching.patches = 8000;
     settings.rays = 256;
