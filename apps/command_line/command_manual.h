@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// Of a command of the program, or of the program itself.
+// The manual page of a command, or of the program itself.
 ManualPage manual_page(const CLI::App& command);
 
 // `neumann render --help` shows the manual page.

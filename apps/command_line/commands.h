@@ -1,4 +1,4 @@
-// The commands of the program, all but help: what they are called, what they take, and what runs them.
+// The commands of the program except help: their names, their options, and the functions that run them.
 #pragma once
 
 #include <functional>
@@ -24,16 +24,16 @@ struct StudyRequest;
 
 struct Command {
     const CLI::App* app;
-    std::function<int()> run;  // with what was parsed; returns the exit code
+    std::function<int()> run;  // runs with the parsed options; returns the exit code
 };
 
-// Adds them all to `app`. `line` is the command as typed, for run.json.
+// Adds all commands to `app`. `line`: the command line as typed, for run.json.
 std::vector<Command> add_commands(CLI::App& app, const std::string& line);
 
-// Reads arguments as the command line does, by what `add` adds. Throws InputError with what it says.
+// Parses arguments like the command line, for the command that `add` adds. Throws InputError with the parser's message.
 void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments);
 
-// One of them, with its options, that are read into the request.
+// Each adds one command with its options, which are parsed into the request.
 CLI::App* add_compare(CLI::App& app, CompareRequest& request);
 CLI::App* add_conform(CLI::App& app, ConformRequest& request);
 CLI::App* add_export(CLI::App& app, ExportRequest& request);

@@ -1,4 +1,4 @@
-// What the options of several commands share. Validators have no description of their own, which CLI11 would put into the help.
+// Options that several commands share. The validators have no description, because CLI11 would print it in the help.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,12 +20,12 @@ void add_scene(CLI::App& command, std::string& scene);
 void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning = "Seed of the random numbers");
 void add_threads(CLI::App& command, int& threads);
 
-// --memory, in GiB; without it half of what there is.
+// --memory, in GiB; by default half of the memory.
 void add_memory(CLI::App& command, std::optional<double>& gibibytes);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
 
-// SCENE, and all that the commands share that take it as matrices.
+// SCENE and the options of all commands that treat it as matrices.
 void add_patch_options(CLI::App& command, PatchOptions& options);
 
 }  // namespace neumann

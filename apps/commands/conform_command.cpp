@@ -73,12 +73,6 @@ Image in_colors(const glm::dmat3& matrix, Image image) {
     return image;
 }
 
-double mean_y(const Image& xyz) {
-    double sum = 0.0;
-    for (const Rgb& pixel : xyz.pixels) sum += pixel.g;
-    return sum / static_cast<double>(xyz.pixels.size());
-}
-
 // Renders the sum of all bounces that the file asks for, in XYZ.
 std::optional<Estimate> picture_of(const Scene& scene, std::uint64_t samples, std::uint64_t seed, const glm::dmat3& xyz_from_rgb) {
     method::Walk walk;
@@ -131,7 +125,7 @@ std::optional<ConformResult> judge(const ConformScene& scene, const ConformReque
         result.seconds = watch.seconds();
         result.by_reference = conformity_by_reference(picture->mean, result.samples, reference);
         result.by_error = conformity_by_error(*picture, reference);
-        result.brightness = mean_y(picture->mean) / mean_y(reference.mean);
+        result.brightness = brightness(picture->mean, reference.mean);
         if (result.rejected())
             write_pictures(fs::path(request.output) / result.name, result, *picture, reference.mean, rgb_from_xyz());
     } catch (const InputError& error) {

@@ -104,14 +104,6 @@ std::string patches_table(const PatchSpace& space) {
     return csv;
 }
 
-Vector ray_measures(const RayTable& table) {
-    Vector measure(static_cast<Eigen::Index>(table.seen().size()));
-    for (std::uint32_t f = 0; f < table.space().facets().size(); ++f)
-        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray)
-            measure[static_cast<Eigen::Index>(ray)] = table.measure(f);
-    return measure;
-}
-
 int export_command(const ExportRequest& request) {
     catch_interrupts();
     const std::string output = request.output.empty()
@@ -127,7 +119,7 @@ int export_command(const ExportRequest& request) {
     files.write("T.mtx", T, "exitant radiance of the unknowns to what each ray brings");
     for (int c = 0; c < system.channels(); ++c) {
         const std::string letter = scene.channel_letter(c), suffix = (letter.empty() ? "" : "_" + letter) + ".mtx",
-                          channel = letter.empty() ? "" : std::string(", ") + scene.channel_name(c);
+                          channel = letter.empty() ? "" : std::string(", ") + system.channel_name(c);
         const auto R = reflection_matrix(system.table(), system.reflection(c));
         files.write("R" + suffix, R, "what the rays bring to what the unknowns send" + channel);
         if (!request.with_K) continue;
@@ -147,7 +139,7 @@ int export_command(const ExportRequest& request) {
     const std::vector<std::string> warnings = scene.warnings();
     nlohmann::ordered_json json = scene.json();
     json["channels"] = nlohmann::ordered_json::array();
-    for (int c = 0; c < channels; ++c) json["channels"].push_back(scene.channel_name(c));
+    for (int c = 0; c < channels; ++c) json["channels"].push_back(system.channel_name(c));
     json["b"] = how;
     json["warnings"] = warnings;
     files.commit(json);

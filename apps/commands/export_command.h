@@ -17,8 +17,6 @@ struct ExportRequest {
 void check_matrix_memory(const PatchOptions& options, const TracedSystem& system);
 // patches.csv: a row for each side of a patch, with its first unknown.
 std::string patches_table(const PatchSpace& space);
-// The étendue of each ray: n² times area times projected solid angle.
-Vector ray_measures(const RayTable& table);
 
 // Writes all files or none. Returns the exit code, 0. Throws InputError, and RunError if the disk is full or Ctrl-C was pressed.
 int export_command(const ExportRequest& request);

@@ -1,8 +1,8 @@
 #include "apps/commands/patch_scene.h"
 
-#include "apps/commands/definitions.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/commands/parse_definitions.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
@@ -18,6 +18,7 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t most_rays = 1 << 20;
+constexpr const char* letters[] = {"r", "g", "b"};  // of the channels
 
 TracedSettings settings(const PatchOptions& options) {
     if (options.patches == 0) throw InputError("--patches 0: expected at least 1");
@@ -44,22 +45,13 @@ PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene>
     : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     const TracedSettings traced = settings(options);
     try {
-        system_ = std::make_unique<TracedSystem>(*scene_, traced, [] {
-            if (interrupted()) throw RunError("interrupted");
-        });
+        system_ = std::make_unique<TracedSystem>(*scene_, traced, Watch{.stop = interrupted});
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }
 }
 
-const char* PatchScene::channel_name(int c) const {
-    constexpr const char* names[] = {"red", "green", "blue"};
-    return system_->channels() == 1 ? "grey" : names[c];
-}
-const char* PatchScene::channel_letter(int c) const {
-    constexpr const char* letters[] = {"r", "g", "b"};
-    return system_->channels() == 1 ? "" : letters[c];
-}
+const char* PatchScene::channel_letter(int c) const { return system_->channels() == 1 ? "" : letters[c]; }
 
 std::vector<std::string> PatchScene::warnings() const {
     Warnings all = scene_->warnings;
@@ -82,6 +74,13 @@ nlohmann::ordered_json PatchScene::json() const {
     json["unknowns"] = system_->space().size();
     json["rays"] = system_->rays();
     return json;
+}
+
+std::optional<int> channel_number(const std::string& name) {
+    if (name.empty()) return std::nullopt;
+    for (int c = 0; c < 3; ++c)
+        if (name == letters[c]) return c;
+    throw InputError("--channel " + name + ": expected r, g or b");
 }
 
 void print_warnings(const std::vector<std::string>& warnings, bool quiet) {

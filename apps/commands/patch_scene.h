@@ -39,8 +39,7 @@ public:
     const Scene& scene() const { return *scene_; }
     const TracedSystem& system() const { return *system_; }
 
-    // "grey", or "red", "green", "blue"; and "", or "r", "g", "b", as in names of files.
-    const char* channel_name(int c) const;
+    // "", or "r", "g", "b", as in names of files.
     const char* channel_letter(int c) const;
 
     std::vector<std::string> warnings() const;
@@ -57,6 +56,9 @@ private:
     std::shared_ptr<const Scene> scene_;
     std::unique_ptr<TracedSystem> system_;
 };
+
+// The channel that --channel names: r, g or b; nothing if the name is empty. Throws InputError.
+std::optional<int> channel_number(const std::string& name);
 
 // Prints to stderr, unless `quiet`.
 void print_warnings(const std::vector<std::string>& warnings, bool quiet);

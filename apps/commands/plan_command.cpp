@@ -1,6 +1,6 @@
 #include "apps/commands/plan_command.h"
 
-#include "apps/commands/definitions.h"
+#include "apps/commands/parse_definitions.h"
 #include "apps/files/plan_json.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/method_plan.h"

@@ -1,7 +1,7 @@
 // A progress line on a terminal, overwritten as work goes on.
 #pragma once
 
-#include "operators/pictures/watch.h"
+#include "operators/watch.h"
 
 #include <chrono>
 #include <functional>

@@ -1,8 +1,8 @@
 #include "apps/commands/render_command.h"
 
-#include "apps/commands/definitions.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/commands/parse_definitions.h"
 #include "apps/commands/progress_line.h"
 #include "apps/files/reference.h"
 #include "apps/files/series_files.h"

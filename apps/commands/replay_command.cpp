@@ -3,12 +3,9 @@
 #include "apps/files/health_json.h"
 #include "apps/files/method_json.h"
 #include "core/base/error.h"
-#include "core/base/memory.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_plan.h"
-#include "operators/methods/sampling.h"
+#include "operators/methods/recorded_render.h"
 #include "operators/pictures/path_group.h"
-#include "operators/pictures/replay.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -22,15 +19,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The settings of a render in run.json that determine its samples.
+// A render as its run.json tells it.
 struct RecordedRun {
     std::string scene, hash, version;
     std::map<std::string, std::string> definitions;
-    Method method;
-    std::uint64_t seed = 0;
-    int bounces = 0;
-    double rest_probability = 0.0;
-    std::uint32_t replicate_size = 1;
+    RecordedRender render;
     std::uint64_t samples = 0;
     Json named;  // the samples that the health report names
 };
@@ -44,20 +37,18 @@ RecordedRun read_run(const std::string& folder) {
         const Json json = Json::parse(file);
         const Json &options = json.at("options"), &samples = json.at("samples");
         RecordedRun run;
-        run.method = method_from_json(options);
-        const bool pointwise = std::holds_alternative<method::Pointwise>(run.method);
-        if (has_fields(run.method) || pointwise)
-            throw InputError(
-                fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(run.method),
-                            pointwise ? "each of its bounces is asked for anew" : "its bounces are read from fields on patches"));
+        RecordedRender& render = run.render;
+        render.method = method_from_json(options);
+        if (const std::string why = why_no_replay(render.method); !why.empty())
+            throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
         run.scene = json.at("scene").at("file");
         json.at("scene").at("definitions").get_to(run.definitions);
         run.hash = json.at("scene").at("hash");
         run.version = json.at("program").at("version");
-        run.seed = options.at("seed");
-        run.bounces = options.at("bounces");
-        run.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
-        run.replicate_size = samples.at("replicate_size");
+        render.seed = options.at("seed");
+        render.bounces = options.at("bounces");
+        render.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
+        render.replicate_size = samples.at("replicate_size");
         run.samples = samples.at("per_pixel");
         run.named = json.at("health").at("samples");
         return run;
@@ -73,11 +64,11 @@ struct Chosen {
 };
 
 std::uint32_t pixel_number(const Film& film, int x, int y) {
-    const int column = x - film.crop_x, row = y - film.crop_y;
-    if (column < 0 || row < 0 || column >= film.crop_width || row >= film.crop_height)
+    const std::optional<std::uint32_t> number = number_of(film, {x, y});
+    if (!number)
         throw InputError(fmt::format("--pixel {},{}: the picture has x from {} to {} and y from {} to {}", x, y, film.crop_x,
                                      film.crop_x + film.crop_width - 1, film.crop_y, film.crop_y + film.crop_height - 1));
-    return static_cast<std::uint32_t>(row * film.crop_width + column);
+    return *number;
 }
 
 Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
@@ -99,26 +90,7 @@ Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& 
                                        *request.number));
 }
 
-SamplingSettings settings_of(const RecordedRun& run, const Scene& scene, const Plan& plan) {
-    SamplingSettings settings = sampling_settings(run.method, scene, plan, run.seed);
-    settings.walk.bounces = run.bounces;
-    settings.walk.rest_probability = run.rest_probability;
-    settings.replicate_size = run.replicate_size;
-    set_up(run.method, scene, run.bounces, run.seed, default_memory(), settings);
-    return settings;
-}
-
 std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
-
-// Delta directions have the pdf ∞ by convention; other values must be finite.
-bool is_sound(const ReplayedStep& s) {
-    const PathStep& step = s.step;
-    if (!is_finite(step.w) || !is_finite(step.beta) || !(std::isfinite(step.pdf) || step.pdf == delta_pdf)) return false;
-    if (step.found && !step.to.is_infinite() && !is_finite(step.to.position)) return false;
-    for (const auto& found : s.found)
-        if (!is_finite(found.value)) return false;
-    return true;
-}
 
 std::string heading(const PathStep& step) {
     const char* half = step.from_light ? "light" : "camera";
@@ -176,7 +148,7 @@ Json as_json(const ReplayedStep& s, const Scene& scene) {
         if (found.pixel) brought["film"] = {found.pixel->x, found.pixel->y};
         json["brings"].push_back(brought);
     }
-    json["finite"] = is_sound(s);
+    json["finite"] = is_finite(s);
     return json;
 }
 
@@ -189,24 +161,20 @@ int replay_command(const ReplayRequest& request) {
     if (!std::filesystem::exists(run.scene))
         throw InputError(fmt::format("{}: the scene of {} is not there; the name is relative to where the render was started",
                                      run.scene, request.folder));
-    const Scene whole = read_scene(run.scene, run.definitions);
-    if (whole.hash != run.hash)
+    const Scene scene = read_scene(run.scene, run.definitions);
+    if (scene.hash != run.hash)
         fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n", run.scene,
                    request.folder);
     if (run.version != NEUMANN_VERSION)
         fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
                    NEUMANN_VERSION);
-    const Chosen chosen = choose(request, run, whole.film);
-    const Plan plan = plan_for(run.method, whole);
-    const std::optional<Scene> reduced = without_unlit_materials(plan, whole);
-    const Scene& scene = reduced ? *reduced : whole;
-    const PictureSampler sampler(scene, settings_of(run, scene, plan));
-    const Replay found = replay(sampler, chosen.name);
+    const Chosen chosen = choose(request, run, scene.film);
+    const Replay found = replay(scene, run.render, chosen.name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
-    const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_sound(s); });
+    const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 
     if (request.json) {
-        Json json = {{"pixel", {pixel.x, pixel.y}}, {"sample", chosen.name.sample}, {"method", name_of(run.method)}};
+        Json json = {{"pixel", {pixel.x, pixel.y}}, {"sample", chosen.name.sample}, {"method", name_of(run.render.method)}};
         if (!chosen.why.empty()) json["why"] = chosen.why;
         json["terms"] = Json::array();
         for (const Rgb& term : found.terms) json["terms"].push_back(rgb(term));
@@ -216,7 +184,7 @@ int replay_command(const ReplayRequest& request) {
         fmt::print("{}\n", json.dump(2));
         return 0;
     }
-    fmt::print("Sample {} of pixel {},{} by {}{}\n\n", chosen.name.sample, pixel.x, pixel.y, name_of(run.method),
+    fmt::print("Sample {} of pixel {},{} by {}{}\n\n", chosen.name.sample, pixel.x, pixel.y, name_of(run.render.method),
                chosen.why.empty() ? "" : "; " + chosen.why);
     for (auto s = found.steps.begin(); s != found.steps.end(); ++s) print(*s, scene, s == unsound);
     fmt::print("\nWhat it brings to its own pixel\n");

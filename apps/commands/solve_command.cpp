@@ -65,8 +65,8 @@ void print_notes(const SideBySide& all) {
 
 void print_table(const PatchScene& scene, const SolveRequest& request, const ChosenChannel& chosen, const SideBySide& all) {
     fmt::print("{}\n", scene.title());
-    fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n", scene.channel_name(chosen.channel),
-               chosen.why, chosen.radius, applications_text(chosen.applications));
+    fmt::print("Channel {}: {}. Spectral radius {:.6f}, found with {} applications of K.\n",
+               scene.system().channel_name(chosen.channel), chosen.why, chosen.radius, applications_text(chosen.applications));
     if (chosen.traps_light)
         fmt::print(
             "Light that total reflection keeps within glass has the eigenvalue 1. Where none gets there, the series converges\n"
@@ -103,7 +103,7 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     const auto& [chosen, all] = solved;
     using Json = nlohmann::ordered_json;
     Json json = scene.json();
-    json["channel"] = {{"name", scene.channel_name(chosen.channel)}, {"why", chosen.why}};
+    json["channel"] = {{"name", scene.system().channel_name(chosen.channel)}, {"why", chosen.why}};
     json["spectral_radius"] = json_number(chosen.radius);
     json["unknown"] = scene.system().samples_lights() ? "L - Le" : "L";
     json["tolerance"] = request.tolerance;
@@ -134,7 +134,7 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
 }
 
 SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories) {
-    const ChosenChannel chosen = choose_channel(scene, request.channel);
+    const ChosenChannel chosen = choose_channel(scene.system(), channel_number(request.channel), {.stop = interrupted});
     const TracedChannel K = scene.system().channel(chosen.channel);
 
     Problem problem;
@@ -144,11 +144,11 @@ SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bo
     problem.most = request.most;
     if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
     problem.reflectance = &K.reflectance();
-    return {chosen, solve_side_by_side(problem, {histories, interrupted})};
+    return {chosen, solve_side_by_side(problem, histories, {.stop = interrupted})};
 }
 
 int solve_command(const SolveRequest& request) {
-    check_channel_name(request.channel);
+    channel_number(request.channel);  // throws before anything is read
     const PatchScene scene(request.patches);
     catch_interrupts();
     const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json);

@@ -1,7 +1,8 @@
 // `neumann solve SCENE`: compares the series with all other solvers of L = Le + K L.
 #pragma once
 
-#include "apps/commands/channel_choice.h"
+#include "apps/commands/patch_scene.h"
+#include "operators/matrix/channel_choice.h"
 #include "operators/solvers/side_by_side.h"
 
 #include <string>

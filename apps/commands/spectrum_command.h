@@ -2,6 +2,10 @@
 #pragma once
 
 #include "apps/commands/patch_scene.h"
+#include "operators/matrix/scene_spectrum.h"
+
+#include <functional>
+#include <string>
 
 namespace neumann {
 
@@ -12,6 +16,11 @@ struct SpectrumRequest {
     int most = 10000;  // largest number of applications of K in a search
     bool csv = false;
 };
+
+// scene_spectrum() with the warnings of the scene. Calls `tell` with the progress from time to time; Ctrl-C stops it.
+SceneSpectrum spectrum_of(
+    const PatchScene& scene, const SpectrumRequest& request,
+    const std::function<void(const std::function<std::string()>&)>& tell = [](const auto&) {});
 
 // Prints the row sums of T, then for each channel norms, eigenvalues, bounces and rounding, then the eigenvalues on coarser patches
 // and with fewer rays. Returns the exit code, 0 also if the series diverges. Throws InputError.

@@ -1,5 +1,5 @@
 // The forms in which `neumann spectrum` prints its report: tables of at most 100 columns, CSV, JSON.
-#include "apps/commands/spectrum_report.h"
+#include "apps/commands/spectrum_print.h"
 
 #include "apps/files/json_number.h"
 
@@ -19,14 +19,14 @@ std::string complex_text(const std::complex<double>& z, int digits = 6) {
     return fmt::format("{:.{}f}{}{:.{}f}i", z.real(), digits, z.imag() < 0.0 ? "-" : "+", std::abs(z.imag()), digits);
 }
 
-void print_row(const std::string& label, const SpectrumReport& report,
+void print_row(const std::string& label, const SceneSpectrum& report,
                const std::function<std::string(const ChannelSpectrum&)>& cell) {
     std::string line = fmt::format("{:<{}}", label, label_width);
     for (const ChannelSpectrum& s : report.channels) line += fmt::format("{:>{}}", cell(s), cell_width);
     fmt::print("{}\n", line);
 }
 
-void print_transport(const SpectrumReport& report) {
+void print_transport(const SceneSpectrum& report) {
     fmt::print("T (in a closed scene all rows sum to 1, and no ray sees nothing)\n");
     fmt::print("{:<30}{:>10.6f}{:>10.6f}{:>10.6f}   smallest, mean, largest\n", "  row sums", report.row_min, report.row_mean,
                report.row_max);
@@ -36,7 +36,7 @@ void print_transport(const SpectrumReport& report) {
                report.reciprocity_defect);
 }
 
-void print_norms(const SpectrumReport& report) {
+void print_norms(const SceneSpectrum& report) {
     const auto fixed = [](double x) { return std::isfinite(x) ? fmt::format("{:.6f}", x) : "not found"; };
     print_row("K", report, [](const ChannelSpectrum& s) { return s.name; });
     print_row("  largest albedo", report, [&](const ChannelSpectrum& s) { return fixed(s.largest_albedo); });
@@ -66,7 +66,7 @@ void print_norms(const SpectrumReport& report) {
     }
 }
 
-void print_eigenvalues(const SpectrumReport& report) {
+void print_eigenvalues(const SceneSpectrum& report) {
     print_row("Leading eigenvalues", report, [](const ChannelSpectrum& s) { return s.name; });
     std::size_t most = 0;
     for (const ChannelSpectrum& s : report.channels) most = std::max(most, s.leading.pairs.size());
@@ -94,7 +94,7 @@ void print_eigenvalues(const SpectrumReport& report) {
     }
 }
 
-void print_refinement(const PatchScene& scene, const SpectrumReport& report) {
+void print_refinement(const PatchScene& scene, const SceneSpectrum& report) {
     const auto width = 10 * report.channels.size();
     fmt::print("{:<14}{:>8}{:>10}{:>6}{:>{}}{:>{}}\n", "Refinement", "patches", "unknowns", "rays", "|λ₁|", width, "|λ₂|", width);
     fmt::print("{:38}", "");
@@ -122,15 +122,15 @@ void print_refinement(const PatchScene& scene, const SpectrumReport& report) {
         "rays, and need not settle.\n");
 }
 
-void print_bounces(const SpectrumReport& report) {
+void print_bounces(const SceneSpectrum& report) {
     print_row("Bounces until", report, [](const ChannelSpectrum& s) { return s.name; });
-    for (std::size_t i = 0; i < SpectrumReport::remaining.size(); ++i)
-        print_row(fmt::format("  {:g} % of the power is left", 100.0 * SpectrumReport::remaining[i]), report,
+    for (std::size_t i = 0; i < SceneSpectrum::remaining.size(); ++i)
+        print_row(fmt::format("  {:g} % of the power is left", 100.0 * SceneSpectrum::remaining[i]), report,
                   [&, i](const ChannelSpectrum& s) {
                       if (!report.emits) return std::string("no light");
                       if (s.convergence != Convergence::converges) return std::string("none");
                       if (s.bounces_stopped) return std::string("out of time");
-                      return s.bounces[i] ? fmt::format("{}", *s.bounces[i]) : fmt::format("> {}", SpectrumReport::most_bounces);
+                      return s.bounces[i] ? fmt::format("{}", *s.bounces[i]) : fmt::format("> {}", SceneSpectrum::most_bounces);
                   });
     const auto known = [](const ChannelSpectrum& s) { return s.convergence == Convergence::converges && s.radius > 0.0; };
     print_row("Rounding", report, [](const ChannelSpectrum& s) { return s.name; });
@@ -146,7 +146,7 @@ void print_bounces(const SpectrumReport& report) {
 
 }  // namespace
 
-void print_spectrum(const PatchScene& scene, const SpectrumReport& report) {
+void print_spectrum(const PatchScene& scene, const SceneSpectrum& report) {
     fmt::print("{}\n\n", scene.title());
     print_transport(report);
     fmt::print("\n");
@@ -159,7 +159,7 @@ void print_spectrum(const PatchScene& scene, const SpectrumReport& report) {
     print_bounces(report);
 }
 
-void print_spectrum_csv(const PatchScene& scene, const SpectrumReport& report) {
+void print_spectrum_csv(const PatchScene& scene, const SceneSpectrum& report) {
     fmt::print("channel,patches,unknowns,rays,index,real,imaginary,modulus,residual\n");
     const auto row = [](const char* channel, std::size_t patches, std::size_t unknowns, std::uint32_t rays, std::size_t i,
                         std::complex<double> z, const std::string& residual) {
@@ -177,7 +177,7 @@ void print_spectrum_csv(const PatchScene& scene, const SpectrumReport& report) {
     }
 }
 
-nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumReport& report) {
+nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SceneSpectrum& report) {
     using Json = nlohmann::ordered_json;
     const auto complex_json = [](std::complex<double> z) { return Json{{"real", z.real()}, {"imaginary", z.imag()}}; };
     Json json = scene.json();
@@ -225,7 +225,7 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumRepo
         channel["bounces_until"] = Json::array();
         const bool converges = s.convergence == Convergence::converges;
         for (std::size_t i = 0; i < s.bounces.size(); ++i)
-            channel["bounces_until"].push_back({{"remaining", SpectrumReport::remaining[i]},
+            channel["bounces_until"].push_back({{"remaining", SceneSpectrum::remaining[i]},
                                                 {"bounces", report.emits && s.bounces[i] ? Json(*s.bounces[i]) : Json(nullptr)}});
         constexpr const char* formats[] = {"float", "double"};
         for (std::size_t i = 0; i < 2; ++i)

@@ -1,8 +1,8 @@
 #include "apps/commands/study_command.h"
 
-#include "apps/commands/definitions.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/commands/parse_definitions.h"
 #include "apps/commands/study_runs.h"
 #include "apps/files/output_folder.h"
 #include "core/base/error.h"
@@ -140,7 +140,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     } else {
         status("short runs that measure how fast the methods are", 0.0);
         auto plan = plan_study({request.budgets, request.samples, request.reference_samples}, methods, data.bounces, request.seed,
-                               scene, pilot, interrupted);
+                               scene, pilot, {.stop = interrupted});
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);
     }
@@ -149,7 +149,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         choice = journal.plan.at("choice");
         if (request.reference.empty()) request.reference = journal.plan.at("reference").at("method");
     } else if (request.reference.empty()) {
-        auto chosen = choose_reference(scene, pilot, data.bounces, interrupted);
+        auto chosen = choose_reference(scene, pilot, data.bounces, {.stop = interrupted});
         if (!chosen) return nothing_done();
         request.reference = chosen->method;
         choice = chosen->why;
@@ -172,8 +172,11 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     }
 
     run_all(data, journal, status);
-    data.points = judge(data, journal);
-    const auto pictures = summarise(data);
+    const Film& film = scene.film;
+    data.points = study_points(journal.runs, data.plan, data.reference.pictures, [&](std::size_t n, std::size_t q) {
+        return journal.picture(n, q, film.crop_width, film.crop_height, data.pictures());
+    });
+    const auto pictures = summarise(data.points, data.plan, data.reference.pictures, request.error);
     if (!pictures.empty()) {
         const Json json = study_json(data, pictures);
         folder.write("study.csv", study_csv(data));

@@ -8,37 +8,6 @@
 
 namespace neumann {
 
-namespace {
-
-StudyRun make_run(const BounceSeries& series, const Method& asked) {
-    const SeriesReport& report = series.report;
-    StudyRun run;
-    run.seed = series.seed;
-    run.samples = series.samples;
-    std::visit(
-        [&](const auto& m) {
-            if constexpr (requires { m.patches; }) {
-                run.patches = m.patches.value_or(0);
-                run.directions = m.directions.value_or(0);
-            }
-        },
-        asked);
-    run.setup_seconds = series.setup_seconds;
-    run.seconds = series.seconds;
-    for (const BounceReport& b : report.bounces) {
-        run.rays.push_back(b.rays);
-        run.mean.push_back(b.mean.mean);
-        if (b.discretisation) run.discretisation.push_back(b.discretisation->relative);
-        run.variance += b.infinite_variance ? 'i' : b.tail ? 'f' : '?';
-    }
-    run.mean.push_back(report.sum.mean);
-    if (report.sum_discretisation) run.discretisation.push_back(report.sum_discretisation->relative);
-    for (const auto& [text, count] : series.warnings.counts()) run.warnings.push_back(text);
-    return run;
-}
-
-}  // namespace
-
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder) {
     const double bytes = static_cast<double>(data.runs()) * static_cast<double>(data.pictures()) * data.scene.film.crop_width *
                          data.scene.film.crop_height * 3.0 * sizeof(float);
@@ -51,19 +20,20 @@ void expect_disk_space(const StudyData& data, const std::filesystem::path& folde
 }
 
 void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) {
-    const std::size_t N = data.pictures() - 2, methods = data.methods.size(), budgets = data.plan.budgets.size();
+    const std::size_t N = data.pictures() - 2;
     while (journal.runs.size() < data.runs()) {
-        const std::size_t at = journal.runs.size(), method = at % methods, budget = at / methods % budgets,
-                          repeat = at / methods / budgets;
+        const std::size_t at = journal.runs.size();
+        const auto [method, budget, repeat] = place_of_run(at, data.plan);
         status(fmt::format("run {} of {}   repeat {}   budget {:g}   {}", at + 1, data.runs(), repeat + 1,
                            data.plan.budgets[budget], data.methods[method].name),
                static_cast<double>(at) / static_cast<double>(data.runs()));
         const Effort& effort = data.plan.efforts[method][budget];
         const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
         data.peak_is_of_run = restart_peak_memory();
-        const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot, interrupted);
+        const auto result =
+            run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot, {.stop = interrupted});
         if (!result) return;
-        StudyRun run = make_run(*result, with_effort(data.methods[method].method, effort));
+        StudyRun run = study_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();
         run.method = method;
         run.budget = budget;
@@ -75,30 +45,6 @@ void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) 
         if (interrupted()) return;
     }
     data.complete = true;
-}
-
-std::vector<StudyPoint> judge(const StudyData& data, const StudyJournal& journal) {
-    const Film& film = data.scene.film;
-    std::vector<StudyPoint> points;
-    for (std::size_t budget = 0; budget < data.plan.budgets.size(); ++budget)
-        for (std::size_t method = 0; method < data.methods.size(); ++method) {
-            StudyPoint point;
-            std::vector<std::size_t> places;
-            for (std::size_t i = 0; i < journal.runs.size(); ++i) {
-                if (journal.runs[i].method != method || journal.runs[i].budget != budget) continue;
-                point.runs.push_back(journal.runs[i]);
-                places.push_back(i);
-            }
-            if (places.size() < 2) continue;
-            for (std::size_t q = 0; q < data.pictures(); ++q) {
-                PictureErrors picture(data.reference.pictures[q]);
-                for (const std::size_t i : places)
-                    picture.add(journal.picture(i, q, film.crop_width, film.crop_height, data.pictures()));
-                point.errors.push_back(picture.statistics());
-            }
-            points.push_back(std::move(point));
-        }
-    return points;
 }
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Makes the runs of a study, and evaluates their pictures.
+// Makes the runs of a study, and keeps them in its journal.
 #pragma once
 
 #include "apps/files/study_journal.h"
@@ -8,11 +8,7 @@ namespace neumann {
 // Throws InputError if the pictures of all runs, which are kept until the end, do not fit into the folder.
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder);
 
-// Goes on until everything is done or it is interrupted. The outer loop is over repeats, so that other load on the machine affects
-// all methods and budgets alike, and an interrupted study has some runs of each.
+// Goes on until everything is done or it is interrupted.
 void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status);
-
-// Evaluates all points with at least two repeats.
-std::vector<StudyPoint> judge(const StudyData& data, const StudyJournal& journal);
 
 }  // namespace neumann

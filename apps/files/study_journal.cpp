@@ -35,7 +35,7 @@ Json as_json(const StudyRun& r) {
             {"warnings", r.warnings}};
 }
 
-StudyRun study_run(const Json& json) {
+StudyRun run_of(const Json& json) {
     StudyRun r;
     json.at("method").get_to(r.method);
     json.at("budget").get_to(r.budget);
@@ -99,7 +99,7 @@ void StudyJournal::read() {
                 study = json.at("study");
                 plan = json.at("plan");
             } else {
-                runs.push_back(study_run(json.at("run")));
+                runs.push_back(run_of(json.at("run")));
             }
             whole += static_cast<off_t>(line.size()) + 1;
         }

@@ -25,26 +25,16 @@ Json as_json(const std::optional<ErrorSlope>& slope) {
 
 Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, const PointSummary& summary) {
     const StudyRun& run = point.runs.front();
-    double rays = 0.0, memory = 0.0, discretisation = 0.0;
-    for (const StudyRun& r : point.runs) {
-        memory = std::max(memory, r.peak_memory);
-        if (q < r.rays.size())
-            rays += static_cast<double>(r.rays[q]);
-        else
-            for (const std::uint64_t n : r.rays) rays += static_cast<double>(n);
-        if (!r.discretisation.empty()) discretisation += r.discretisation[q];
-    }
-    const auto repeats = static_cast<double>(point.runs.size());
     Json json = {{"budget", data.plan.budgets[point.budget()]},
-                 {"missed_budget", data.missed_budget(point).has_value()},
+                 {"missed_budget", missed_budget(data.plan, point).has_value()},
                  {"samples", run.samples}};
     if (run.patches) json["patches"] = run.patches;
     if (run.directions) json["directions"] = run.directions;
     json["setup_seconds"] = as_json(summary.setup_seconds);
     json["sampling_seconds"] = as_json(summary.sampling_seconds);
     json["seconds"] = as_json(summary.seconds);
-    json["rays"] = rays / repeats;
-    json["peak_memory"] = memory;
+    json["rays"] = point.mean_rays(q);
+    json["peak_memory"] = point.largest_memory();
     json["rmse"] = as_json(summary.rmse);
     json["resolved"] = summary.resolved;
     json["rel_mse"] = as_json(summary.rel_mse);
@@ -52,7 +42,7 @@ Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, cons
     json["bias_squared"] = {{"value", json_number(summary.bias_squared.value)},
                             {"interval95", json_number(summary.bias_half_width)},
                             {"significant", summary.biased}};
-    if (!run.discretisation.empty()) json["discretisation_as_estimated_by_the_method"] = discretisation / repeats;
+    if (const auto mean = point.mean_discretisation(q)) json["discretisation_as_estimated_by_the_method"] = *mean;
     json["efficiency"] = json_number(summary.efficiency);
     json["efficiency_with_bias"] = json_number(summary.merit);
     json["infinite_variance"] = summary.infinite_variance;
@@ -68,7 +58,7 @@ Json as_json(const StudyData& data, std::size_t q, const StudiedMethod& method) 
     if (s.seconds_to_error)
         json["seconds_to_error"] = {{"seconds", s.seconds_to_error->work}, {"or_less", s.seconds_to_error->below}};
     json["points"] = Json::array();
-    const auto points = data.points_of(method.method);
+    const auto points = points_of_method(data.points, method.method);
     for (std::size_t b = 0; b < points.size(); ++b) json["points"].push_back(as_json(data, *points[b], q, s.points[b]));
     return json;
 }
@@ -135,7 +125,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     json["methods"] = Json::array();
     for (std::size_t m = 0; m < data.methods.size(); ++m) {
         Json method = {{"name", data.methods[m].name}, {"fields", has_fields(data.methods[m].method)}};
-        const auto points = data.points_of(m);
+        const auto points = points_of_method(data.points, m);
         if (!points.empty()) method["repeat_the_first_run"] = repeating_command(data, points.front()->runs.front());
         json["methods"].push_back(method);
     }

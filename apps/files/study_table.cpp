@@ -27,7 +27,7 @@ std::string bias_text(const PointSummary& p) {
 
 // The time taken, with the budget if it differs.
 std::string taken_text(const StudyData& data, const StudiedMethod& method) {
-    const auto missed = data.missed_budget(*data.points_of(method.method).back());
+    const auto missed = missed_budget(data.plan, *points_of_method(data.points, method.method).back());
     const double seconds = method.summary.points.back().seconds.value;
     return missed ? fmt::format("{:.3g} for {:g}", seconds, *missed) : fmt::format("{:.3g}", seconds);
 }
@@ -36,8 +36,8 @@ void print_method(const StudyData& data, const StudiedMethod& method) {
     const PictureSummary& s = method.summary;
     const PointSummary& last = s.points.back();
     const bool exact = last.rmse.value == 0.0 && last.rmse.standard_error == 0.0;
-    const std::string rmse = last.resolved || exact ? fmt::format("{:.3g}", last.rmse.value)
-                                                    : fmt::format("≤ {:.2g}", std::sqrt(1.0 / (last.merit * last.seconds.value)));
+    const std::string rmse =
+        last.resolved || exact ? fmt::format("{:.3g}", last.rmse.value) : fmt::format("≤ {:.2g}", last.largest_rmse());
     std::string name = data.methods[method.method].name;
     if (name.size() > 30) name = name.substr(0, 29) + "…";
     const std::string efficiency = s.infinite_variance ? "infinite V" : fmt::format("{:.3g}", last.efficiency);

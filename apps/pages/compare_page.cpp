@@ -1,9 +1,9 @@
 #include "apps/pages/compare_page.h"
 
 #include "apps/files/output_folder.h"
-#include "apps/pages/explorer_page.h"
 #include "apps/files/rendered_picture.h"
 #include "apps/files/series_files.h"
+#include "apps/pages/explorer_page.h"
 #include "core/base/error.h"
 #include "core/image/display.h"
 

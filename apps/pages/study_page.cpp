@@ -1,6 +1,6 @@
 // index.html of a study.
-#include "apps/pages/page.h"
 #include "apps/commands/study_data.h"
+#include "apps/pages/page.h"
 
 namespace neumann {
 

@@ -1,8 +1,9 @@
 // A scene as matrices: T, R and Le, the camera, the spectrum of K, and all solvers.
 #include "apps/commands/export_command.h"
+#include "apps/commands/interrupt.h"
 #include "apps/commands/solve_command.h"
 #include "apps/commands/spectrum_command.h"
-#include "apps/commands/spectrum_report.h"
+#include "apps/commands/spectrum_print.h"
 #include "apps/python/module.h"
 #include "operators/matrix/camera_vector.h"
 #include "operators/matrix/scene_patches.h"
@@ -36,7 +37,7 @@ py::dict as_dict(const Patched& patched) {
     d["measure"] = Vector(system.transport().measure());
     d["ray_measure"] = ray_measures(system.table());
     d["patches"] = patches_table(system.space());
-    d["channel"] = patched.scene->channel_name(c);
+    d["channel"] = system.channel_name(c);
     d["radius"] = patched.chosen.radius;
     d["no_radius"] = patched.chosen.no_radius;
     d["title"] = patched.scene->title();
@@ -46,14 +47,14 @@ py::dict as_dict(const Patched& patched) {
 
 std::unique_ptr<Job> start_matrices(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
     SolveRequest request = parse<SolveRequest>("solve", add_solve, *loaded, arguments);
-    check_channel_name(request.channel);
+    channel_number(request.channel);  // throws before anything is traced
     return std::make_unique<Job>(request.patches.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("tracing T");
         auto patched = std::make_shared<Patched>();
         patched->scene = patch_scene(*loaded, request.patches);
         check_matrix_memory(request.patches, patched->scene->system());
         job.tell("looking for the spectral radius");
-        patched->chosen = choose_channel(*patched->scene, request.channel);
+        patched->chosen = choose_channel(patched->scene->system(), channel_number(request.channel), {.stop = interrupted});
         return [patched] { return py::cast(patched); };
     });
 }
@@ -76,7 +77,7 @@ std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, 
         job.tell("tracing T and looking for eigenvalues");
         const auto scene = patch_scene(*loaded, request.patches);
         const auto tell = [&](const std::function<std::string()>& text) { job.tell(text()); };
-        const auto report = std::make_shared<const SpectrumReport>(spectrum_report(*scene, request, tell));
+        const auto report = std::make_shared<const SceneSpectrum>(spectrum_of(*scene, request, tell));
         return [report, json = spectrum_json(*scene, *report).dump()]() -> py::object {
             py::list vectors;
             for (const ChannelSpectrum& channel : report->channels) {
@@ -94,7 +95,7 @@ std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, 
 
 std::unique_ptr<Job> start_solve(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
     SolveRequest request = parse<SolveRequest>("solve", add_solve, *loaded, arguments);
-    check_channel_name(request.channel);
+    channel_number(request.channel);  // throws before anything is traced
     request.patches.command_line = command_line("solve", *loaded, arguments);
     return std::make_unique<Job>(request.patches.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("solving L = Le + K L by all solvers");

@@ -3,6 +3,7 @@
 #include "apps/files/plan_json.h"
 #include "apps/python/module.h"
 #include "core/base/stopwatch.h"
+#include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/method_plan.h"
 
@@ -25,6 +26,7 @@ std::shared_ptr<LoadedScene> load(const std::string& path, const std::map<std::s
 }  // namespace
 
 void bind_scene(py::module_& m) {
+    m.def("trees_built", &trees_built, "The number of acceleration structures that were built so far.");
     py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m, "Scene", "A scene as its files were when it was read.")
         .def_readonly("path", &LoadedScene::path)
         .def_readonly("definitions", &LoadedScene::definitions)

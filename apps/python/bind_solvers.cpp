@@ -25,10 +25,10 @@ using Dense = DenseChannel::Matrix;
 using Sparse = SparseChannel::Matrix;
 
 Operator dense(const Eigen::Ref<const Dense>& K, const Vector& measure) {
-    return std::make_shared<StoppableChannel>(std::make_shared<const DenseChannel>(K, measure), interrupted);
+    return std::make_shared<StoppableChannel>(std::make_shared<const DenseChannel>(K, measure), Watch{.stop = interrupted});
 }
 Operator sparse(const Sparse& K, const Vector& measure) {
-    return std::make_shared<StoppableChannel>(std::make_shared<const SparseChannel>(K, measure), interrupted);
+    return std::make_shared<StoppableChannel>(std::make_shared<const SparseChannel>(K, measure), Watch{.stop = interrupted});
 }
 
 // A row for each bounce: bounce, power, l2, sup, ratio, a_priori, a_posteriori, estimate, enclosure_width.
@@ -139,10 +139,9 @@ std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoin
         job.tell("looking for eigenvalues");
         EigenLimits limits;
         limits.most = most;
-        limits.go_on = [&](const EigenStep& step) {
+        limits.look = [&](const EigenStep& step) {
             job.tell(fmt::format("looking for eigenvalues   {:.0f} applications of K   largest residual {:.1e}", step.applications,
                                  step.residual));
-            return true;
         };
         const auto norms = operator_norms(*K, limits);
         const auto leading = std::make_shared<const Eigenpairs>(leading_eigenpairs(*K, count, adjoint, limits));

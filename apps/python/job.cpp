@@ -62,12 +62,12 @@ void Job::stop() {
 
 void Job::tell(std::string text, std::optional<double> fraction) {
     const std::lock_guard lock(mutex_);
-    progress_ = {std::move(text), fraction};
+    status_ = {std::move(text), fraction};
 }
 
-Job::Progress Job::progress() const {
+Job::Status Job::status() const {
     const std::lock_guard lock(mutex_);
-    return progress_;
+    return status_;
 }
 
 pybind11::object Job::result() const {

@@ -35,11 +35,11 @@ public:
 
     // Called by the work, on any thread: what is being done, and the fraction done.
     void tell(std::string text, std::optional<double> fraction = std::nullopt);
-    struct Progress {
+    struct Status {
         std::string text;
         std::optional<double> fraction;
     };
-    Progress progress() const;
+    Status status() const;
 
     // Call it when the work is done, with the interpreter's lock. Rethrows the exception of the work.
     pybind11::object result() const;
@@ -49,7 +49,7 @@ private:
 
     mutable std::mutex mutex_;  // protects all members below
     std::condition_variable ended_;
-    Progress progress_;
+    Status status_;
     bool stopped_ = false, working_ = false, done_ = false;
     Finish finish_;
     std::exception_ptr error_;

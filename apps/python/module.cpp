@@ -18,8 +18,8 @@ PYBIND11_MODULE(_neumann, m) {
         .def(
             "progress",
             [](const Job& job) {
-                const Job::Progress progress = job.progress();
-                return py::make_tuple(progress.text, progress.fraction);
+                const Job::Status status = job.status();
+                return py::make_tuple(status.text, status.fraction);
             },
             "What is being done, and which part of it is done, or None.")
         .def("result", &Job::result, "What came out, once it is done; raises what went wrong.");

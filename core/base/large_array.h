@@ -1,5 +1,5 @@
-// Memory that is soon written from end to end: in huge pages where the system has them, for the faults of small ones take as long as
-// the writing.
+// Memory that is soon written from end to end: in huge pages where the system has them, for the faults of small ones take as long
+// as the writing.
 #pragma once
 
 #include <sys/mman.h>

@@ -8,7 +8,9 @@
 namespace neumann {
 
 EmissionSampler::EmissionSampler(const Geometry& geometry, const Emitters& emitters)
-    : geometry_(&geometry), emitters_(&emitters), table_(geometry, emitters, emitters.powers(), LightTable::Rectangles::as_triangles) {
+    : geometry_(&geometry),
+      emitters_(&emitters),
+      table_(geometry, emitters, emitters.powers(), LightTable::Rectangles::as_triangles) {
     const double all = std::accumulate(emitters.powers().begin(), emitters.powers().end(), 0.0);
     // 1/A for the point times |cosθ|/π for the direction; d²/|cosθ| to the solid angle at x times 1/d² to the area at x: 1/(π A).
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {

@@ -26,7 +26,7 @@ enum class LightChoice {
     power,         // in proportion to power, computed with the largest radiance
     contribution,  // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in
                    // the number of parts of lights
-    all  // every light once
+    all            // every light once
 };
 
 // How a light is sampled: uniformly by area, or uniformly by solid angle.

@@ -60,8 +60,9 @@ std::optional<Cylinder> transformed(const Cylinder& cylinder, const Mat4& to_wor
     if (std::abs(around2 / around - 1.0) > tolerance || std::abs(glm::dot(images[0], images[1])) > tolerance ||
         std::abs(glm::dot(images[0], images[2])) > tolerance || std::abs(glm::dot(images[1], images[2])) > tolerance)
         return std::nullopt;
-    return Cylinder{point(to_world, cylinder.base), images[2], cylinder.length * along, cylinder.radius * around,
-                    cylinder.flip_normals, Frame(images[0], images[1], images[2])};
+    return Cylinder{point(to_world, cylinder.base), images[2],
+                    cylinder.length * along,        cylinder.radius * around,
+                    cylinder.flip_normals,          Frame(images[0], images[1], images[2])};
 }
 
 std::optional<Shape> transformed(const Shape& shape, const Mat4& to_world) {

@@ -1,5 +1,5 @@
-// Pictures as files, and text on pictures: all that OpenImageIO does for the program. Files are made in memory, so that whoever
-// writes them sees every failure of the disk.
+// Picture files, and text on pictures: everything that OpenImageIO does for the program. Files are encoded in memory, so the code
+// that writes them to the disk sees every failure.
 #pragma once
 
 #include "core/image/display.h"

@@ -5,7 +5,7 @@
 #include "core/reader/plugins/light_images.h"
 #include "core/reader/plugins/read_shapes.h"
 #include "core/reader/plugins/scene_lights.h"
-#include "core/reader/plugins/sensor.h"
+#include "core/reader/plugins/sensors.h"
 #include "core/reader/plugins/textures.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/xml/grammar.h"

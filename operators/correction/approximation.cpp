@@ -24,7 +24,7 @@ void check_memory(const ApproximationSettings& settings, double patches) {
 
 }  // namespace
 
-Approximation::Approximation(const Scene& scene, const ApproximationSettings& settings) : settings_(settings) {
+Approximation::Approximation(const Scene& scene, const ApproximationSettings& settings, const Watch& watch) : settings_(settings) {
     const DiffuseSides sides(scene);
     if (sides.empty()) return;
     check_memory(settings, static_cast<double>(settings.patches));
@@ -36,7 +36,8 @@ Approximation::Approximation(const Scene& scene, const ApproximationSettings& se
                                               .rays = settings.rays,
                                               .light_samples = std::min(settings.rays, most_light_samples),
                                               .seed = settings.seed ^ field_stream,
-                                              .rest = true});
+                                              .rest = true},
+                                             watch);
     fields_.emplace(scene, sides, series.fine, settings.seed);
     rays_ = series.rays + fields_->rays();
     find_density(sides, series.fine);

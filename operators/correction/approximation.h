@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "operators/correction/field_raster.h"
+#include "operators/watch.h"
 
 #include <cstdint>
 #include <optional>
@@ -21,8 +22,8 @@ struct ApproximationSettings {
 
 class Approximation {
 public:
-    // Keeps a reference to the scene. Throws InputError if the fields do not fit in memory.
-    Approximation(const Scene& scene, const ApproximationSettings& settings);
+    // Keeps a reference to the scene. Throws InputError if the fields do not fit in memory, and Stopped if `watch` stops it.
+    Approximation(const Scene& scene, const ApproximationSettings& settings, const Watch& watch = {});
     Approximation(const Approximation&) = delete;
 
     const ApproximationSettings& settings() const { return settings_; }

@@ -131,14 +131,14 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
 }
 
 std::optional<SharedPoints> PointMaker::make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,
-                                             const std::function<bool()>& stop) const {
+                                             const Watch& watch) const {
     std::optional<SharedPoints> next;
     for (std::size_t set = sets_; set-- > 0;) {
         const SharedPoints* const behind = next ? &*next : nullptr;
         SharedPoints made = sampler_ == SamplerKind::sobol ? make_set<SobolSampler>(replicate, set, behind, rays, given_up)
                                                            : make_set<IndependentSampler>(replicate, set, behind, rays, given_up);
         next = std::move(made);
-        if (stop()) return std::nullopt;
+        if (watch.stop()) return std::nullopt;
     }
     return next;
 }

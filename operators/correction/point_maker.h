@@ -5,9 +5,9 @@
 #include "core/sampling/sobol_sampler.h"
 #include "operators/correction/approximation.h"
 #include "operators/correction/corrected_walk.h"
+#include "operators/watch.h"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,9 +19,9 @@ public:
     PointMaker(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& walk, const Approximation& fields,
                SamplerKind sampler, std::uint64_t seed, std::uint32_t points, const FirstVertex& samples);
 
-    // Set 0. Adds the rays to `rays` and walks given up to `given_up`. Nothing if `stop` returns true meanwhile.
+    // Set 0. Adds the rays to `rays` and walks given up to `given_up`. Nothing if `watch` stops it.
     std::optional<SharedPoints> make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,
-                                     const std::function<bool()>& stop) const;
+                                     const Watch& watch) const;
     std::size_t sets() const { return sets_; }
 
 private:

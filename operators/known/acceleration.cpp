@@ -37,7 +37,7 @@ struct Acceleration {
     Acceleration(const Acceleration&) = delete;
     Acceleration& operator=(const Acceleration&) = delete;
 
-    // The first applications after which the error is within each goal; 0 where it never was.
+    // The number of applications after which the error first reached each goal; 0 if it never did.
     Counts counts(const Solver& solve, int most) {
         problem.most = most;
         const SolverResult result = solve(problem);
@@ -52,7 +52,7 @@ struct Acceleration {
     }
 };
 
-// 0: not compared.
+// Expected counts; 0 is not compared.
 struct Expected {
     Counts neumann, ratio, aitken, wynn, vector_epsilon, exact_interval, safe_interval, low_top, gmres, cg;
     std::array<double, 3> anderson;  // m = 1, 3, 8, to 1e-6

@@ -1,4 +1,4 @@
-// Cases with known answers, for whoever wants to see that they come out: the `stress` command and the tests run the same.
+// Cases with known answers. The `stress` command shows them, and the tests run the same cases.
 #pragma once
 
 #include "operators/known/figures.h"
@@ -12,22 +12,22 @@ namespace neumann::known {
 
 struct Case {
     std::string name;    // group/…
-    std::string source;  // of what is expected
+    std::string source;  // where the expected values come from: a formula, a paper, or a computation with its error
     std::function<void(Figures&, std::uint64_t seed)> measure;
 
     std::string group() const { return name.substr(0, name.find('/')); }
 };
 using Cases = std::vector<Case>;
 
-// All of them, group by group; no name is there twice.
+// All cases, group by group. Names are unique.
 const Cases& all_cases();
-// In the same order.
+// The names of the groups, in the same order.
 std::vector<std::string> all_groups();
 
-// `*` stands for any text, `?` for one character; a pattern without them is looked for anywhere in the name.
+// `*` stands for any text and `?` for one character. A pattern without either matches if the name contains it.
 bool matches(const std::string& name, const std::string& pattern);
 
-// What a case throws is a figure that fails.
+// An exception from a case becomes a figure that fails.
 std::vector<Figure> run(const Case& known, std::uint64_t seed = default_seed);
 
 }  // namespace neumann::known

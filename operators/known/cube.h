@@ -24,7 +24,7 @@ inline const std::array<Parallelogram, 6>& cube_faces() {
 }
 
 struct Cube {
-    std::vector<Parallelogram> patches;  // of one patch an unknown
+    std::vector<Parallelogram> patches;  // one patch for each unknown
     std::vector<int> face;               // CubeFace of each unknown
     FormFactors factors;
 
@@ -61,9 +61,9 @@ inline Cube patched_cube(int n) {
     return cube;
 }
 
-// The same for what is symmetric under the eight symmetries of the square (x, y): one unknown for all patches that these turn into
-// each other, of their area. All walls are x0. Every method that treats equal unknowns equally, and weights them with their area,
-// has the same iterates as on the whole cube.
+// The cube for functions with the eight symmetries of the square (x, y): all patches that these map to each other are one unknown
+// with their total area. All walls are x0. A method that treats equal unknowns equally, and weights them by their area, has the
+// same iterates as on the whole cube.
 inline Cube symmetric_cube(int n) {
     const auto kind = [n](const Vec3& centre) {
         const auto folded = [n](double x) {

@@ -59,13 +59,13 @@ void add_walks(Cases& cases) {
                                           4.0 * g[i][wall_mean] + g[i][floor_mean] + g[i][ceiling_mean], 1.0, 1e-8);
                      }});
     for (std::size_t column = 0; column < 6; ++column)
-        for (const Technique way : {Technique::mis, Technique::bsdf, Technique::pointwise}) {
-            const std::size_t bounces = way == Technique::pointwise ? 2 : way == Technique::bsdf ? 4 : 10;
-            cases.push_back({fmt::format("cube/ceiling-lit/{}/{}", column_names[column], short_name(way)),
+        for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::pointwise}) {
+            const std::size_t bounces = technique == Technique::pointwise ? 2 : technique == Technique::bsdf ? 4 : 10;
+            cases.push_back({fmt::format("cube/ceiling-lit/{}/{}", column_names[column], short_name(technique)),
                              "rho^i g_i: closed form, quadrature 1e-13, Galerkin 2.4e-8",
                              [=](Figures& figures, std::uint64_t seed) {
                                  const Scene scene = cube_lit_by(ceiling);
-                                 figures.terms(sharp_probe(scene, place(scene, column), way,
+                                 figures.terms(sharp_probe(scene, place(scene, column), technique,
                                                            {.samples = 1024, .bounces = static_cast<int>(bounces), .seed = seed}),
                                                terms(column, bounces), 1, accuracy);
                              }});
@@ -127,7 +127,7 @@ double point_factor(const Vec3& p, const Vec3& n, const Parallelogram& patch) {
     }
     return std::abs(sum) / (2.0 * pi);
 }
-// What the middle of a face receives of g: no patch of the face itself is seen.
+// The mean of g that arrives at the middle of a face, which sees no patch of its own face.
 double gathered(const Cube& cube, const Vector& x, const Parallelogram& face) {
     double sum = 0.0;
     for (Eigen::Index u = 0; u < cube.size(); ++u) {
@@ -138,7 +138,8 @@ double gathered(const Cube& cube, const Vector& x, const Parallelogram& face) {
     return sum;
 }
 
-// Piecewise constant radiance on n × n patches a face has errors of its own, h² ln h from the corners: these are known too.
+// Piecewise constant radiance on n × n patches a face has discretisation errors of order h² ln h from the corners, which are
+// known too.
 void add_patches(Cases& cases) {
     struct Row {
         int n;

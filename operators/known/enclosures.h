@@ -1,4 +1,4 @@
-// Closed scenes of many shapes, for laws that hold in all of them.
+// Closed scenes of many shapes, for laws that hold in every closed scene.
 #pragma once
 
 #include "operators/known/scene_maker.h"
@@ -13,7 +13,7 @@ struct ClosedScene {
     SceneMaker maker;
 };
 
-// All surfaces alike; the origin is inside and sees surfaces all around.
+// All surfaces are alike. The origin is inside and sees a surface in every direction.
 inline std::vector<ClosedScene> enclosures(const Surface& surface) {
     std::vector<ClosedScene> all;
     const auto enclose = [&](const std::string& name) -> SceneMaker& { return all.emplace_back(ClosedScene{name, {}}).maker; };

@@ -1,5 +1,5 @@
-// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i; and the laws of any closed
-// diffuse scene, of which it is the simplest: flux is kept, and emitters add up.
+// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. Also the laws of every
+// closed diffuse scene: flux is conserved, and the light of several emitters adds up.
 #include "core/geometry/area_sampler.h"
 #include "operators/known/cube.h"
 #include "operators/known/enclosures.h"
@@ -34,7 +34,7 @@ void without_variance(Figures& figures, const Estimates& found, const Rgb& rho) 
     figures.near("largest standard error", spread, 0.0, 0.0);
 }
 
-// rho^i for all i, whatever is sampled and wherever.
+// ρ^i for all i, with every technique and at every place.
 void add_powers(Cases& cases) {
     const Rgb colour(0.25, 0.5, 0.75), bright(0.9, 0.99, 0.9999);
     for (const ClosedScene& enclosure : enclosures({})) {
@@ -72,17 +72,18 @@ void add_powers(Cases& cases) {
     }
 }
 
-// The terms that it takes until the relative remainder, rho^(n+1), is small.
+// The number of terms until the relative remainder, ρ^(n+1), is small.
 void add_lengths(Cases& cases) {
     for (const double rho : {0.5, 0.9, 0.99, 0.999, 0.999999})
         cases.push_back({fmt::format("furnace/terms-needed/albedo-{:g}", rho), "least n with rho^(n+1) <= goal",
                          [=](Figures& figures, std::uint64_t) {
-                             // One unknown stands for all, which are alike.
+                             // All unknowns are alike, so one stands for all.
                              const DenseChannel K(DenseChannel::Matrix::Constant(1, 1, rho), Vector::Ones(1));
                              TermSeries series(K, Vector::Ones(1));
                              const double L = 1.0 / (1.0 - rho);
                              for (const double goal : {1e-6, 1e-12}) {
-                                 // Of L: the sum is rounded, and its terms are (rounding.cpp). What is smaller is not to be seen.
+                                 // The error of L from rounding the sum and its terms (rounding_errors.cpp); smaller errors cannot
+                                 // be seen.
                                  const double rounding = std::numeric_limits<double>::epsilon() * (2.0 + 0.5 * rho / (1.0 - rho));
                                  if (rounding > 0.1 * goal) continue;
                                  while (L - series.sum()[0] > goal * L) series.advance();
@@ -148,16 +149,16 @@ void add_laws(Cases& cases) {
                                  start.weight = grey((1.0 - r) / r);
                                  return start;
                              };
-                             for (const Technique way : {Technique::mis, Technique::bsdf})
+                             for (const Technique technique : {Technique::mis, Technique::bsdf})
                                  figures.sampled(
-                                     fmt::format("absorbed/emitted, {}", short_name(way)),
-                                     scaled(sharp_probe(scene, absorbed, way,
+                                     fmt::format("absorbed/emitted, {}", short_name(technique)),
+                                     scaled(sharp_probe(scene, absorbed, technique,
                                                         {.samples = 1024, .bounces = 0, .rest_probability = 1.0, .seed = seed})
                                                 .reflected,
                                             AreaSampler(scene.geometry).area() / emitted),
                                      1.0);
                          }});
-    // ∫ K^i Le dA = ρ^i ∫ Le dA on a mesh that is far from the sphere that it stands for.
+    // ∫ K^i Le dA = ρ^i ∫ Le dA, on a mesh that approximates its sphere badly.
     cases.push_back({"furnace/flux/icosphere-320", "area mean of K^i Le = rho^i x emitting part of the area",
                      [](Figures& figures, std::uint64_t seed) {
                          const double rho = 0.7;

@@ -15,7 +15,7 @@ namespace {
 constexpr double n = 1.5;
 
 Surface glass(double eta = n) { return boundary(Dielectric(eta), Dielectric(1.0 / eta)); }
-// At 0, 45, 60, 80 and 89.9 degrees; Fresnel's equations in high precision.
+// At 0, 45, 60, 80 and 89.9 degrees, from Fresnel's equations in high precision.
 constexpr std::pair<double, double> reflected[] = {
     {0.0, 0.04}, {45.0, 0.050239911012}, {60.0, 0.089186712802}, {80.0, 0.387704354691}, {89.9, 0.989911876919}};
 
@@ -46,7 +46,7 @@ std::vector<double> from_outside(double R, int count) {
 
 // Numbers are independent here: a Sobol' set has always as many points below R, and no spread to tell the error by. The standard
 // error of an outcome of probability p is √((1 − p)/(p N)) of it.
-ProbeSettings effort(double rarest, int bounces, std::uint64_t seed) {
+ProbeSettings probe_settings(double rarest, int bounces, std::uint64_t seed) {
     const double samples = (1.0 - rarest) / rarest / std::pow(0.9 * largest_relative_error, 2) / batch_count;
     return {.samples = static_cast<std::uint32_t>(64.0 * std::ceil(samples / 64.0)),
             .bounces = bounces,
@@ -54,7 +54,7 @@ ProbeSettings effort(double rarest, int bounces, std::uint64_t seed) {
             .seed = seed};
 }
 
-void slab(Figures& figures, std::uint64_t seed, Technique way, double degrees, double R) {
+void slab(Figures& figures, std::uint64_t seed, Technique technique, double degrees, double R) {
     SceneMaker maker;
     maker.add(parallelogram({-90, -90, 0.5}, {180, 0, 0}, {0, 180, 0}), glass());
     maker.add(parallelogram({-90, -90, -0.5}, {0, 180, 0}, {180, 0, 0}), glass());
@@ -64,13 +64,15 @@ void slab(Figures& figures, std::uint64_t seed, Technique way, double degrees, d
     const StartPicker start = seen(scene, {0.01, 0.02, 3}, {std::sin(theta), 0, -std::cos(theta)});
     // The third term is rare at 60 degrees.
     const std::vector<double> exact = from_outside(R, R > 0.1 ? 4 : 2);
-    figures.terms(sharp_probe(scene, start, way, effort(std::min(R, exact.back()), static_cast<int>(exact.size()), seed)), exact);
-    if (way == Technique::pointwise) return;
-    const Estimates all = probe(scene, start, way, {.samples = 64, .bounces = 60, .seed = seed});
+    figures.terms(
+        sharp_probe(scene, start, technique, probe_settings(std::min(R, exact.back()), static_cast<int>(exact.size()), seed)),
+        exact);
+    if (technique == Technique::pointwise) return;
+    const Estimates all = probe(scene, start, technique, {.samples = 64, .bounces = 60, .seed = seed});
     figures.near("sum of K^i Le, i <= 60", all.reflected.mean.r, 1.0, 1e-12);
 }
 
-void sphere(Figures& figures, std::uint64_t seed, Technique way) {
+void sphere(Figures& figures, std::uint64_t seed, Technique technique) {
     const Vec3 center(0.1, 0.2, 0.3);
     SceneMaker maker;
     maker.add(Sphere{center, 1.0, false}, glass());
@@ -79,24 +81,25 @@ void sphere(Figures& figures, std::uint64_t seed, Technique way) {
     const double sine = std::sin(80.0 * pi / 180.0), R = 0.387704354691;
     const std::vector<double> exact = from_outside(R, 4);
     const Estimates outside =
-        sharp_probe(scene, seen(scene, center + Vec3(-3.0, sine, 0), {1, 0, 0}), way, effort(exact[3], 4, seed));
+        sharp_probe(scene, seen(scene, center + Vec3(-3.0, sine, 0), {1, 0, 0}), technique, probe_settings(exact[3], 4, seed));
     for (std::size_t i = 1; i <= 4; ++i) figures.sampled(fmt::format("K^{} Le, from outside", i), outside.terms[i], exact[i - 1]);
     // A ray inside at the distance b from the centre meets the surface at the angle of sine b.
     const auto from_inside = [&](double b) { return seen(scene, center + Vec3(0, b, 0), {1, 0, 0}); };
     const double last = (1.0 - R) * R * R;
-    const Estimates inside = sharp_probe(scene, from_inside(sine / n), way, effort(last, 3, seed));
+    const Estimates inside = sharp_probe(scene, from_inside(sine / n), technique, probe_settings(last, 3, seed));
     for (std::size_t i = 1; i <= 3; ++i)
         figures.sampled(fmt::format("K^{} Le, from inside", i), inside.terms[i],
                         n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)));
-    const Estimates trapped =
-        probe(scene, from_inside(0.7), way, {.samples = 2, .bounces = way == Technique::pointwise ? 12 : 100, .seed = seed});
+    const Estimates trapped = probe(scene, from_inside(0.7), technique,
+                                    {.samples = 2, .bounces = technique == Technique::pointwise ? 12 : 100, .seed = seed});
     double most = 0.0;
     for (const Statistic& term : trapped.terms) most = std::max(most, max_component(term.mean));
     figures.near("trapped light, largest term", most, 0.0, 0.0);
 }
 
-// What goes to and fro within a pane is one bounce, 2R/(1 + R) in all; nothing turns, so a lamp behind is seen where it is.
-void pane(Figures& figures, std::uint64_t seed, Technique way) {
+// A thin pane counts all reflections within it as one bounce, 2R/(1 + R) in all. It does not refract, so a lamp behind it is seen
+// where it is.
+void pane(Figures& figures, std::uint64_t seed, Technique technique) {
     const double theta = pi / 3.0, R = 0.089186712802, share = 2.0 * R / (1.0 + R);
     figures.near("2R/(1 + R) at 60 degrees", share, 0.163767537, 1e-9);
     for (const bool behind : {true, false}) {
@@ -108,22 +111,22 @@ void pane(Figures& figures, std::uint64_t seed, Technique way) {
         const double exact = behind ? 1.0 - share : share;
         figures.sampled(
             behind ? "K Le, lamp behind" : "K Le, lamp before",
-            sharp_probe(scene, seen(scene, {-std::sin(theta), 0, std::cos(theta)}, {std::sin(theta), 0, -std::cos(theta)}), way,
-                        effort(exact, 2, seed))
+            sharp_probe(scene, seen(scene, {-std::sin(theta), 0, std::cos(theta)}, {std::sin(theta), 0, -std::cos(theta)}),
+                        technique, probe_settings(exact, 2, seed))
                 .terms[1],
             2.0 * exact);
     }
 }
 
-// Le = 1 − ρ on a wall of reflectance ρ gives L = 1 everywhere outside glass, whatever glass is in the room.
-void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique way) {
+// Le = 1 − ρ on walls of reflectance ρ gives L = 1 everywhere outside of glass, whatever glass stands in the room.
+void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique technique) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 2.0, true}, glowing(0.5, 0.5));
     maker.add(Sphere{{0.3, 0.1, 0}, 0.7, false}, glass());
     maker.add(make_cube(glm::dmat4(0.3, 0, 0, 0, 0, 0.3, 0, 0, 0, 0, 0.3, 0, -0.9, 0.1, 0.2, 1)), glass(1.33));
     const Scene scene = maker.make();
     const Estimates found =
-        probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), way, {.samples = 128, .bounces = 80, .seed = seed});
+        probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), technique, {.samples = 128, .bounces = 80, .seed = seed});
     // 0.5 a reflection on the wall, and at least every third bounce is one but for trapped light that the camera does not see.
     figures.sampled("sum of K^i Le, i <= 80", found.reflected, 1.0, std::pow(0.5, 26));
 }
@@ -133,17 +136,19 @@ void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique way) {
 Cases glass_cases() {
     Cases cases;
     cases.push_back({"glass/fresnel", "Fresnel, Walsh's closed form", fresnel});
-    for (const Technique way : specular_techniques) {
-        const std::string name = short_name(way);
+    for (const Technique technique : specular_techniques) {
+        const std::string name = short_name(technique);
         for (const auto& [degrees, R] : {reflected[2], reflected[3]})
-            cases.push_back({fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact",
-                             [way, degrees = degrees, R = R](Figures& f, std::uint64_t seed) { slab(f, seed, way, degrees, R); }});
+            cases.push_back(
+                {fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact",
+                 [technique, degrees = degrees, R = R](Figures& f, std::uint64_t seed) { slab(f, seed, technique, degrees, R); }});
         cases.push_back({"glass/sphere/" + name, "R, (1 - R)^2 R^(i-2); inside n^2 (1 - R) R^(i-1): exact",
-                         [way](Figures& f, std::uint64_t seed) { sphere(f, seed, way); }});
-        cases.push_back({"glass/pane/" + name, "2R/(1 + R): exact", [way](Figures& f, std::uint64_t seed) { pane(f, seed, way); }});
-        if (way != Technique::pointwise)
+                         [technique](Figures& f, std::uint64_t seed) { sphere(f, seed, technique); }});
+        cases.push_back(
+            {"glass/pane/" + name, "2R/(1 + R): exact", [technique](Figures& f, std::uint64_t seed) { pane(f, seed, technique); }});
+        if (technique != Technique::pointwise)
             cases.push_back({"glass/furnace/" + name, "L = 1: exact",
-                             [way](Figures& f, std::uint64_t seed) { glass_in_furnace(f, seed, way); }});
+                             [technique](Figures& f, std::uint64_t seed) { glass_in_furnace(f, seed, technique); }});
     }
     return cases;
 }

@@ -108,16 +108,17 @@ Cases microfacet_cases() {
                  figures.near(fmt::format("eigenvalue, cosine {:g}", mu), reflected * (1.0 + mu), 2.0 * ln2 - 1.0, 1e-10);
              }
          }});
-    for (const Technique way : {Technique::mis, Technique::bsdf})
-        cases.push_back({"microfacets/series/ggx-1-" + short_name(way), "2(1 - ln 2)/(1 + mu) (2 ln 2 - 1)^(i-1): exact",
-                         [way](Figures& figures, std::uint64_t seed) {
+    for (const Technique technique : {Technique::mis, Technique::bsdf})
+        cases.push_back({"microfacets/series/ggx-1-" + short_name(technique), "2(1 - ln 2)/(1 + mu) (2 ln 2 - 1)^(i-1): exact",
+                         [technique](Figures& figures, std::uint64_t seed) {
                              const Scene scene = sphere(RoughConductor(Ggx(1.0)));
                              const double ln2 = std::log(2.0);
                              std::vector<double> exact;
                              for (int i = 1; i <= 4; ++i)
                                  exact.push_back(2.0 * (1.0 - ln2) / 1.5 * std::pow(2.0 * ln2 - 1.0, i - 1));
                              figures.terms(
-                                 sharp_probe(scene, under(scene, 0.5), way, {.samples = 1024, .bounces = 4, .seed = seed}), exact);
+                                 sharp_probe(scene, under(scene, 0.5), technique, {.samples = 1024, .bounces = 4, .seed = seed}),
+                                 exact);
                          }});
     return cases;
 }

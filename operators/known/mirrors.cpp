@@ -1,5 +1,5 @@
-// Mirrors: light goes one way only, so that every term is a product along a path that geometry gives, without variance, in
-// whichever way lights are looked for.
+// Mirrors: light follows a single path, which geometry gives, and every term is a product along it. Samples have no variance,
+// whatever the technique for direct light.
 #include "core/material/retroreflector.h"
 #include "core/sampling/warp.h"
 #include "operators/known/groups.h"
@@ -16,12 +16,12 @@ namespace {
 constexpr double mirror_rho = 0.9;
 
 Conductor mirror() { return Conductor({}, grey(mirror_rho)); }
-// Few samples are enough: all have to be the same. Operators start anew for every term.
-ProbeSettings effort(Technique way, int bounces, std::uint64_t seed) {
-    return {.samples = 2, .bounces = way == Technique::pointwise ? std::min(bounces, 12) : bounces, .seed = seed};
+// Few samples are enough, because all must be equal. Pointwise operators start again for every term, so they have fewer bounces.
+ProbeSettings probe_settings(Technique technique, int bounces, std::uint64_t seed) {
+    return {.samples = 2, .bounces = technique == Technique::pointwise ? std::min(bounces, 12) : bounces, .seed = seed};
 }
 
-// The first and the last few terms one by one, and the worst of all.
+// Figures for the first and the last few terms, and for the worst of all.
 void add_terms(Figures& figures, const Estimates& found, const std::function<double(int)>& exact, double tolerance) {
     double worst = 0.0, spread = 0.0;
     const int last = static_cast<int>(found.terms.size()) - 1;
@@ -37,7 +37,7 @@ void add_terms(Figures& figures, const Estimates& found, const std::function<dou
 
 // A ray in a cube of mirrors goes straight on through the cube's mirror images. Le is the position, as a colour: a face is known by
 // its 0 or 1.
-void unfold(Figures& figures, Technique way, std::uint64_t seed) {
+void unfold(Figures& figures, Technique technique, std::uint64_t seed) {
     const Vec3 origin(0.3, 0.4, 0.5), direction(1.0, 0.7, 0.45);
     constexpr int faces[] = {1, 3, 5, 0, 2, 1, 4, 0, 3, 1, 2, 5, 0, 3, 1, 0, 4, 2, 1, 3, 0,
                              5, 1, 2, 0, 4, 3, 1, 0, 2, 5, 1, 3, 0, 2, 4, 1, 0, 3, 1, 5};
@@ -50,7 +50,7 @@ void unfold(Figures& figures, Technique way, std::uint64_t seed) {
     for (const TriangleMesh& face : room({0, 0, 0}, {1, 1, 1}))
         maker.add(face, made_of(mirror(), AreaLight([](const ShadingPoint& p, const Vec3&) { return p.position; }, grey(1.0))));
     const Scene scene = maker.make();
-    const Estimates found = probe(scene, seen(scene, origin, direction), way, effort(way, 40, seed));
+    const Estimates found = probe(scene, seen(scene, origin, direction), technique, probe_settings(technique, 40, seed));
     double worst = 0.0;
     int wrong_faces = 0;
     for (std::size_t i = 0; i < found.terms.size(); ++i) {
@@ -66,7 +66,7 @@ void unfold(Figures& figures, Technique way, std::uint64_t seed) {
 
 // In a sphere a ray goes round in equal steps α = π − 2θ: K^i Le = ρ^i (1 + cos 3iα) for Le = 1 + cos 3φ. The eigenvalues are
 // complex.
-void rotate(Figures& figures, Technique way, std::uint64_t seed) {
+void rotate(Figures& figures, Technique technique, std::uint64_t seed) {
     const double theta = 37.0 * pi / 180.0, alpha = pi - 2.0 * theta;
     SceneMaker maker;
     const auto emitted = [](const ShadingPoint& p, const Vec3&) {
@@ -76,9 +76,10 @@ void rotate(Figures& figures, Technique way, std::uint64_t seed) {
     const Scene scene = maker.make();
     const Vec3 towards(-std::cos(theta), std::sin(theta), 0.0);
     const auto exact = [&](int i) { return std::pow(mirror_rho, i) * (1.0 + std::cos(3.0 * i * alpha)); };
-    const Estimates found = probe(scene, seen(scene, Vec3(1, 0, 0) + 0.5 * towards, -towards), way, effort(way, 60, seed));
+    const Estimates found =
+        probe(scene, seen(scene, Vec3(1, 0, 0) + 0.5 * towards, -towards), technique, probe_settings(technique, 60, seed));
     add_terms(figures, found, exact, 1e-10);
-    if (way == Technique::pointwise) return;
+    if (technique == Technique::pointwise) return;
     // Beyond term 60 there is at most 2 ρ^61/(1 − ρ).
     double sum = 0.0;
     for (const Statistic& term : found.terms) sum += term.mean.r;
@@ -86,7 +87,7 @@ void rotate(Figures& figures, Technique way, std::uint64_t seed) {
 }
 
 // In a prism over an equilateral triangle the path through the middles of the sides closes after three bounces.
-void go_round(Figures& figures, Technique way, std::uint64_t seed) {
+void go_round(Figures& figures, Technique technique, std::uint64_t seed) {
     const Vec3 corner[] = {{1, 0, 0}, {-0.5, std::sqrt(0.75), 0}, {-0.5, -std::sqrt(0.75), 0}};
     SceneMaker maker;
     for (int side = 0; side < 3; ++side) {
@@ -97,12 +98,14 @@ void go_round(Figures& figures, Technique way, std::uint64_t seed) {
     const Scene scene = maker.make();
     const Vec3 middle = 0.5 * (corner[0] + corner[1]), before = 0.5 * (corner[2] + corner[0]);
     add_terms(
-        figures, probe(scene, seen(scene, before + 0.1 * (middle - before), middle - before), way, effort(way, 36, seed)),
+        figures,
+        probe(scene, seen(scene, before + 0.1 * (middle - before), middle - before), technique,
+              probe_settings(technique, 36, seed)),
         [](int i) { return i % 3 == 0 ? std::pow(mirror_rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
 }
 
 // m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le.
-void look_round_corners(Figures& figures, Technique way, std::uint64_t seed, int m) {
+void look_round_corners(Figures& figures, Technique technique, std::uint64_t seed, int m) {
     SceneMaker maker;
     // Light is followed along +x into the first mirror, up to the second, along +x, …
     Vec3 at(0.0), along(1, 0, 0), across(0, 0, 1);
@@ -113,14 +116,14 @@ void look_round_corners(Figures& figures, Technique way, std::uint64_t seed, int
     }
     maker.add(patch(at, -along, 0.2), lamp(2.0));
     const Scene scene = maker.make();
-    const Estimates found = probe(scene, seen(scene, {-1, 0.01, 0.02}, {1, 0, 0}), way, effort(way, 8, seed));
+    const Estimates found = probe(scene, seen(scene, {-1, 0.01, 0.02}, {1, 0, 0}), technique, probe_settings(technique, 8, seed));
     for (int i = 0; i <= 8; ++i)
         figures.near(fmt::format("K^{} Le", i), found.terms.at(static_cast<std::size_t>(i)).mean.r,
                      i == m ? 2.0 * std::pow(mirror_rho, m) : 0.0, i == m ? 64.0 * std::numeric_limits<double>::epsilon() : 0.0);
 }
 
 // Retroreflectors: K = ρ T, so that K² = ρ² I shows T² = I, wherever and along whatever direction.
-void go_back(Figures& figures, Technique way, std::uint64_t seed) {
+void go_back(Figures& figures, Technique technique, std::uint64_t seed) {
     SceneMaker maker;
     const auto emitted = [](const ShadingPoint& p, const Vec3& w) { return grey(2.0 + p.position.x * p.position.y + 0.5 * w.z); };
     for (const TriangleMesh& face : room({-0.7, -1.1, -0.9}, {0.8, 1.2, 1.3}))
@@ -133,7 +136,7 @@ void go_back(Figures& figures, Technique way, std::uint64_t seed) {
     const auto Le = [](const SurfacePoint& p, const Vec3& w) { return 2.0 + p.position.x * p.position.y + 0.5 * w.z; };
     const double first = Le(here, -d), second = Le(there, d);
     add_terms(
-        figures, probe(scene, seen(scene, origin, d), way, effort(way, 30, seed)),
+        figures, probe(scene, seen(scene, origin, d), technique, probe_settings(technique, 30, seed)),
         [=](int i) { return std::pow(mirror_rho, i) * (i % 2 ? second : first); }, 1e-12);
 }
 
@@ -168,19 +171,19 @@ void diverge(Figures& figures, std::uint64_t) {
 
 Cases mirror_cases() {
     Cases cases;
-    for (const Technique way : specular_techniques) {
-        const std::string name = short_name(way);
-        cases.push_back(
-            {"mirrors/cube/" + name, "unfolding: exact", [way](Figures& f, std::uint64_t seed) { unfold(f, way, seed); }});
+    for (const Technique technique : specular_techniques) {
+        const std::string name = short_name(technique);
+        cases.push_back({"mirrors/cube/" + name, "unfolding: exact",
+                         [technique](Figures& f, std::uint64_t seed) { unfold(f, technique, seed); }});
         cases.push_back({"mirrors/sphere/" + name, "rho^i (1 + cos 3 i alpha): exact",
-                         [way](Figures& f, std::uint64_t seed) { rotate(f, way, seed); }});
+                         [technique](Figures& f, std::uint64_t seed) { rotate(f, technique, seed); }});
         cases.push_back({"mirrors/triangle/" + name, "rho^i every third bounce, else 0: exact",
-                         [way](Figures& f, std::uint64_t seed) { go_round(f, way, seed); }});
+                         [technique](Figures& f, std::uint64_t seed) { go_round(f, technique, seed); }});
         for (const int m : {1, 5})
             cases.push_back({fmt::format("mirrors/periscope-{}/{}", m, name), "rho^m Le at bounce m, else 0: exact",
-                             [=](Figures& f, std::uint64_t seed) { look_round_corners(f, way, seed, m); }});
+                             [=](Figures& f, std::uint64_t seed) { look_round_corners(f, technique, seed, m); }});
         cases.push_back({"mirrors/retroreflectors/" + name, "K^2 = rho^2 I: exact",
-                         [way](Figures& f, std::uint64_t seed) { go_back(f, way, seed); }});
+                         [technique](Figures& f, std::uint64_t seed) { go_back(f, technique, seed); }});
     }
     cases.push_back({"mirrors/facing-convex", "error grows by 2 + sqrt 3 a bounce: exact", diverge});
     return cases;

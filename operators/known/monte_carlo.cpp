@@ -1,4 +1,4 @@
-// What is known of estimators themselves: the variance of one sample, where it is finite; the tail of the samples, where it is not;
+// Properties of the estimators themselves: the variance of one sample where it is finite, the tail of the samples where it is not,
 // and how the error falls. All samples are independent here.
 #include "operators/known/groups.h"
 #include "operators/known/scene_maker.h"
@@ -93,23 +93,24 @@ void coverage(Figures& figures, std::uint64_t seed) {
     const std::uint32_t receiver = maker.add(parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(1.0));
     maker.add(parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1}), lamp(1.0));
     const Scene scene = maker.make();
-    for (const Technique way : {Technique::light, Technique::bsdf}) {
+    for (const Technique technique : {Technique::light, Technique::bsdf}) {
         double covered = 0.0, below = 0.0;
         for (std::uint64_t k = 0; k < repetitions; ++k) {
-            const Statistic found = probe(scene, anywhere_on(scene, receiver), way, independent(16, 1, seed + (k << 32))).terms[1];
+            const Statistic found =
+                probe(scene, anywhere_on(scene, receiver), technique, independent(16, 1, seed + (k << 32))).terms[1];
             const double error = found.mean.r - form_factor;
             covered += std::abs(error) <= t * found.standard_error.r;
             below += error < -t * found.standard_error.r;
         }
-        const double expected = way == Technique::light ? 0.75 : 0.95;
-        figures.near(fmt::format("intervals that hold the truth, {}", short_name(way)), covered / repetitions, expected,
-                     z_limit * std::sqrt(expected * (1.0 - expected) / repetitions) + (way == Technique::light ? 0.05 : 0.0));
-        if (way == Technique::light) figures.at_least("of the others, below", below / (repetitions - covered), 0.95);
+        const double expected = technique == Technique::light ? 0.75 : 0.95;
+        figures.near(fmt::format("intervals that hold the truth, {}", short_name(technique)), covered / repetitions, expected,
+                     z_limit * std::sqrt(expected * (1.0 - expected) / repetitions) + (technique == Technique::light ? 0.05 : 0.0));
+        if (technique == Technique::light) figures.at_least("of the others, below", below / (repetitions - covered), 0.95);
     }
 }
 
-// The ceiling touches the walls, so that from K² on light sampling has infinite variance: the alarm is raised, and not elsewhere.
-// What it has sampled by then is no value with an interval, and is not compared.
+// The ceiling touches the walls, so from K² on light sampling has infinite variance. The alarm must be raised there and nowhere
+// else. Means of infinite variance have no interval and are not compared.
 void touching_light(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     const auto upper = [](const LargestSamples& largest) {
@@ -119,11 +120,11 @@ void touching_light(Figures& figures, std::uint64_t seed) {
     const Estimates by_light = probe(scene, middle_of_floor(scene), Technique::light, independent(16384, 2, seed));
     says_infinite(figures, "K^2 Le by points", scene, middle_of_floor(scene), 2, seed);
     figures.at_least("K Le by points: tail index", upper(by_light.largest[1]), 2.0);
-    for (const Technique way : {Technique::mis, Technique::bsdf}) {
-        const Estimates found = probe(scene, middle_of_floor(scene), way, independent(16384, 2, seed));
-        figures.at_least(fmt::format("K^2 Le by {}: tail index", short_name(way)), upper(found.largest[2]), 2.0);
+    for (const Technique technique : {Technique::mis, Technique::bsdf}) {
+        const Estimates found = probe(scene, middle_of_floor(scene), technique, independent(16384, 2, seed));
+        figures.at_least(fmt::format("K^2 Le by {}: tail index", short_name(technique)), upper(found.largest[2]), 2.0);
     }
-    // 4e6 paths of another program: its own error as ours for as many.
+    // From 4e6 paths of another program, whose error is that of as many paths here.
     ProbeSettings balance = independent(65536, 2, seed);
     balance.direct = DirectLightSettings{.direct = DirectLight::mis, .heuristic = Heuristic::balance};
     const Estimates mixed = probe(scene, middle_of_floor(scene), Technique::mis, balance);
@@ -165,10 +166,10 @@ void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double
     const FurnaceWalk known = furnace_walk(fixed, rho, 0);
     const bool finite = rho * rho < q;
     figures.near("vertices, by formula", known.vertices, 1.0 / (1.0 - q), 1e-12 / (1.0 - q));
-    ProbeSettings effort = independent(16384, 0, seed);
-    effort.rest_probability = 1.0;
-    effort.roulette = fixed;
-    const Estimates found = probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), Technique::bsdf, effort);
+    ProbeSettings settings = independent(16384, 0, seed);
+    settings.rest_probability = 1.0;
+    settings.roulette = fixed;
+    const Estimates found = probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), Technique::bsdf, settings);
     figures.sampled("vertices", {Rgb(found.rays_mean), Rgb(found.rays_error)}, 1.0 / (1.0 - q));
     if (finite) {
         const double mean = 1.0 / (1.0 - rho);
@@ -195,9 +196,9 @@ void roulette_by_albedo(Figures& figures, std::uint64_t seed, double rho) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
     const Scene scene = maker.make();
-    ProbeSettings effort = independent(rho > 0.95 ? 8192 : 16384, 0, seed);
-    effort.rest_probability = 1.0;
-    const Estimates found = probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), Technique::bsdf, effort);
+    ProbeSettings settings = independent(rho > 0.95 ? 8192 : 16384, 0, seed);
+    settings.rest_probability = 1.0;
+    const Estimates found = probe(scene, at(scene, {0, 0, -1}, {0, 0, 1}), Technique::bsdf, settings);
     figures.sampled("rays of a walk", {Rgb(found.rays_mean), Rgb(found.rays_error)}, 1.0 / (1.0 - rho));
     figures.sampled("sum of K^i Le, i > 0", found.rest, rho / (1.0 - rho));
     const double variance = rho / std::pow(1.0 - rho, 2);

@@ -64,8 +64,8 @@ struct FromSampler : Random {
     Sampler& sampler;
 };
 
-DirectLight direct_light(Technique way) {
-    return way == Technique::bsdf ? DirectLight::bsdf : way == Technique::light ? DirectLight::light : DirectLight::mis;
+DirectLight direct_light(Technique technique) {
+    return technique == Technique::bsdf ? DirectLight::bsdf : technique == Technique::light ? DirectLight::light : DirectLight::mis;
 }
 
 // The terms as functions, for the ways that are not walks.
@@ -79,9 +79,9 @@ struct Series {
         NeumannSeries series(K, emission(scene.emitters));
         for (terms.push_back(series.term()); series.bounce() < bounces; terms.push_back(series.term())) series.advance();
     }
-    Series(const Scene& scene, Technique way, int bounces) {
-        if (way == Technique::pointwise) develop(scene, ReflectionOperator(scene.materials), bounces);
-        if (way == Technique::surfaces) {
+    Series(const Scene& scene, Technique technique, int bounces) {
+        if (technique == Technique::pointwise) develop(scene, ReflectionOperator(scene.materials), bounces);
+        if (technique == Technique::surfaces) {
             surfaces.emplace(scene.geometry);
             develop(scene, SurfaceReflectionOperator(scene.geometry, *surfaces, scene.materials), bounces);
         }
@@ -101,16 +101,16 @@ constexpr std::uint32_t together = 64;  // walks
 
 // Adds the samples from `begin` to before `end`, a multiple of `together` or fewer than that.
 template <class Sampler>
-void run_batch(const Scene& scene, const StartPicker& pick, Technique way, const ProbeSettings& effort, const Series& series,
-               const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
-    const auto quantities = static_cast<std::size_t>(effort.bounces) + 2;
-    const WalkSettings settings{.bounces = effort.bounces,
-                                .direct = effort.direct.value_or(DirectLightSettings{direct_light(way)}),
-                                .roulette = effort.roulette,
-                                .split = effort.split,
-                                .rest_probability = effort.rest_probability,
-                                .give_up = effort.give_up};
-    const DirectLightSampler direct(scene, settings.direct);
+void run_batch(const Scene& scene, const StartPicker& pick, Technique technique, const ProbeSettings& settings,
+               const Series& series, const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
+    const auto quantities = static_cast<std::size_t>(settings.bounces) + 2;
+    const WalkSettings of_walk{.bounces = settings.bounces,
+                               .direct = settings.direct.value_or(DirectLightSettings{direct_light(technique)}),
+                               .roulette = settings.roulette,
+                               .split = settings.split,
+                               .rest_probability = settings.rest_probability,
+                               .give_up = settings.give_up};
+    const DirectLightSampler direct(scene, of_walk.direct);
     const std::uint32_t packet = std::min(end - begin, together);
     std::vector<Sampler> samplers(packet, sampler);
     std::vector<Start> starts(packet);
@@ -119,7 +119,7 @@ void run_batch(const Scene& scene, const StartPicker& pick, Technique way, const
     Walkers walkers;
     TermSamples result{samples, batch.rays};
     const auto walk_on = [&](const auto& continuation) {
-        walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, settings, std::span<const CameraRay>(rays),
+        walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, of_walk, std::span<const CameraRay>(rays),
              std::span<Sampler>(samplers), walkers, result, continuation);
     };
     for (std::uint32_t first = begin; first < end; first += packet) {
@@ -134,9 +134,9 @@ void run_batch(const Scene& scene, const StartPicker& pick, Technique way, const
                 samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
         }
         if (series.terms.empty()) {
-            if (effort.going_on == GoingOn::material) walk_on(MaterialContinuation());
-            if (effort.going_on == GoingOn::surfaces) walk_on(SurfaceContinuation(scene.geometry));
-            if (effort.going_on == GoingOn::specular) walk_on(SpecularContinuation());
+            if (settings.going_on == GoingOn::material) walk_on(MaterialContinuation());
+            if (settings.going_on == GoingOn::surfaces) walk_on(SurfaceContinuation(scene.geometry));
+            if (settings.going_on == GoingOn::specular) walk_on(SpecularContinuation());
         }
         for (std::uint32_t i = 0; i < packet; ++i) {
             Rgb reflected(0.0);
@@ -164,25 +164,25 @@ const SobolPoints& sobol_points(std::uint32_t size) {
 class Probe {
 public:
     // `most`: samples that a batch will ever have.
-    Probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort, std::uint32_t most)
+    Probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings, std::uint32_t most)
         : scene_(scene),
           start_(start),
-          way_(way),
-          effort_(effort),
-          points_(effort.sampler == SamplerKind::sobol ? &sobol_points(most) : nullptr),
-          series_(scene, way, effort.bounces),
-          batches_(batch_count, Batch(static_cast<std::size_t>(effort.bounces) + 2)) {}
+          technique_(technique),
+          settings_(settings),
+          points_(settings.sampler == SamplerKind::sobol ? &sobol_points(most) : nullptr),
+          series_(scene, technique, settings.bounces),
+          batches_(batch_count, Batch(static_cast<std::size_t>(settings.bounces) + 2)) {}
 
     // More than before, or the first ones.
     void sample_to(std::uint32_t samples) {
         oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
             const auto run = [&](const auto& sampler) {
-                run_batch(scene_, start_, way_, effort_, series_, sampler, samples_, samples, batches_[b]);
+                run_batch(scene_, start_, technique_, settings_, series_, sampler, samples_, samples, batches_[b]);
             };
             if (points_)
-                run(SobolSampler(*points_, effort_.seed, b));
+                run(SobolSampler(*points_, settings_.seed, b));
             else
-                run(IndependentSampler(effort_.seed, b));
+                run(IndependentSampler(settings_.seed, b));
         });
         samples_ = samples;
     }
@@ -192,8 +192,8 @@ public:
 private:
     const Scene& scene_;
     const StartPicker& start_;
-    Technique way_;
-    const ProbeSettings& effort_;
+    Technique technique_;
+    const ProbeSettings& settings_;
     const SobolPoints* points_;
     Series series_;
     std::vector<Batch> batches_;
@@ -201,7 +201,7 @@ private:
 };
 
 Estimates Probe::estimates() const {
-    const auto quantities = static_cast<std::size_t>(effort_.bounces) + 2;
+    const auto quantities = static_cast<std::size_t>(settings_.bounces) + 2;
     std::vector<Welford> means(quantities + 1), variances(quantities);
     Welford rays;
     Estimates result;
@@ -274,8 +274,8 @@ StartPicker anywhere(const Scene& scene) {
     };
 }
 
-std::string name(Technique way) {
-    switch (way) {
+std::string name(Technique technique) {
+    switch (technique) {
         case Technique::mis:
             return "walk, direct light by MIS";
         case Technique::bsdf:
@@ -290,25 +290,25 @@ std::string name(Technique way) {
     return "";
 }
 
-std::string short_name(Technique way) {
+std::string short_name(Technique technique) {
     constexpr const char* names[] = {"mis", "bsdf", "light", "pointwise", "surfaces"};
-    return names[static_cast<std::size_t>(way)];
+    return names[static_cast<std::size_t>(technique)];
 }
 
-Estimates probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort) {
-    Probe probe(scene, start, way, effort, effort.samples);
-    probe.sample_to(effort.samples);
+Estimates probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings) {
+    Probe probe(scene, start, technique, settings, settings.samples);
+    probe.sample_to(settings.samples);
     return probe.estimates();
 }
 
-Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique way, const ProbeSettings& effort,
+Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings,
                       std::uint32_t most) {
     const auto excess = [](const Statistic& s) { return s.standard_error.r / (0.0019 * std::abs(s.mean.r)); };  // NaN: 0 ± 0
-    Probe probe(scene, start, way, effort, most);
-    for (std::uint32_t samples = effort.samples;;) {
+    Probe probe(scene, start, technique, settings, most);
+    for (std::uint32_t samples = settings.samples;;) {
         probe.sample_to(samples);
         Estimates found = probe.estimates();
-        double largest = effort.rest_probability > 0.0 ? excess(found.rest) : 0.0;
+        double largest = settings.rest_probability > 0.0 ? excess(found.rest) : 0.0;
         for (std::size_t i = 1; i < found.terms.size(); ++i) largest = std::fmax(largest, excess(found.terms[i]));
         if (largest <= 1.0 || samples >= most) return found;
         // As many as the square of the error asks for, an eighth to all as many as there are, in whole packets of walks.

@@ -13,7 +13,7 @@ double integrate(double from, double to, double tolerance, const Function& f) {
     return boost::math::quadrature::gauss_kronrod<double, points>::integrate(f, from, to, 12, tolerance);
 }
 
-// Without a look at the error: 10 pieces of 30 points.
+// Gauss quadrature with 10 intervals of 30 points, without an error estimate.
 template <class Function>
 double integrate_smooth(double from, double to, const Function& f) {
     double sum = 0.0;
@@ -26,7 +26,8 @@ double integrate_smooth(double from, double to, const Function& f) {
 inline Vec3 at_cosine(double mu) { return {std::sqrt(1.0 - mu * mu), 0.0, mu}; }
 inline constexpr double cosines[] = {1.0, 0.8, 0.5, 0.2, 0.05};
 
-// ∫ f(ωi) dωi over the upper hemisphere, for an isotropic f seen from (sinθ, 0, cosθ); cut where the highlight is.
+// ∫ f(ωi) dωi over the upper hemisphere, for an isotropic f seen from (sinθ, 0, cosθ). The interval is split at the
+// highlight.
 template <class Function>
 double over_hemisphere(double mu, double tolerance, const Function& f) {
     const auto ring = [&](double z) {

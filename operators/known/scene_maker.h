@@ -1,4 +1,4 @@
-// Scenes put together by hand.
+// Scenes that are made by code.
 #pragma once
 
 #include "core/geometry/transformed.h"
@@ -11,13 +11,13 @@ namespace neumann::known {
 
 inline Rgb grey(double x) { return Rgb(x); }
 
-// What a surface is on its front; its back is black unless it is two-sided.
+// The front of a surface. The back is black, unless `two_sided` or `back` is set.
 struct Surface {
     std::optional<SurfaceFunction> reflectance;
     std::optional<AreaLight> emission;
     bool two_sided = false;
     std::optional<Bsdf> bsdf = std::nullopt;  // in place of the reflectance
-    std::optional<Bsdf> back = std::nullopt;  // of the back
+    std::optional<Bsdf> back = std::nullopt;  // the material of the back
 };
 inline Surface black() { return {}; }
 inline Surface matte(double rho) { return {grey(rho), std::nullopt}; }
@@ -45,16 +45,16 @@ public:
 
 // corner + s a + t b, s and t in [0, 1]; the front side is that of a × b.
 TriangleMesh parallelogram(const Vec3& corner, const Vec3& a, const Vec3& b);
-// The same cut into strips across a.
+// The same parallelogram, cut into strips across a.
 TriangleMesh strips(const Vec3& corner, const Vec3& a, const Vec3& b, int count);
 // A small square that faces along `normal`.
 TriangleMesh patch(const Vec3& center, const Vec3& normal, double half_side);
 TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c);
-// The order of room().
+// The order of the faces of room().
 enum Face : std::size_t { left, right, front, back, floor, ceiling };
 // The six faces of the box seen from inside: x low and high, y low and high, z low and high.
 std::array<TriangleMesh, 6> room(const Vec3& low, const Vec3& high);
-// Faces outwards.
+// The faces of a box, facing outwards.
 TriangleMesh box(const Vec3& low, const Vec3& high);
 TriangleMesh tetrahedron(double size);
 // 20 · 4^level triangles with their vertices on the unit sphere; faces outwards.
@@ -63,7 +63,7 @@ TriangleMesh icosphere(int level);
 TriangleMesh prism(int n);
 
 TriangleMesh flipped(TriangleMesh mesh);
-// The triangles of which `take` says so, by their centroid.
+// The triangles whose centroids `take` accepts.
 template <class Predicate>
 TriangleMesh part(const TriangleMesh& mesh, Predicate take) {
     TriangleMesh result{mesh.vertices, {}};

@@ -1,5 +1,4 @@
-// What stops a series, and what must not: bounds from norms, the two-sided enclosure, and terms that mislead whoever looks at
-// ratios.
+// Bounds that stop a series (from norms, and by the two-sided enclosure), and series whose first terms or ratios mislead.
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/known/small_problems.h"
@@ -62,7 +61,7 @@ void bounds_of_furnace(Figures& figures, std::uint64_t) {
     figures.holds("no bound at albedo 1", std::isinf(tail_bound(Rgb(1.0), Rgb(1.0), 5)));
 }
 
-// Ratios of neighbours jump between 0.018 and 44; every second term falls evenly, and encloses.
+// Ratios of successive terms alternate between 0.018 and 44; every second term falls evenly and gives an enclosure.
 void alternating(Figures& figures, std::uint64_t) {
     const DenseChannel K = plates();
     const SeriesRun run = run_series(K, vector({1, 0}), {.tolerance = 1e-6, .norm = 0.9});
@@ -100,8 +99,8 @@ void hidden_slow(Figures& figures, std::uint64_t) {
     figures.near("L, slow room", run.sum[1], 1e-4, 2e-7);
 }
 
-// Light that goes round three mirrors, and light behind twenty: terms that are 0 at an unknown are no end, and terms that do not
-// fall are no divergence yet.
+// Light that circles between three mirrors, and light behind twenty of them: the series must not end because terms are 0 at an
+// unknown, and must not be called divergent because its first terms do not fall.
 void zeros(Figures& figures, std::uint64_t) {
     const SeriesRun round = run_series(carousel(0.9), vector({1, 0, 0}), {.tolerance = 1e-9, .norm = 0.9});
     figures.said("period three: verdict", name(round.verdict), "converged");
@@ -115,7 +114,7 @@ void zeros(Figures& figures, std::uint64_t) {
     figures.said("periscope: why", periscope.why, "term 21 is 0, and so are all that follow");
 }
 
-// ‖K‖∞ = 1.6 and 2 are a warning both times, and only the second diverges: K^i Le = ρ (mean ρ)^(i−1).
+// ‖K‖∞ = 1.6 and 2: both are warned of, but only the second series diverges, as K^i Le = ρ (mean ρ)^(i−1).
 void norm_above_one(Figures& figures, std::uint64_t) {
     const SeriesRun run = run_series(sphere_halves(1.6, 0.2), Vector::Ones(2), {.tolerance = 1e-12, .norm = 1.6});
     figures.said("albedos 1.6, 0.2: verdict", name(run.verdict), "converged");
@@ -127,8 +126,8 @@ void norm_above_one(Figures& figures, std::uint64_t) {
     figures.near("rate", above.rate, 1.1, 1e-12);
 }
 
-// A furnace of albedo 1.05: (I − K)⁻¹ Le = −20, which elimination, Krylov methods and extrapolation find without noticing; and of
-// 1, which has no L at all. None of the solvers may say that it converged.
+// A furnace of albedo 1.05, where (I − K)⁻¹ Le = −20 is not the sum of the series, although elimination, Krylov methods and
+// extrapolation find it; and one of albedo 1, which has no L. No solver may say that it converged.
 void add_divergent(Cases& cases) {
     for (const double albedo : {1.0, 1.05})
         cases.push_back({fmt::format("series/divergent/albedo-{:g}", albedo), "no solver may converge",

@@ -1,4 +1,4 @@
-// Operators small enough to know everything about.
+// Operators on a few unknowns, about which everything is known.
 #pragma once
 
 #include "operators/solvers/matrix_channel.h"
@@ -39,7 +39,7 @@ inline DenseChannel carousel(double rho) {
 // The inside of a sphere in two halves of albedo a and b: everything is seen equally, F_uv = 1/2. λ = (a + b)/2 and 0.
 inline DenseChannel sphere_halves(double a, double b) { return two_by_two(a / 2, a / 2, b / 2, b / 2, 1.0, 1.0); }
 
-// Rooms that do not see each other, of one unknown each.
+// Rooms of one unknown each that do not see each other.
 inline DenseChannel separate_rooms(double a, double b) { return two_by_two(a, 0.0, 0.0, b, 1.0, 1.0); }
 
 }  // namespace neumann::known

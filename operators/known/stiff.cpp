@@ -1,6 +1,6 @@
-// Series that hardly fall, start late, or fall at different rates in different places, by every method: a closed room of albedo 0.9
-// to 1.01, in which K^i Le = ρ^i, and what is left beyond bounce N is ρ^(N+1)/(1−ρ). From 1 on there is no sum, and none may be
-// given.
+// Series that fall slowly, start late, or fall at different rates in different places, by every method. In a closed room of albedo
+// 0.9 to 1.01, K^i Le = ρ^i, and the rest beyond bounce N is ρ^(N+1)/(1−ρ). From albedo 1 on there is no sum, and no method may
+// report one.
 #include "core/geometry/area_sampler.h"
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double albedos[] = {0.9, 0.99, 0.999, 0.999999, 1.0, 1.01};
 
-// A sphere, as points on its surface see each other evenly and no way to sample them has infinite variance.
+// A sphere: all points of its surface see each other equally, so no technique has infinite variance.
 Scene furnace_with_camera(double rho) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
@@ -34,7 +34,7 @@ Scene furnace_with_camera(double rho) {
 }
 double rest_of(double rho, int bounces) { return std::pow(rho, bounces + 1) / (1.0 - rho); }
 
-// Of 64 replicates.
+// Rendered in 64 replicates.
 Statistic mean_of(const BounceSeries& series, int i) {
     const MeanWithError m = series.means_of_term(static_cast<std::size_t>(i)).all;
     return {Rgb(m.mean), Rgb(m.standard_error)};
@@ -45,7 +45,7 @@ Statistic mean_of_rest(const BounceSeries& series) {
 
 struct Sampling {
     Method method;
-    std::uint32_t samples;  // a pixel, in each of 64 replicates
+    std::uint32_t samples;  // per pixel, in each of 64 replicates
     int bounces = 8;
     double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
 };
@@ -85,13 +85,14 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
                     rest_of(rho, sampling.bounces));
 }
 
-// Whether walks say that the series ends: not from 1 on, and at 0.999999 it takes longer than they are followed.
+// Whether the walks show that the series converges. They do not from albedo 1 on, nor at 0.999999, where the series is longer than
+// the walks are followed.
 void by_pilot(Figures& figures, std::uint64_t seed, double rho) {
     const Scene scene = furnace_with_camera(rho);
     const Pilot pilot(scene, {}, seed);
     figures.said("the series", pilot.converges() ? "converges" : "does not converge, or too slowly to tell",
                  rho < 0.9999 ? "converges" : "does not converge, or too slowly to tell");
-    // Walks without variance, but for light sampling.
+    // Walks have no variance here, except that of light sampling.
     figures.near("K^8 Le", pilot.term(8).mean, std::pow(rho, 8), z_limit * pilot.term(8).standard_error + 1e-12);
 }
 
@@ -107,7 +108,7 @@ void by_fields(Figures& figures, std::uint64_t seed, const Method& method, doubl
                                       {.bounces = 8, .samples = batch_count * 8, .replicates = batch_count, .seed = seed});
     for (const int i : {1, 2, 8})
         figures.sampled(fmt::format("K^{} Le", i), mean_of(found, i), std::pow(rho, i),
-                        // Floats hold the pixels.
+                        // Pixels are floats.
                         1e-6);
     figures.said("the rest", found.rest ? "converges" : "does not", rho < 1.0 ? "converges" : "does not");
     if (rho < 1.0) {
@@ -147,8 +148,8 @@ void by_solvers(Figures& figures, std::uint64_t, double rho) {
         figures.near("solvers that converge", right, 0, 0);
 }
 
-// Twelve rooms in a row, and a light in the last one: a tenth of the light of each goes to either neighbour. The first room is dark
-// for eleven bounces, and then becomes brighter for many.
+// Twelve rooms in a row with a light in the last one. A tenth of each room's light goes to either neighbour. The first room is dark
+// for eleven bounces, and then becomes brighter over many.
 void chain_of_rooms(Figures& figures, std::uint64_t) {
     constexpr Eigen::Index rooms = 12;
     constexpr double rho = 0.99, door = 0.1;
@@ -197,8 +198,8 @@ void chain_of_rooms(Figures& figures, std::uint64_t) {
     }
 }
 
-// Two rooms and a door ajar between them; the light is in one, and the point in the other sees neither it nor what it shines on.
-// All that is emitted is absorbed, wherever: Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
+// Two rooms with a door ajar between them. The light is in one; the point is in the other and sees neither the light nor the
+// surfaces that it shines on. All emitted light is absorbed: Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
 Scene rooms_with_door(double rho) {
     SceneMaker maker;
     const auto add = [&](const TriangleMesh& mesh) { maker.add(mesh, matte(rho)); };
@@ -235,7 +236,7 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     figures.near("K Le", found.terms[1].mean.r, 0.0, 0.0);
     figures.at_least("K^3 Le over K^2 Le", found.terms[3].mean.r / found.terms[2].mean.r, 1.5);
     figures.at_least("K^4 Le over K^3 Le", found.terms[4].mean.r / found.terms[3].mean.r, 1.0);
-    // The rest, asked for while all is dark, is what comes later.
+    // The rest beyond the dark bounces is all the light there is.
     const Estimates early =
         probe(scene, here, Technique::mis, {.samples = 8192, .bounces = 1, .rest_probability = 1.0, .seed = seed + 1});
     figures.near("sum so far, at bounce 1", early.terms[0].mean.r + early.terms[1].mean.r, 0.0, 0.0);
@@ -257,7 +258,7 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     const TracedChannel K = system.channel(0);
     const SeriesRun run = run_series(K, system.emitted(0), {.tolerance = 1e-6, .norm = rho});
     figures.said("matrix: verdict", name(run.verdict), "converged");
-    // What a traced T does not keep exactly is the flux: 64 rays from each of 2000 patches.
+    // A traced T conserves flux only approximately: 64 rays from each of 2000 patches.
     const double power = (1.0 - rho) * K.measure().dot(run.sum) / K.measure().dot(system.emitted(0));
     figures.near("matrix: absorbed/emitted", power, 1.0, 0.05);
 }

@@ -1,5 +1,5 @@
-// Two surfaces that each see themselves and the other evenly: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact, values are the same
-// all over each surface, up to the rim where they meet, and one eigenvalue is negative, so that terms alternate.
+// Two surfaces, each of which sees itself and the other equally from all its points: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact.
+// Values are constant on each surface, up to the rim where they meet. One eigenvalue is negative, so the terms alternate.
 //
 //     concentric spheres, inner seen from outside:  F12 = 1,  F21 = (r1/r2)²,  F22 = 1 − F21;
 //     a sphere closed by a disc, with the fraction f of the sphere's area:  F_dd = 0, F_ds = 1, F_sd = 1 − f, F_ss = f.
@@ -43,10 +43,10 @@ void add_matrix(Cases& cases, const std::string& name, DenseChannel (*matrix)(),
 }
 
 void add_dome(Cases& cases, double f, bool disc_glows) {
-    for (const Technique way : {Technique::mis, Technique::bsdf}) {
-        if (way == Technique::bsdf && f != 0.5) continue;
+    for (const Technique technique : {Technique::mis, Technique::bsdf}) {
+        if (technique == Technique::bsdf && f != 0.5) continue;
         cases.push_back(
-            {fmt::format("two-patches/dome-{:g}-{}/{}", f, disc_glows ? "from-disc" : "from-dome", short_name(way)),
+            {fmt::format("two-patches/dome-{:g}-{}/{}", f, disc_glows ? "from-disc" : "from-dome", short_name(technique)),
              "2 x 2 matrix: exact", [=](Figures& figures, std::uint64_t seed) {
                  // The chamber is above the plane z = 1 − 2 f; the part of the sphere below is shut off by the disc's black back.
                  const double rho_disc = 0.7, rho_sphere = 0.5, height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
@@ -57,9 +57,9 @@ void add_dome(Cases& cases, double f, bool disc_glows) {
                  const Scene scene = maker.make();
                  const auto exact = terms_of(two_by_two(0.0, rho_disc, rho_sphere * (1 - f), rho_sphere * f, 1.0, 1.0),
                                              vector({disc_glows ? 1.0 : 0.0, disc_glows ? 0.0 : 1.0}), 7);
-                 const ProbeSettings effort{.samples = 1024, .bounces = 5, .seed = seed};
+                 const ProbeSettings settings{.samples = 1024, .bounces = 5, .seed = seed};
                  const auto add = [&](const std::string& where, const StartPicker& start, const std::vector<double>& values) {
-                     const Estimates found = sharp_probe(scene, start, way, effort);
+                     const Estimates found = sharp_probe(scene, start, technique, settings);
                      for (std::size_t i = 1; i <= 5; ++i)
                          figures.sampled(fmt::format("K^{} Le, {}", i, where), found.terms[i], values[i]);
                  };
@@ -72,9 +72,9 @@ void add_dome(Cases& cases, double f, bool disc_glows) {
 }
 
 void add_concentric(Cases& cases, double inner, int bounces) {
-    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
-        if (way == Technique::light && inner > 0.5) continue;  // a narrow gap: much noise
-        cases.push_back({fmt::format("two-patches/spheres-{:.2g}/{}", inner, short_name(way)), "2 x 2 matrix: exact",
+    for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::light}) {
+        if (technique == Technique::light && inner > 0.5) continue;  // too noisy in a narrow gap
+        cases.push_back({fmt::format("two-patches/spheres-{:.2g}/{}", inner, short_name(technique)), "2 x 2 matrix: exact",
                          [=](Figures& figures, std::uint64_t seed) {
                              const double rho = 0.9, F21 = inner * inner;
                              SceneMaker maker;
@@ -84,9 +84,10 @@ void add_concentric(Cases& cases, double inner, int bounces) {
                              const auto exact = terms_of(two_by_two(0.0, rho, rho * F21, rho * (1.0 - F21), F21, 1.0),
                                                          vector({1, 0}), bounces + 1);
                              const Vec3 n(0.48, 0.64, 0.6);
-                             const ProbeSettings effort{.samples = 1024, .bounces = bounces, .seed = seed};
-                             const Estimates on_inner = sharp_probe(scene, at(scene, Vec3(1, 2, 3) + n * inner, n), way, effort),
-                                             on_outer = sharp_probe(scene, at(scene, Vec3(1, 2, 3) + n, -n), way, effort);
+                             const ProbeSettings settings{.samples = 1024, .bounces = bounces, .seed = seed};
+                             const Estimates on_inner =
+                                                 sharp_probe(scene, at(scene, Vec3(1, 2, 3) + n * inner, n), technique, settings),
+                                             on_outer = sharp_probe(scene, at(scene, Vec3(1, 2, 3) + n, -n), technique, settings);
                              for (int i = 1; i <= bounces; ++i) {
                                  const auto k = static_cast<std::size_t>(i);
                                  figures.sampled(fmt::format("K^{} Le, inner", i), on_inner.terms[k], exact[0][k]);

@@ -24,8 +24,7 @@ NEUMANN_HOT void trace_facet(const PatchSpace& space, const SobolPoints& sobol, 
 
 }  // namespace
 
-RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const std::function<void()>& checkpoint)
-    : space_(&space) {
+RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch) : space_(&space) {
     std::map<std::uint32_t, SobolPoints> sobol;  // by number of rays
     first_.push_back(0);
     for (const Facet& facet : space.facets()) {
@@ -36,7 +35,7 @@ RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t se
     seen_.resize(first_.back());
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 16),
                               [&](const auto& range) {
-                                  checkpoint();
+                                  if (watch.stop()) throw Stopped();
                                   for (std::uint32_t f = range.begin(); f < range.end(); ++f)
                                       trace_facet(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f,
                                                   seen_.data() + first_[f]);

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "operators/patches/patch_space.h"
+#include "operators/watch.h"
 
 #include <algorithm>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,9 +15,8 @@ namespace neumann {
 class RayTable {
 public:
     // `rays`: per facet; a power of two. Facets with more cells of directions than that have one ray per cell. Keeps a reference to
-    // the space. `checkpoint` is called now and then, from any thread, and may throw to stop.
-    RayTable(
-        const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const std::function<void()>& checkpoint = [] {});
+    // the space. Throws Stopped if `watch` stops it.
+    RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch = {});
     // The number of rays that such a table has in all.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 

@@ -6,19 +6,11 @@
 
 namespace neumann {
 
-namespace {
-
-struct GivenUp {};
-
-}  // namespace
-
 std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits) {
     std::vector<RefinementRow> rows;
     const auto add = [&](const char* what, std::size_t patches, std::uint32_t rays) {
         if (patches == 0 || rays == 0) return;
-        const TracedSystem system(scene, {patches, rays, settings.seed, settings.memory}, [&] {
-            if (!limits.go_on({})) throw GivenUp();
-        });
+        const TracedSystem system(scene, {patches, rays, settings.seed, settings.memory}, limits.watch);
         RefinementRow row{what, system.settings(), system.space().patches().size(), system.space().size(), {}};
         for (int c = 0; c < system.channels(); ++c) {
             auto& leading = row.leading.emplace_back();
@@ -33,7 +25,7 @@ std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSetti
         add("patches / 4", settings.patches / 4, settings.rays);
         add("rays / 16", settings.patches, settings.rays / 16);
         add("rays / 4", settings.patches, settings.rays / 4);
-    } catch (const GivenUp&) {
+    } catch (const Stopped&) {
     }
     return rows;
 }

@@ -19,7 +19,7 @@ struct RefinementRow {
 };
 
 // Rows for a sixteenth and a quarter of the patches, and for a sixteenth and a quarter of the rays. There are fewer rows if patches
-// or rays are too few, or if limits.go_on() returns false. Eigenvalues that are not found within the limits are left out.
+// or rays are too few, or if limits.watch stops them. Eigenvalues that are not found within the limits are left out.
 std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits = {});
 
 // How far the spectral radius of a channel moves when patches or rays are quartered; not a number if there is nothing to compare.

@@ -52,4 +52,12 @@ std::size_t reflection_entries(const RayTable& table, const ReflectionMatrix<1>&
     return count;
 }
 
+Vector ray_measures(const RayTable& table) {
+    Vector measure(static_cast<Eigen::Index>(table.seen().size()));
+    for (std::uint32_t f = 0; f < table.space().facets().size(); ++f)
+        for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray)
+            measure[static_cast<Eigen::Index>(ray)] = table.measure(f);
+    return measure;
+}
+
 }  // namespace neumann

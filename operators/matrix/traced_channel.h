@@ -30,5 +30,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& ta
 Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R);
 // The number of entries of that R.
 std::size_t reflection_entries(const RayTable& table, const ReflectionMatrix<1>& R);
+// The étendue of each ray: n² times area times projected solid angle.
+Vector ray_measures(const RayTable& table);
 
 }  // namespace neumann

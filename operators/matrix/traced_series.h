@@ -7,9 +7,9 @@
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
 #include "operators/matrix/power_balance.h"
+#include "operators/watch.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace neumann {
@@ -21,8 +21,6 @@ struct TracedSeriesSettings {
     std::uint64_t seed = 0;
     bool rest = true;                  // also compute Σ_{k>N}
     std::uint32_t camera_samples = 2;  // per pixel, for We; a power of two
-    // Called now and then, from any thread; may throw to stop.
-    std::function<void()> checkpoint = [] {};
 };
 
 struct TracedSeries {
@@ -33,13 +31,14 @@ struct TracedSeries {
     std::vector<PowerOfTerm> power = {};  // of the terms 0 … N; for light only
 };
 
+// Throws Stopped if `watch` stops it; so does trace_importance().
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                          const TracedSeriesSettings& settings);
+                          const TracedSeriesSettings& settings, const Watch& watch = {});
 
 // The series of importance: We, K* We, …, m⁻²·sr⁻¹, each averaged over all directions of a side. If Le does not depend on
 // direction, ⟨K*^i We, Le⟩ is the mean over pixels of the picture of bounce i. In the coarser space K_c* = M K* P, because M is the
 // adjoint of P.
 TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                              const TracedSeriesSettings& settings);
+                              const TracedSeriesSettings& settings, const Watch& watch = {});
 
 }  // namespace neumann

@@ -28,11 +28,11 @@ PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {
 
 }  // namespace
 
-TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings, const std::function<void()>& checkpoint)
+TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings, const Watch& watch)
     : scene_(&scene),
       settings_(settings),
       space_(make_space(scene, settings)),
-      table_(space_, settings.rays, settings.seed, checkpoint),
+      table_(space_, settings.rays, settings.seed, watch),
       samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays),
       identity_(ReflectionMatrix<1>::identity(space_)) {
     is_grey(scene) ? fill<1>() : fill<4>();
@@ -54,6 +54,11 @@ void TracedSystem::fill() {
         channel(c).apply(emitted(c), b);
         direct_.row(c) = b.transpose();
     }
+}
+
+const char* TracedSystem::channel_name(int c) const {
+    constexpr const char* names[] = {"red", "green", "blue"};
+    return channels() == 1 ? "grey" : names[c];
 }
 
 std::size_t TracedSystem::rays_that_see_nothing() const {

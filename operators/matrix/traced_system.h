@@ -7,7 +7,6 @@
 #include "operators/matrix/traced_channel.h"
 
 #include <cstdint>
-#include <functional>
 
 namespace neumann {
 
@@ -21,10 +20,9 @@ struct TracedSettings {
 class TracedSystem {
 public:
     // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another, and if
-    // the patches and rays need too much memory. `checkpoint` is called now and then while T is traced, from any thread, and may
-    // throw to stop.
-    TracedSystem(
-        const Scene& scene, const TracedSettings& settings, const std::function<void()>& checkpoint = [] {});
+    // the patches and rays need too much memory. Throws Stopped if `watch` stops it while T is
+    // traced.
+    TracedSystem(const Scene& scene, const TracedSettings& settings, const Watch& watch = {});
     TracedSystem(const TracedSystem&) = delete;
     TracedSystem& operator=(const TracedSystem&) = delete;
 
@@ -35,6 +33,8 @@ public:
 
     // 1 if the scene is grey, otherwise 3.
     int channels() const { return static_cast<int>(R_.size()); }
+    // "grey", or "red", "green", "blue".
+    const char* channel_name(int c) const;
     const ReflectionMatrix<1>& reflection(int c) const { return R_[static_cast<std::size_t>(c)]; }
     // A channel of K; it refers to the table and R of this object.
     TracedChannel channel(int c) const { return {table_, reflection(c)}; }

@@ -24,10 +24,10 @@ constexpr double wide_interval = 0.1;
 constexpr std::uint32_t fewest_light_samples = 16, most_light_samples = 64;
 
 template <class M>
-FieldMethod kind(const M& m) {
-    if constexpr (std::same_as<M, method::Matrix>) return FieldMethod::matrix;
-    if constexpr (std::same_as<M, method::Gather>) return FieldMethod::gather;
-    if constexpr (std::same_as<M, method::Patches>) return m.importance ? FieldMethod::importance : FieldMethod::patches;
+FieldReading kind(const M& m) {
+    if constexpr (std::same_as<M, method::Matrix>) return FieldReading::matrix;
+    if constexpr (std::same_as<M, method::Gather>) return FieldReading::gather;
+    if constexpr (std::same_as<M, method::Patches>) return m.importance ? FieldReading::importance : FieldReading::patches;
 }
 
 // One replicate's share of `all`: a power of two, and at least 1.
@@ -43,11 +43,11 @@ template <HasFields M>
 FieldSettings choose_settings(const M& m, const RenderJob& job) {
     const Goal& goal = job.goal;
     FieldSettings settings;
-    settings.method = kind(m);
+    settings.reading = kind(m);
     settings.bounces = choose_bounces(job);
     settings.seed = goal.seed;
     settings.rest = !goal.only_pictures;
-    if (settings.method == FieldMethod::gather) settings.gather_rays = 16;
+    if (settings.reading == FieldReading::gather) settings.gather_rays = 16;
     if (goal.replicates) {
         settings.samples = share_of_replicate(goal);
         settings.replicates = *goal.replicates;
@@ -89,7 +89,7 @@ template <HasFields M>
 BounceSeries render_by(M m, const RenderJob& job) {
     const Goal& goal = job.goal;
     if (goal.colors) throw InputError("fields on patches have linear RGB alone");
-    const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldMethod::importance;
+    const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldReading::importance;
     if (importance && goal.tail)
         throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
     const FieldSettings settings = choose_settings(m, job);
@@ -97,7 +97,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
         throw InputError(
             "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
     auto rendered = given && !goal.seconds
-                        ? render_fields_once(job.scene, settings, job.watch.stop)
+                        ? render_fields_once(job.scene, settings, job.watch)
                         : std::optional(render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given), job.watch));
     if (!rendered) throw RunError("interrupted before the pictures were finished: nothing was written");
     FieldRun& run = *rendered;
@@ -141,7 +141,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
     record.patches = pictures->patches;
     record.unknowns = pictures->unknowns;
     record.directions = directions;
-    if (run.settings.method == FieldMethod::gather) record.gather_rays = run.settings.gather_rays;
+    if (run.settings.reading == FieldReading::gather) record.gather_rays = run.settings.gather_rays;
     record.why = run.why;
     if (!pictures->rest_converges) record.why_no_rest = "the terms do not fall, or too slowly to add them up";
     record.power = pictures->power;

@@ -60,8 +60,8 @@ SamplingGoal sampling_goal(const Goal& goal) {
     return {goal.samples, goal.seconds, goal.relative_error};
 }
 
-RestVerdict rest_verdict(PathMethod method, const RenderJob& job) {
-    if (method == PathMethod::pointwise || job.goal.only_pictures) return RestVerdict::not_sampled;
+RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
+    if (generator == PathGenerator::pointwise || job.goal.only_pictures) return RestVerdict::not_sampled;
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
@@ -101,8 +101,8 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     const Scene& scene = job.scene;
     const Goal& goal = job.goal;
     Warnings& warnings = series.warnings;
-    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.method != PathMethod::light)
-        warnings.add(settings.method == PathMethod::bidirectional
+    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.generator != PathGenerator::light)
+        warnings.add(settings.generator == PathGenerator::bidirectional
                          ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
                          : "what a mirror throws on from a light without extent is not found by the walk and is missing");
     if (series.paths == Paths::seen_directly)
@@ -118,7 +118,7 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
         warnings.add(
             "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
             "direction: what these reflect and let through is missing");
-    if (settings.method == PathMethod::surface)
+    if (settings.generator == PathGenerator::surface)
         warnings.add(
             "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
     if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
@@ -198,7 +198,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     SamplingGoal to_reach = sampling_goal(goal);
     double setup_seconds = 0.0;
     const Stopwatch clock;
-    if (set_up(method, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()), settings)) {
+    if (set_up(method, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()), settings, job.watch)) {
         setup_seconds = clock.seconds();
         // The set-up counts towards the time limit.
         if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
@@ -206,8 +206,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
-    const Paths paths = paths_of(settings.method, scene);
-    const RestVerdict verdict = rest_verdict(settings.method, job);
+    const Paths paths = paths_of(settings.generator, scene);
+    const RestVerdict verdict = rest_verdict(settings.generator, job);
     auto [sampled, report] = sample(settings, to_reach, verdict, job);
     if (paths != Paths::all) report_missing(report, job.pilot());
 
@@ -242,7 +242,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), Pilot::bounces + Pilot::give_up);
-    if (settings.method == PathMethod::walk) record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
+    if (settings.generator == PathGenerator::walk)
+        record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
     if (goal.only_pictures) {
         series.warnings.add("sample was not a finite number and was left out", sampled.tally.non_finite_samples());
     } else {

@@ -15,15 +15,15 @@ namespace neumann {
 namespace {
 
 template <class M>
-PathMethod kind() {
-    if constexpr (std::same_as<M, method::Walk>) return PathMethod::walk;
-    if constexpr (std::same_as<M, method::Guided>) return PathMethod::guided;
-    if constexpr (std::same_as<M, method::Corrected>) return PathMethod::corrected;
-    if constexpr (std::same_as<M, method::Surface>) return PathMethod::surface;
-    if constexpr (std::same_as<M, method::Light>) return PathMethod::light;
-    if constexpr (std::same_as<M, method::Bidirectional>) return PathMethod::bidirectional;
-    if constexpr (std::same_as<M, method::Classic>) return PathMethod::classic;
-    return PathMethod::pointwise;
+PathGenerator kind() {
+    if constexpr (std::same_as<M, method::Walk>) return PathGenerator::walk;
+    if constexpr (std::same_as<M, method::Guided>) return PathGenerator::guided;
+    if constexpr (std::same_as<M, method::Corrected>) return PathGenerator::corrected;
+    if constexpr (std::same_as<M, method::Surface>) return PathGenerator::surface;
+    if constexpr (std::same_as<M, method::Light>) return PathGenerator::light;
+    if constexpr (std::same_as<M, method::Bidirectional>) return PathGenerator::bidirectional;
+    if constexpr (std::same_as<M, method::Classic>) return PathGenerator::classic;
+    return PathGenerator::pointwise;
 }
 
 void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters) {
@@ -37,12 +37,12 @@ void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters
 template <MakesPaths M>
 SamplingSettings settings_of(const M& m, const Scene& scene) {
     SamplingSettings settings;
-    settings.method = kind<M>();
-    if (settings.method == PathMethod::pointwise && scene.emitters.has_delta_lights())
+    settings.generator = kind<M>();
+    if (settings.generator == PathGenerator::pointwise && scene.emitters.has_delta_lights())
         throw InputError(
             "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
             "spot), of which the scene has some; take --method walk, matrix or gather");
-    if (scene.hide_emitters && splats(settings.method))
+    if (scene.hide_emitters && splats(settings.generator))
         throw InputError(
             fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk", M::name));
     if constexpr (requires { m.direct; }) {
@@ -50,7 +50,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
         settings.walk.direct = m.direct;
     }
     // Neither finds lights by directions of its own, but in mirrors.
-    if (settings.method == PathMethod::surface || settings.method == PathMethod::classic)
+    if (settings.generator == PathGenerator::surface || settings.generator == PathGenerator::classic)
         settings.walk.direct = {.direct = DirectLight::light};
     if constexpr (requires { m.roulette; }) settings.walk.roulette = m.roulette;
     if constexpr (requires { m.split; }) settings.walk.split = m.split;
@@ -63,7 +63,7 @@ SamplingSettings settings_of(const M&, const Scene&) {
 }
 
 std::shared_ptr<const Approximation> approximation(const method::Corrected& corrected, const Scene& scene, int bounces,
-                                                   std::uint64_t seed, double memory) {
+                                                   std::uint64_t seed, double memory, const Watch& watch) {
     ApproximationSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
     if (corrected.patches) settings.patches = *corrected.patches;
     if (corrected.directions) {
@@ -71,7 +71,7 @@ std::shared_ptr<const Approximation> approximation(const method::Corrected& corr
         if (!std::has_single_bit(settings.rays))
             throw InputError(fmt::format("--directions {}: --method corrected expects a power of two", settings.rays));
     }
-    return std::make_shared<const Approximation>(scene, settings);
+    return std::make_shared<const Approximation>(scene, settings, watch);
 }
 
 std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& guided, const Scene& scene, int bounces,
@@ -96,11 +96,12 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
     return settings;
 }
 
-bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings) {
+bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
+            const Watch& watch) {
     if (const auto* guided = std::get_if<method::Guided>(&method))
         settings.tables = direction_tables(*guided, scene, bounces, seed, memory);
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
-        settings.approximation = approximation(*corrected, scene, bounces, seed, memory);
+        settings.approximation = approximation(*corrected, scene, bounces, seed, memory, watch);
     else
         return false;
     return true;

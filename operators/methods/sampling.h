@@ -4,6 +4,7 @@
 #include "operators/methods/method.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/plan/plan.h"
+#include "operators/watch.h"
 
 namespace neumann {
 
@@ -12,7 +13,8 @@ namespace neumann {
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed);
 
 // Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`. Returns whether it needs
-// anything. Throws InputError.
-bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings);
+// anything. Throws InputError, and Stopped if `watch` stops it.
+bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
+            const Watch& watch = {});
 
 }  // namespace neumann

@@ -4,17 +4,17 @@ namespace neumann {
 
 bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
     if (!is_finite(scene.emitters.largest_radiance())) return false;  // some light has no extent
-    switch (settings.method) {
-        case PathMethod::pointwise:
+    switch (settings.generator) {
+        case PathGenerator::pointwise:
             return true;
-        case PathMethod::walk:
-        case PathMethod::guided: {
+        case PathGenerator::walk:
+        case PathGenerator::guided: {
             const DirectLight direct = settings.walk.direct.direct;
             return direct == DirectLight::bsdf || direct == DirectLight::mis;
         }
-        case PathMethod::corrected:
+        case PathGenerator::corrected:
             return true;
-        case PathMethod::bidirectional:
+        case PathGenerator::bidirectional:
             return !settings.ways_of_last_bounce;  // half of these have no MIS weight
         default:
             return false;

@@ -21,11 +21,11 @@ constexpr std::size_t self_hits_kept = 4;
 int bounces_of_camera_paths(const SamplingSettings& settings) {
     const WalkSettings& walk = settings.walk;
     const bool found_by_points = walk.direct.direct != DirectLight::bsdf && walk.direct.direct != DirectLight::mis;
-    const bool ends_early = settings.method != PathMethod::bidirectional && found_by_points && walk.rest_probability == 0.0;
+    const bool ends_early = settings.generator != PathGenerator::bidirectional && found_by_points && walk.rest_probability == 0.0;
     return std::min(walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 int bounces_of_light_paths(const SamplingSettings& settings) {
-    const bool ends_early = settings.method == PathMethod::bidirectional || settings.walk.rest_probability == 0.0;
+    const bool ends_early = settings.generator == PathGenerator::bidirectional || settings.walk.rest_probability == 0.0;
     return std::min(settings.walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 
@@ -70,7 +70,7 @@ double Checkup::self_hits_at_most() const {
 
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
-    if (settings.method == PathMethod::pointwise || settings.method == PathMethod::corrected) return std::nullopt;
+    if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected) return std::nullopt;
     const std::uint32_t size = settings.replicate_size;
     const std::uint64_t paths = std::uint64_t{static_cast<std::uint32_t>(sampler.width())} *
                                 static_cast<std::uint32_t>(sampler.height()) * size;  // of a replicate
@@ -79,14 +79,14 @@ std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sample
     const std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
 
     // With `surface` and `classic`, the paths' weights are not the energy that arrives.
-    const bool by_material = settings.method != PathMethod::surface && settings.method != PathMethod::classic;
-    const int camera_bounces = settings.method == PathMethod::light || !by_material ? 0 : bounces_of_camera_paths(settings),
-              light_bounces = splats(settings.method) ? bounces_of_light_paths(settings) : 0;
+    const bool by_material = settings.generator != PathGenerator::surface && settings.generator != PathGenerator::classic;
+    const int camera_bounces = settings.generator == PathGenerator::light || !by_material ? 0 : bounces_of_camera_paths(settings),
+              light_bounces = splats(settings.generator) ? bounces_of_light_paths(settings) : 0;
     std::vector<std::optional<GroupCheckup>> found(count);
     oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t k) {
         const std::uint64_t group = k * all / count;
         const auto first = static_cast<std::uint32_t>(group % groups * paths_at_once);
-        GroupCheckup& look = found[k].emplace(group / groups, first, size, settings.method != PathMethod::surface);
+        GroupCheckup& look = found[k].emplace(group / groups, first, size, settings.generator != PathGenerator::surface);
         const auto stream = static_cast<std::uint32_t>(2 * k);
         const std::uint64_t seed = settings.seed ^ checkup_stream;
         if (camera_bounces > 0) look.camera.emplace(scene, false, camera_bounces, settings.walk.split.walks, seed, stream);

@@ -43,13 +43,13 @@ CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& s
 
 template <class Sampler>
 bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                                      const std::function<bool(double)>& part_done) const {
+                                      const Watch& watch) const {
     const std::size_t Q = settings_.quantities();
     std::atomic<bool> dropped = false;
     std::uint64_t rays = 0;
     std::optional<SharedPoints> points;
     if (points_->sets() > 0) {
-        points = points_->make(replicate, rays, tally.given_up, [&] { return part_done(0.0); });
+        points = points_->make(replicate, rays, tally.given_up, watch);
         if (!points) return false;
     }
     tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
@@ -74,14 +74,15 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
             }
         }
         done += static_cast<std::uint32_t>(range.size());
-        if (part_done(static_cast<double>(done) / groups)) dropped = true;
+        watch.progress({.fraction = static_cast<double>(done) / groups});
+        if (watch.stop()) dropped = true;
     });
     if (dropped) return false;
     for (const Workspace<Sampler>& work : workspaces) tally.merge(work.tally);
     return true;
 }
 
-std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                                  std::vector<double> memory) const {
     const std::size_t Q = settings_.quantities();
     SampleRanges ranges;
@@ -90,10 +91,10 @@ std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint6
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
     auto node =
         run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
-                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const std::function<bool(double)>& part_done) {
+                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& watch) {
                                return settings_.sampler == SamplerKind::sobol
-                                          ? sample_picture<SobolSampler>(replicate, picture, ranges, new_tally, part_done)
-                                          : sample_picture<IndependentSampler>(replicate, picture, ranges, new_tally, part_done);
+                                          ? sample_picture<SobolSampler>(replicate, picture, ranges, new_tally, of_picture)
+                                          : sample_picture<IndependentSampler>(replicate, picture, ranges, new_tally, of_picture);
                            });
     if (!node) return std::nullopt;
     tally.merge(new_tally);

@@ -8,6 +8,7 @@
 #include "operators/pictures/tally.h"
 #include "operators/statistics/series_moments.h"
 #include "operators/walk/observer.h"
+#include "operators/watch.h"
 
 #include <memory>
 #include <optional>
@@ -25,7 +26,7 @@ public:
     CorrectedSampler(const Scene& scene, const SamplingSettings& settings);
 
     // As PictureSampler::run().
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                    std::vector<double> memory) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
@@ -40,7 +41,7 @@ private:
                      Workspace<Sampler>& work, const Observer& observer = {}) const;
     template <class Sampler>
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const std::function<bool(double)>& part_done) const;
+                        const Watch& watch) const;
 
     const Scene* scene_;
     SamplingSettings settings_;

@@ -22,7 +22,7 @@ void FieldErrors::add(const FieldSettings& settings, std::uint32_t finest, std::
     const double times = static_cast<double>(settings.samples) / last_.samples;
     if (renders_ == 1)
         for (std::size_t i = 0; i < errors.size(); ++i) {
-            const bool at_pixel = i < 2 && !shows_patches(settings.method);
+            const bool at_pixel = i < 2 && !shows_patches(settings.reading);
             const double before = square(errors_[i].sampling),
                          fallen = (before - square(errors[i].sampling)) * times / (times - 1.0);
             by_samples_.push_back(at_pixel      ? std::numeric_limits<double>::infinity()

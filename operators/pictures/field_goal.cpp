@@ -171,9 +171,9 @@ private:
 
 }  // namespace
 
-std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop) {
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const Watch& watch) {
     const Stopwatch clock;
-    auto pictures = render_fields(scene, settings, stop);
+    auto pictures = render_fields(scene, settings, watch);
     if (!pictures) return std::nullopt;
     return make_run(std::move(*pictures), settings, {}, clock.seconds());
 }
@@ -185,7 +185,7 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
     settings.rays = std::min(fewest_rays, most.rays);
     settings.light_samples = std::min(settings.rays, most.light_samples);
     settings.samples = 1;
-    FieldRun run = *render_fields_once(scene, settings, [] { return false; });
+    FieldRun run = *render_fields_once(scene, settings);
     Steps steps(scene, goal, most);
     steps.add(run, run.seconds);
 
@@ -212,11 +212,12 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
             run.why = steps.why_not();
             return run;
         }
-        const auto stopped = [&] {
+        Watch in_time = watch;
+        in_time.stop = [&] {
             tell();
             return watch.stop() || clock.seconds() > end;
         };
-        auto pictures = render_fields(scene, *next, stopped);
+        auto pictures = render_fields(scene, *next, in_time);
         if (!pictures) {
             run.outcome = watch.stop() ? Outcome::interrupted : Outcome::time_reached;
             run.why = fmt::format(

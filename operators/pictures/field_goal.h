@@ -35,6 +35,6 @@ struct FieldRun {
 FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch);
 
 // A single render with these settings; nothing if it is interrupted.
-std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop);
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const Watch& watch = {});
 
 }  // namespace neumann

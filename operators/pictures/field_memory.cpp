@@ -9,7 +9,7 @@ namespace neumann {
 
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
     // Importance also needs T* and R* of four channels.
-    const double bytes_of_ray = settings.method == FieldMethod::importance ? 48.0 : 4.0;
+    const double bytes_of_ray = settings.reading == FieldReading::importance ? 48.0 : 4.0;
     // About ten vectors of four channels while a series is computed; then three floats per quantity, and a quarter of that for the
     // coarser patches.
     const double bytes_of_unknown = 320.0 + 15.0 * settings.replicates * (settings.bounces + 2.0);

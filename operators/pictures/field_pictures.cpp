@@ -29,8 +29,6 @@ struct Workspace {
     std::array<std::uint64_t, 3> rays{};
 };
 
-struct GivenUp {};
-
 EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
     std::vector<std::vector<EnergyShares>> all;
     for (const TracedSeries& series : replicates) {
@@ -45,7 +43,7 @@ EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
 }  // namespace
 
 FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
-    : importance(settings.method == FieldMethod::importance),
+    : importance(settings.reading == FieldReading::importance),
       width_(film.crop_width),
       height_(film.crop_height),
       replicates_(settings.replicates),
@@ -133,7 +131,7 @@ PictureMeans FieldPictures::means(std::size_t first, std::size_t last) const {
     return means;
 }
 
-std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop) {
+std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const Watch& watch) {
     const Stopwatch field_watch;
     const auto asked = static_cast<double>(settings.patching.patches);
     check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
@@ -148,16 +146,14 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     std::vector<TracedSeries> series;
     result.rest_converges = settings.rest;
-    const auto checkpoint = [&] {
-        if (stop()) throw GivenUp();
-    };
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
         const auto trace = result.importance ? trace_importance : trace_series;
         try {
             series.push_back(trace(scene, space, coarser,
                                    {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r,
-                                    settings.rest, settings.samples, checkpoint}));
-        } catch (const GivenUp&) {
+                                    settings.rest, settings.samples},
+                                   watch));
+        } catch (const Stopped&) {
             return std::nullopt;
         }
         result.rays[later] += series.back().rays;
@@ -175,9 +171,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     counts.all = table_rays * n_replicates;
     for (const TracedSeries& s : series) counts.lights += static_cast<double>(s.light_rays);
     counts.lights_of_facet = counts.lights / static_cast<double>(space.facets().size());
-    if (settings.method == FieldMethod::gather) counts.gathered = n_replicates * settings.samples * settings.gather_rays;
+    if (settings.reading == FieldReading::gather) counts.gathered = n_replicates * settings.samples * settings.gather_rays;
     counts.pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
-    if (!shows_patches(settings.method)) counts.sampled_at_pixel = settings.bounces > 0 ? 2 : 1;
+    if (!shows_patches(settings.reading)) counts.sampled_at_pixel = settings.bounces > 0 ? 2 : 1;
     const ConvexBody body = HalfSpaces(scene.geometry).convex_body();
     counts.is_closed = body.found && body.is_closed;
     result.set_resolution(RayResolution(series, counts));
@@ -189,9 +185,9 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const SobolPoints sobol(settings.samples), gather_sobol(settings.samples * settings.gather_rays);
     // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With gather all
     // are, because the reader compares only some gather rays.
-    const std::uint32_t compared = settings.method == FieldMethod::gather ? settings.samples : (settings.samples + 3) / 4;
+    const std::uint32_t compared = settings.reading == FieldReading::gather ? settings.samples : (settings.samples + 3) / 4;
     const float difference_weight = 1.0f / static_cast<float>(compared * settings.replicates);
-    const FieldReader reader(scene, settings.method, settings.bounces, settings.gather_rays);
+    const FieldReader reader(scene, settings.reading, settings.bounces, settings.gather_rays);
     const std::uint32_t pixels_at_once = std::max(1u, samples_at_once / settings.samples);
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
     constexpr std::size_t each = FieldPictures::sums_of_quantity;
@@ -245,7 +241,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::atomic<bool> dropped = false;
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
-        if (stop()) dropped = true;
+        if (watch.stop()) dropped = true;
         if (dropped) return;
         Workspace& work = workspaces.local();
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) render(group, work);

@@ -21,7 +21,7 @@
 namespace neumann {
 
 struct FieldSettings {
-    FieldMethod method = FieldMethod::matrix;
+    FieldReading reading = FieldReading::matrix;
     int bounces = 8;
     Patching patching;
     std::uint32_t rays = 32;           // rays of T per facet and replicate; a power of two
@@ -95,9 +95,8 @@ private:
     RayResolution resolution_;
 };
 
-// Returns nothing if `stop` returns true meanwhile; it is called from any thread.
-std::optional<FieldPictures> render_fields(
-    const Scene& scene, const FieldSettings& settings, const std::function<bool()>& stop = [] { return false; });
+// Returns nothing if `watch` stops it.
+std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const Watch& watch = {});
 
 // The relative error of a whole picture (as relative_standard_error()) from sampling, from discretisation, and from both. Noise of
 // the rays also makes the fine and the coarse fields differ; that part is subtracted from the discretisation error.

@@ -86,9 +86,9 @@ struct FieldReader::Look {
     }
 };
 
-FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays)
+FieldReader::FieldReader(const Scene& scene, FieldReading reading, int bounces, std::uint32_t gather_rays)
     : scene_(scene),
-      method_(method),
+      reading_(reading),
       stride_(3 * (static_cast<std::size_t>(bounces) + 2)),
       from_field_(bounces > 0 ? 6 : 3),
       lights_(scene.geometry, scene.emitters),
@@ -118,7 +118,7 @@ FieldReader::FieldReader(const Scene& scene, FieldMethod method, int bounces, st
 NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fields, std::span<const PixelSample> samples) const {
     std::vector<Look> looks;
     std::array<std::uint64_t, 3> rays{find_first_points(samples, looks), 0, 0};
-    if (shows_patches(method_)) {
+    if (shows_patches(reading_)) {
         for (const Look& l : looks) {
             const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
             add_constant(fields.fine, l.x, l.wo, weight, l.sample->values);
@@ -131,7 +131,7 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
     for (const Look& l : looks) add(l.sample->values, 0, l.sample->weight * scene_.emitters.emitted(l.x, l.wo));
     std::erase_if(looks, [](const Look& l) { return !l.bsdf; });
     if (from_field_ > 3) rays[1] = find_lights(looks) + find_lights_by_chance(looks);
-    const auto to_gather = method_ == FieldMethod::gather
+    const auto to_gather = reading_ == FieldReading::gather
                                ? looks.begin()
                                : std::stable_partition(looks.begin(), looks.end(), [](const Look& l) { return l.diffuse; });
     for (const Look& l : std::span(looks.begin(), to_gather)) {
@@ -161,7 +161,7 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
             if (scene_.hide_emitters && (!hit || !pass_lights(scene_.emitters, scene_.geometry, rays[i].direction, hits[i], cast)))
                 continue;
             if (!hit) {
-                if (method_ == FieldMethod::importance) continue;
+                if (reading_ == FieldReading::importance) continue;
                 hits[i].shape = SurfacePoint::infinity;
                 add(samples[begin + i].values, 0, samples[begin + i].weight * scene_.emitters.emitted(hits[i], -rays[i].direction));
                 continue;

@@ -20,8 +20,8 @@ namespace neumann {
 //     gather      K is applied once more at the pixel: bounce i ≥ 2 is R T of bounce i − 1 on the patches, which is piecewise
 //                 constant if R is diffuse there and interpolated otherwise; in a mirror K is applied again at what it shows
 //     importance  as patches, for K*^i We in place of K^i Le
-enum class FieldMethod { patches, matrix, gather, importance };
-inline bool shows_patches(FieldMethod method) { return method == FieldMethod::patches || method == FieldMethod::importance; }
+enum class FieldReading { patches, matrix, gather, importance };
+inline bool shows_patches(FieldReading reading) { return reading == FieldReading::patches || reading == FieldReading::importance; }
 
 // One replicate of a series, on patches and on patches of four times the area.
 struct FieldPair {
@@ -47,7 +47,7 @@ struct PixelSample {
 class FieldReader {
 public:
     // `gather_rays`: per sample.
-    FieldReader(const Scene& scene, FieldMethod method, int bounces, std::uint32_t gather_rays);
+    FieldReader(const Scene& scene, FieldReading reading, int bounces, std::uint32_t gather_rays);
 
     // Adds the samples to their pixels; samples of one pixel should be adjacent. Returns the number of rays cast for bounce 0, for
     // bounce 1 and for all later ones.
@@ -63,7 +63,7 @@ private:
     bool looks_for_lights(const Look& l) const;
 
     const Scene& scene_;
-    FieldMethod method_;
+    FieldReading reading_;
     std::size_t stride_;      // number of floats of a pixel
     std::size_t from_field_;  // index of the first float that is read from fields
     LightSampler lights_;

@@ -31,7 +31,8 @@ Rgb times(const Rgb& a, const Rgb& b) {
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     const Rgb albedo = scene.materials.largest_albedo(), emitted = scene.emitters.largest_radiance();
     const LeftOut& left_out = settings.walk.left_out;
-    const bool ends = left_out.rays_from_surfaces || (settings.method == PathMethod::classic && !has_specular(scene.materials));
+    const bool ends =
+        left_out.rays_from_surfaces || (settings.generator == PathGenerator::classic && !has_specular(scene.materials));
     std::vector<Rgb> all{scene.hide_emitters ? Rgb(0.0) : emitted};
     Rgb bound = emitted;
     for (int i = 1; i <= settings.walk.bounces; ++i) {
@@ -41,7 +42,7 @@ std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     Rgb rest = times(bound, albedo);
     for (int c = 0; c < 3; ++c)
         if (rest[c] != 0.0) rest[c] = albedo[c] < 1.0 ? rest[c] / (1.0 - albedo[c]) : infinity;
-    const bool no_rest = settings.walk.rest_probability == 0.0 || settings.method == PathMethod::pointwise;
+    const bool no_rest = settings.walk.rest_probability == 0.0 || settings.generator == PathGenerator::pointwise;
     all.push_back(no_rest || (ends && settings.walk.bounces > 0) ? Rgb(0.0) : rest);
     return all;
 }

@@ -9,10 +9,11 @@ bool has_specular(const Materials& materials) {
     return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; });
 }
 
-Paths paths_of(PathMethod method, const Scene& scene) {
-    if (method == PathMethod::classic) return Paths::specular;
-    if (method == PathMethod::light && (has_specular(scene.materials) || scene.emitters.has_environment())) return Paths::seen_directly;
-    return method == PathMethod::surface && has_specular(scene.materials) ? Paths::without_specular : Paths::all;
+Paths paths_of(PathGenerator generator, const Scene& scene) {
+    if (generator == PathGenerator::classic) return Paths::specular;
+    if (generator == PathGenerator::light && (has_specular(scene.materials) || scene.emitters.has_environment()))
+        return Paths::seen_directly;
+    return generator == PathGenerator::surface && has_specular(scene.materials) ? Paths::without_specular : Paths::all;
 }
 
 void report_missing(SeriesReport& report, const Pilot& pilot) {

@@ -15,7 +15,7 @@ enum class Paths {
 };
 // Whether some material has a delta lobe.
 bool has_specular(const Materials& materials);
-Paths paths_of(PathMethod method, const Scene& scene);
+Paths paths_of(PathGenerator generator, const Scene& scene);
 
 // Sets what is missing of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to Pilot::bounces.
 void report_missing(SeriesReport& report, const Pilot& pilot);

@@ -6,6 +6,7 @@
 #include "operators/walk/walk.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct Pixel {
 inline Pixel pixel_of(const Film& film, std::uint32_t number) {
     const auto width = static_cast<std::uint32_t>(film.crop_width);
     return {film.crop_x + static_cast<int>(number % width), film.crop_y + static_cast<int>(number / width)};
+}
+// Its inverse, for a pixel of the film's crop.
+inline std::optional<std::uint32_t> number_of(const Film& film, const Pixel& pixel) {
+    const int column = pixel.x - film.crop_x, row = pixel.y - film.crop_y;
+    if (column < 0 || row < 0 || column >= film.crop_width || row >= film.crop_height) return std::nullopt;
+    return static_cast<std::uint32_t>(row * film.crop_width + column);
 }
 
 // The place of a sample, with the paths of a replicate numbered pixel by pixel: the first path of its group, and its index there.

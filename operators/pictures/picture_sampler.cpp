@@ -44,8 +44,8 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspac
 }
 
 std::variant<TermEstimator, SplatSampler, CorrectedSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
-    if (splats(settings.method)) return SplatSampler(scene, settings);
-    if (settings.method == PathMethod::corrected) return CorrectedSampler(scene, settings);
+    if (splats(settings.generator)) return SplatSampler(scene, settings);
+    if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 
@@ -57,7 +57,7 @@ PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
         throw std::logic_error("PictureSampler: replicate_size is not a power of two");
 }
 
-std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                                std::vector<double> memory) const {
     if (!std::has_single_bit(count) || first % count != 0)
         throw std::logic_error("PictureSampler: not a node of the tree of replicates");
@@ -128,7 +128,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             done += end - begin;
         }
         pixels_done += done;
-        if (watch && watch(pixels_done)) dropped = true;
+        watch.progress({.fraction = static_cast<double>(pixels_done) / pixels});
+        if (watch.stop()) dropped = true;
     });
     if (dropped) return std::nullopt;
     for (const Workspace& work : workspaces) tally.merge(work.tally);

@@ -9,6 +9,7 @@
 #include "operators/pictures/tally.h"
 #include "operators/pictures/term_estimators.h"
 #include "operators/statistics/series_moments.h"
+#include "operators/watch.h"
 
 #include <cstdint>
 #include <optional>
@@ -29,10 +30,10 @@ public:
     const Settings& settings() const { return settings_; }
 
     // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
-    // which holds the earlier replicates, unless the work is dropped. `watch` is called from any thread with the number of pixels
-    // done; if it returns true, the work is dropped. `memory` is reused for the node: fresh pages for every block would cost as
-    // much as the moments themselves.
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch = {},
+    // which holds the earlier replicates, unless `watch` stops it: then the work is dropped. watch.progress gets the fraction of
+    // these replicates that is done. `memory` is reused for the node: fresh pages for every block would cost as much as the
+    // moments themselves.
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
                                    std::vector<double> memory = {}) const;
 
     // Traces one group of paths of run() again (path_group.h) and reports it to `observer`; `first` is the first path of the group.

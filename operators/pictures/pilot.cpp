@@ -6,6 +6,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
+#include <atomic>
 
 namespace neumann {
 
@@ -15,9 +16,12 @@ constexpr std::uint64_t pilot_stream = 0x70696c6f74ull;  // another seed than th
 constexpr std::uint64_t batch = 64, largest_batches = 256;
 constexpr std::uint64_t enough_rays = 1'000'000;
 
+std::atomic<std::uint64_t> pilots = 0;
+
 }  // namespace
 
 Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed) {
+    ++pilots;
     constexpr std::size_t quantities = bounces + 2;
     const WalkSettings settings{.bounces = bounces, .direct = direct, .rest_probability = 1.0, .give_up = give_up};
     const DirectLightSampler direct_light(scene, direct);
@@ -101,6 +105,8 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
     }
     seconds_per_walk_ = watch.seconds() / n;
 }
+
+std::uint64_t pilots_run() { return pilots; }
 
 MeanWithError Pilot::term(int i) const { return term_[static_cast<std::size_t>(i)]; }
 

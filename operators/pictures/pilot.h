@@ -41,4 +41,7 @@ private:
     double seconds_per_walk_ = 0.0;  // all terms, on all threads
 };
 
+// Number of pilots that this program has run so far.
+std::uint64_t pilots_run();
+
 }  // namespace neumann

@@ -34,15 +34,15 @@ std::vector<bool> deltas_of_largest(const Replay& replay, std::size_t quantity) 
 std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity) {
     const SamplingSettings& settings = sampler.settings();
     const bool rest = quantity == settings.quantities() - 1;
-    switch (settings.method) {
-        case PathMethod::pointwise:
+    switch (settings.generator) {
+        case PathGenerator::pointwise:
             return {scene.hide_emitters ? Remedy::ask_lights : Remedy::bidirectional};
-        case PathMethod::surface:
-        case PathMethod::classic:
+        case PathGenerator::surface:
+        case PathGenerator::classic:
             return {Remedy::ask_lights};
-        case PathMethod::light:
+        case PathGenerator::light:
             return {Remedy::bidirectional};
-        case PathMethod::bidirectional:
+        case PathGenerator::bidirectional:
             return rest ? std::vector{Remedy::more_bounces} : std::vector<Remedy>();
         default:
             break;

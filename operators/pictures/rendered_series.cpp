@@ -42,7 +42,6 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
                              const Watch& watch) {
     const PictureSampler sampler(scene, settings);
     const std::uint64_t size = settings.replicate_size;
-    const auto pixels = static_cast<double>(sampler.width()) * sampler.height();
     RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
     series.replicate_size = settings.replicate_size;
     series.samples_are_bounded = samples_are_bounded(scene, settings);
@@ -76,14 +75,15 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             }
         }
 
-        auto node = sampler.run(
-            done, block, series.tally,
-            [&](std::uint64_t pixels_done) {
-                report(static_cast<double>(done) + static_cast<double>(block) * static_cast<double>(pixels_done) / pixels);
-                const bool may_drop = clock.seconds() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
-                return may_drop && watch.stop();
-            },
-            std::move(memory));
+        Watch of_block;
+        of_block.progress = [&](const RenderProgress& part) {
+            report(static_cast<double>(done) + static_cast<double>(block) * part.fraction);
+        };
+        of_block.stop = [&] {
+            const bool may_drop = clock.seconds() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
+            return may_drop && watch.stop();
+        };
+        auto node = sampler.run(done, block, series.tally, of_block, std::move(memory));
         if (!node && done == 0) {
             PictureSampler::Settings single = settings;
             single.replicate_size = 1;

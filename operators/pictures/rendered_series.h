@@ -2,7 +2,7 @@
 #pragma once
 
 #include "operators/pictures/picture_sampler.h"
-#include "operators/pictures/watch.h"
+#include "operators/watch.h"
 
 #include <optional>
 

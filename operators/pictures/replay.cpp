@@ -2,7 +2,18 @@
 
 #include "operators/pictures/path_group.h"
 
+#include <cmath>
+
 namespace neumann {
+
+bool is_finite(const ReplayedStep& replayed) {
+    const PathStep& step = replayed.step;
+    if (!is_finite(step.w) || !is_finite(step.beta) || !(std::isfinite(step.pdf) || step.pdf == delta_pdf)) return false;
+    if (step.found && !step.to.is_infinite() && !is_finite(step.to.position)) return false;
+    for (const auto& found : replayed.found)
+        if (!is_finite(found.value)) return false;
+    return true;
+}
 
 Replay replay(const PictureSampler& sampler, const SampleName& name) {
     struct Recorder : PathObserver {

@@ -18,6 +18,8 @@ struct ReplayedStep {
     };
     std::vector<Found> found;
 };
+// Whether all values are finite numbers. The pdf of delta directions is ∞ by convention.
+bool is_finite(const ReplayedStep& step);
 
 struct Replay {
     std::vector<ReplayedStep> steps;

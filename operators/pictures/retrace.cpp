@@ -86,7 +86,7 @@ std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u),
                         end = std::min(first / size + pixels_at_once, pixels_) * size;
     std::uint64_t rays = 0, given_up = 0;
-    const auto points = points_->make(replicate, rays, given_up, [] { return false; });
+    const auto points = points_->make(replicate, rays, given_up, {});
     Workspace<AnySampler> work(settings_.quantities());
     SplitPaths split(observer, work.walkers.walker);
     trace_group(replicate, first, end - first, points ? &*points : nullptr, work, WatchedPaths(split));

@@ -5,7 +5,6 @@
 #include "operators/walk/walk_settings.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -14,7 +13,7 @@ namespace neumann {
 class Approximation;
 class DirectionTables;
 
-enum class PathMethod {
+enum class PathGenerator {
     walk,           // walks from the camera that sample the BSDF
     guided,         // walks from the camera that sample tables of the incident light
     corrected,      // walks from the camera that read approximate fields, whose errors are carried by shared points
@@ -25,13 +24,13 @@ enum class PathMethod {
     pointwise       // separate walks for each term
 };
 // Whether samples contribute to pixels all over the film.
-inline bool splats(PathMethod method) { return method == PathMethod::light || method == PathMethod::bidirectional; }
-// Whether the errors of pixels go together, so that a replicate is a whole picture.
-inline bool shares_samples(PathMethod method) { return splats(method) || method == PathMethod::corrected; }
+inline bool splats(PathGenerator generator) {
+    return generator == PathGenerator::light || generator == PathGenerator::bidirectional;
+}
 
 struct SamplingSettings {
-    PathMethod method = PathMethod::walk;
-    std::shared_ptr<const DirectionTables> tables = {};  // for `guided`
+    PathGenerator generator = PathGenerator::walk;
+    std::shared_ptr<const DirectionTables> tables = {};       // for `guided`
     std::shared_ptr<const Approximation> approximation = {};  // for `corrected`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;
@@ -45,8 +44,5 @@ struct SamplingSettings {
 
     std::size_t quantities() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
 };
-
-// Called from any thread with the number of pixels done; if it returns true, the work is dropped.
-using PixelWatch = std::function<bool(std::uint64_t pixels_done)>;
 
 }  // namespace neumann

@@ -41,7 +41,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
-    if (settings_.method == PathMethod::light) {
+    if (settings_.generator == PathGenerator::light) {
         work.tally.given_up += trace_light(*scene_, T, emission_, lights_, settings_.walk.ending(), std::span(light), work.light,
                                            splatted, work.tally.rays, observer);
         return;

@@ -91,7 +91,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
             spread(position, q, value, name(i), chunk, work);
         },
         work);
-    if (settings_.method == PathMethod::light) return;
+    if (settings_.generator == PathGenerator::light) return;
     for (std::uint32_t i = 0; i < samples; ++i) {
         const SamplePlace place{name(i).pixel, name(i)};
         for (std::size_t q = 0; q < Q; ++q) {
@@ -109,7 +109,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
 }
 
 bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
-                                  const std::function<bool(double)>& part_done) const {
+                                  const Watch& watch) const {
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = pixels_ * settings_.replicate_size, at_once = paths_at_once * groups_at_once;
     std::vector<Rgb> splatted(picture.size(), Rgb(0.0));
@@ -157,7 +157,8 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                                splatted[s.pixel * Q + s.quantity] += s.value;
                                ranges.shares.of[s.pixel * Q + s.quantity].add(s.value);
                            }
-                           if (part_done(static_cast<double>(chunk->end) / samples)) dropped = true;
+                           watch.progress({.fraction = static_cast<double>(chunk->end) / samples});
+                           if (watch.stop()) dropped = true;
                        }));
     if (dropped) return false;
     for (const Workspace& work : workspaces) tally.merge(work.tally);
@@ -170,7 +171,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     return true;
 }
 
-std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                              std::vector<double> memory) const {
     const std::size_t Q = settings_.quantities();
     Ranges ranges;
@@ -178,16 +179,15 @@ std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t 
     ranges.shares.of.resize(pixels_ * Q);
     Tally new_tally(Q);
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
-    auto node =
-        run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
-                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const std::function<bool(double)>& part_done) {
-                               return sample_picture(replicate, picture, ranges, new_tally, part_done);
-                           });
+    auto node = run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
+                                   [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
+                                       return sample_picture(replicate, picture, ranges, new_tally, of_picture);
+                                   });
     if (!node) return std::nullopt;
     tally.merge(new_tally);
     // Most paths contribute nothing to a given pixel, so 0 is among the samples.
     for (SampleRange& range : ranges.shares.of)
-        if (range.largest[0] >= range.smallest[0] || settings_.method == PathMethod::light) range.add(Rgb(0.0));
+        if (range.largest[0] >= range.smallest[0] || settings_.generator == PathGenerator::light) range.add(Rgb(0.0));
     ranges.own.merge(ranges.shares);
     node->ranges = std::move(ranges.own);
     return node;

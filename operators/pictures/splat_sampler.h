@@ -9,6 +9,7 @@
 #include "operators/pictures/sampling_settings.h"
 #include "operators/pictures/tally.h"
 #include "operators/statistics/series_moments.h"
+#include "operators/watch.h"
 
 #include <memory>
 
@@ -19,7 +20,7 @@ public:
     SplatSampler(const Scene& scene, const SamplingSettings& settings);
 
     // As PictureSampler::run().
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const PixelWatch& watch,
+    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                    std::vector<double> memory) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
@@ -32,8 +33,7 @@ private:
         SampleRanges own, shares;
     };
     // Adds a replicate's picture, all quantities of each pixel. Returns false if the work was dropped.
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
-                        const std::function<bool(double)>& part_done) const;
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally, const Watch& watch) const;
     // Traces paths first … first + samples − 1 of the replicate. `found(path, quantity, value)`: a contribution to the path's own
     // pixel, before the filter's weight. `splatted(path, position, quantity, value)`: a contribution at a position on the film, as
     // radiance times the number of pixels.

@@ -5,14 +5,14 @@
 namespace neumann {
 
 TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings) {
-    switch (settings.method) {
-        case PathMethod::pointwise:
+    switch (settings.generator) {
+        case PathGenerator::pointwise:
             return PointwiseEstimator(scene, settings.walk.bounces);
-        case PathMethod::surface:
+        case PathGenerator::surface:
             return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
-        case PathMethod::classic:
+        case PathGenerator::classic:
             return WalkEstimator(scene, settings.walk, SpecularContinuation());
-        case PathMethod::guided:
+        case PathGenerator::guided:
             if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
             return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
         default:

@@ -7,7 +7,7 @@
 namespace neumann {
 
 std::optional<MomentsNode> run_whole_pictures(std::uint64_t first, std::uint64_t count, std::size_t pixels, std::size_t quantities,
-                                              const PixelWatch& watch, std::vector<double> memory, const SamplePicture& sample) {
+                                              const Watch& watch, std::vector<double> memory, const SamplePicture& sample) {
     const std::size_t stride = quantities * PixelMoments::doubles_per_quantity;
     std::vector<std::vector<double>> waiting(static_cast<std::size_t>(std::countr_zero(count)) + 1);
     std::vector<double> carry = std::move(memory);
@@ -18,12 +18,12 @@ std::optional<MomentsNode> run_whole_pictures(std::uint64_t first, std::uint64_t
         });
     };
     for (std::uint64_t r = 0; r < count; ++r) {
-        const auto part_done = [&](double part) {
-            const double done = (static_cast<double>(r) + part) / static_cast<double>(count);
-            return watch && watch(static_cast<std::uint64_t>(done * static_cast<double>(pixels)));
+        Watch of_picture = watch;
+        of_picture.progress = [&](const RenderProgress& part) {
+            watch.progress({.fraction = (static_cast<double>(r) + part.fraction) / static_cast<double>(count)});
         };
         picture.assign(pixels * quantities, Rgb(0.0));
-        if (!sample(first + r, picture, part_done)) return std::nullopt;
+        if (!sample(first + r, picture, of_picture)) return std::nullopt;
         std::vector<Rgb> mean(quantities, Rgb(0.0));
         for (std::size_t i = 0; i < picture.size(); ++i) mean[i % quantities] += picture[i];
         for (const Rgb& sum : mean) picture.push_back(sum / static_cast<double>(pixels));

@@ -1,6 +1,6 @@
 #include "operators/solvers/anderson.h"
 
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 
 #include <Eigen/QR>
 
@@ -9,20 +9,20 @@
 namespace neumann {
 
 SolverResult solve_anderson(const Problem& problem, int m) {
-    Progress progress(problem);
+    SolverLog log(problem);
     const Eigen::Index n = problem.Le.size(), columns = std::max(1, m);
-    const Vector weight = progress.K().measure().cwiseSqrt();
+    const Vector weight = log.K().measure().cwiseSqrt();
     Eigen::MatrixXd df(n, columns), dg(n, columns);  // df weighted
     Eigen::Index kept = 0, next = 0;
     Vector x = problem.Le, g(n), f(n), last_g, last_f;
     ChangeRate rate;
     for (;;) {
-        progress.apply(x, g);
+        log.apply(x, g);
         g += problem.Le;
         f = g - x;
-        const double estimate = progress.from_residual(f, x);
+        const double estimate = log.from_residual(f, x);
         rate.add(largest(f));
-        const bool rounding = Progress::is_rounding(largest(f), x, !rate.not_falling());
+        const bool rounding = SolverLog::is_rounding(largest(f), x, !rate.not_falling());
         Vector weighted = weight.cwiseProduct(f);
         if (last_f.size() != 0) {
             df.col(next) = weighted - last_f;
@@ -37,11 +37,11 @@ SolverResult solve_anderson(const Problem& problem, int m) {
             const Vector gamma = df.leftCols(kept).colPivHouseholderQr().solve(weighted);
             x -= dg.leftCols(kept) * gamma;
         }
-        if (!x.allFinite()) return progress.end(x, Verdict::broke_down, "values that are not finite");
+        if (!x.allFinite()) return log.end(x, Verdict::broke_down, "values that are not finite");
         // The estimate belongs to the previous iterate: the residual of this one is not known yet.
-        if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
-        if (rounding) return progress.end_rounding(x, estimate);
-        if (progress.exhausted()) return progress.end_limit(x);
+        if (log.reached(x, estimate)) return log.end(x, Verdict::converged, "by the residual");
+        if (rounding) return log.end_rounding(x, estimate);
+        if (log.exhausted()) return log.end_limit(x);
     }
 }
 

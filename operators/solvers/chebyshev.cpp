@@ -1,17 +1,16 @@
 #include "operators/solvers/chebyshev.h"
 
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 
 #include <fmt/format.h>
 
 namespace neumann {
 
 SolverResult solve_chebyshev(const Problem& problem, double lowest, double highest) {
-    Progress progress(problem);
+    SolverLog log(problem);
     if (!(lowest <= highest && highest < 1.0))
-        return progress.end(
-            problem.Le, Verdict::refused,
-            fmt::format("needs lowest ≤ highest < 1 for the eigenvalues of K, not [{:.6g}, {:.6g}]", lowest, highest));
+        return log.end(problem.Le, Verdict::refused,
+                       fmt::format("needs lowest ≤ highest < 1 for the eigenvalues of K, not [{:.6g}, {:.6g}]", lowest, highest));
     // I − K has its eigenvalues in centre ± half.
     const double centre = 1.0 - 0.5 * (lowest + highest), half = 0.5 * (highest - lowest);
     double c = half / centre;
@@ -20,23 +19,22 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
     double estimate = std::numeric_limits<double>::infinity();
     for (;;) {
         // The residual of this x takes one more application, so the estimate belongs to the previous iterate.
-        if (progress.reached(x, estimate)) return progress.end(x, Verdict::converged, "by the residual");
-        if (Progress::is_rounding(largest(r), x)) return progress.end_rounding(x, estimate);
-        if (progress.exhausted()) return progress.end_limit(x);
-        progress.apply(d, Kd);
+        if (log.reached(x, estimate)) return log.end(x, Verdict::converged, "by the residual");
+        if (SolverLog::is_rounding(largest(r), x)) return log.end_rounding(x, estimate);
+        if (log.exhausted()) return log.end_limit(x);
+        log.apply(d, Kd);
         r -= d - Kd;
-        estimate = progress.from_residual(r, x);
+        estimate = log.from_residual(r, x);
         const double width = 2.0 * centre - half * c, next = half / width;
         d = next * c * d + 2.0 / width * r;
         c = next;
         x += d;
-        if (!x.allFinite())
-            return progress.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
+        if (!x.allFinite()) return log.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
     }
 }
 
 SolverResult solve_chebyshev(const Problem& problem) {
-    if (!problem.radius) return Progress(problem).end(problem.Le, Verdict::refused, "needs the spectral radius");
+    if (!problem.radius) return SolverLog(problem).end(problem.Le, Verdict::refused, "needs the spectral radius");
     return solve_chebyshev(problem, problem.lowest.value_or(-*problem.radius), *problem.radius);
 }
 

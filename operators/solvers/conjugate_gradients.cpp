@@ -1,5 +1,5 @@
 #include "operators/solvers/krylov.h"
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 
 #include <fmt/format.h>
 
@@ -8,50 +8,50 @@
 namespace neumann {
 
 SolverResult solve_conjugate_gradients(const Problem& problem) {
-    Progress progress(problem);
+    SolverLog log(problem);
     const Eigen::Index n = problem.Le.size();
     if (!problem.reflectance || problem.reflectance->size() != n)
-        return progress.end(problem.Le, Verdict::refused,
-                            "needs the reflectance ρ of each unknown, with K = diag(ρ) F and F reciprocal");
+        return log.end(problem.Le, Verdict::refused,
+                       "needs the reflectance ρ of each unknown, with K = diag(ρ) F and F reciprocal");
     const auto& rho = problem.reflectance->array();
-    if (!(rho >= 0.0).all()) return progress.end(problem.Le, Verdict::refused, "reflectances have to be at least 0");
+    if (!(rho >= 0.0).all()) return log.end(problem.Le, Verdict::refused, "reflectances have to be at least 0");
     // Black unknowns have weight 0 and the value Le.
-    const Vector weight = (rho > 0.0).select(progress.K().measure().array() / rho, 0.0).matrix();
+    const Vector weight = (rho > 0.0).select(log.K().measure().array() / rho, 0.0).matrix();
     const Vector fixed = (rho > 0.0).select(0.0, problem.Le.array()).matrix();
     const auto dot = [&](const Vector& f, const Vector& g) { return f.cwiseProduct(weight).dot(g); };
 
     Vector r = problem.Le - fixed, Kp(n);
     if (!fixed.isZero(0.0)) {
-        progress.apply(fixed, Kp);
+        log.apply(fixed, Kp);
         r += Kp;
-        progress.setup_ends();
+        log.setup_ends();
     }
     Vector x = fixed, p = r, last_p, last_Kp;
     double rr = dot(r, r), defect = 0.0;
     for (;;) {
         if (rr == 0.0) {
-            const double estimate = progress.from_residual(r, x);
-            if (!progress.reached(x, estimate)) return progress.end_rounding(x, estimate);
-            return progress.end(x, Verdict::converged, "the residual is 0");
+            const double estimate = log.from_residual(r, x);
+            if (!log.reached(x, estimate)) return log.end_rounding(x, estimate);
+            return log.end(x, Verdict::converged, "the residual is 0");
         }
-        progress.apply(p, Kp);
+        log.apply(p, Kp);
         if (last_p.size() != 0) {
             const double size = std::sqrt(dot(Kp, Kp) * dot(last_p, last_p));
             if (size > 0.0) defect = std::max(defect, std::abs(dot(Kp, last_p) - dot(p, last_Kp)) / size);
         }
         if (defect > std::max(problem.tolerance, 1e-10))
-            return progress.end(x, Verdict::refused,
-                                fmt::format("K is not diag(ρ) F with F reciprocal: its defect is {:.2g}, the tolerance {:.2g}",
-                                            defect, problem.tolerance));
+            return log.end(x, Verdict::refused,
+                           fmt::format("K is not diag(ρ) F with F reciprocal: its defect is {:.2g}, the tolerance {:.2g}", defect,
+                                       problem.tolerance));
         const double curvature = dot(p, p) - dot(p, Kp);
         if (!(curvature > 0.0))
-            return progress.end(x, Verdict::diverging, "I − K is not positive definite: the spectral radius of K is 1 or more");
+            return log.end(x, Verdict::diverging, "I − K is not positive definite: the spectral radius of K is 1 or more");
         const double alpha = rr / curvature;
         x += alpha * p;
         r -= alpha * (p - Kp);
-        if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
-        if (Progress::is_rounding(largest(r), x)) return progress.end_rounding(x, progress.from_residual(r, x));
-        if (progress.exhausted()) return progress.end_limit(x);
+        if (log.reached(x, log.from_residual(r, x))) return log.end(x, Verdict::converged, "by the residual");
+        if (SolverLog::is_rounding(largest(r), x)) return log.end_rounding(x, log.from_residual(r, x));
+        if (log.exhausted()) return log.end_limit(x);
         const double next = dot(r, r);
         last_p = p;
         last_Kp = Kp;

@@ -1,6 +1,6 @@
 #include "operators/solvers/eigenpair_tail.h"
 
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 #include "operators/solvers/term_series.h"
 #include "operators/spectrum/spectrum.h"
 
@@ -9,26 +9,25 @@
 namespace neumann {
 
 SolverResult solve_eigenpair_tail(const Problem& problem) {
-    Progress progress(problem);
-    if (!progress.K().has_adjoint()) return progress.end(problem.Le, Verdict::refused, "needs K*, which this K does not have");
-    const Eigenpairs right = leading_eigenpairs(progress.K(), 1), left = leading_eigenpairs(progress.K(), 1, true);
-    progress.count(right.applications + left.applications);
-    progress.setup_ends();
-    if (progress.exhausted())
-        return progress.end(problem.Le, Verdict::limit, "finding the leading eigenpair took all applications that were allowed");
-    if (!right.converged || !left.converged)
-        return progress.end(problem.Le, Verdict::refused, "the leading eigenpair was not found");
+    SolverLog log(problem);
+    if (!log.K().has_adjoint()) return log.end(problem.Le, Verdict::refused, "needs K*, which this K does not have");
+    const Eigenpairs right = leading_eigenpairs(log.K(), 1), left = leading_eigenpairs(log.K(), 1, true);
+    log.count(right.applications + left.applications);
+    log.setup_ends();
+    if (log.exhausted())
+        return log.end(problem.Le, Verdict::limit, "finding the leading eigenpair took all applications that were allowed");
+    if (!right.converged || !left.converged) return log.end(problem.Le, Verdict::refused, "the leading eigenpair was not found");
     const std::complex<double> value = right.pairs[0].value;
     if (judge(std::abs(value), 0.0) != Convergence::converges)
-        return progress.end(problem.Le, Verdict::refused,
-                            fmt::format("the spectral radius is {:.6g}: the series diverges", std::abs(value)));
+        return log.end(problem.Le, Verdict::refused,
+                       fmt::format("the spectral radius is {:.6g}: the series diverges", std::abs(value)));
     if (std::abs(value.imag()) > 1e-9 * std::abs(value) || std::abs(value - left.pairs[0].value) > 1e-6 * std::abs(value))
-        return progress.end(problem.Le, Verdict::refused, "the leading eigenvalue is not real and single");
+        return log.end(problem.Le, Verdict::refused, "the leading eigenvalue is not real and single");
     const double lambda = value.real();
-    const Vector v = right.pairs[0].vector.real(), w = left.pairs[0].vector.real().cwiseProduct(progress.K().measure());
+    const Vector v = right.pairs[0].vector.real(), w = left.pairs[0].vector.real().cwiseProduct(log.K().measure());
     const double scale = w.dot(v);
 
-    TermSeries series(progress.K(), problem.Le);
+    TermSeries series(log.K(), problem.Le);
     ChangeRate rate;
     for (;;) {
         // The part of t_n outside the leading mode.
@@ -36,18 +35,17 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
         const double other = largest(series.term() - amount * v);
         const Vector x = series.sum() + lambda / (1.0 - lambda) * amount * v;
         rate.add(other);
-        const double rounding = progress.rounding(std::max(rate.rate(), std::abs(lambda)));
-        if (progress.reached(x, largest(series.term()) == 0.0 ? 0.0 : std::max(rate.estimate() / largest(x), rounding)))
-            return progress.end(x, Verdict::converged, fmt::format("the other modes fall at the rate {:.6g}", rate.rate()));
-        if (!std::isfinite(scale) || !x.allFinite())
-            return progress.end(x, Verdict::broke_down, "the leading eigenvector is defective");
-        if (Progress::is_rounding(rate.estimate(), x)) return progress.end_rounding(x, rounding);
+        const double rounding = log.rounding(std::max(rate.rate(), std::abs(lambda)));
+        if (log.reached(x, largest(series.term()) == 0.0 ? 0.0 : std::max(rate.estimate() / largest(x), rounding)))
+            return log.end(x, Verdict::converged, fmt::format("the other modes fall at the rate {:.6g}", rate.rate()));
+        if (!std::isfinite(scale) || !x.allFinite()) return log.end(x, Verdict::broke_down, "the leading eigenvector is defective");
+        if (SolverLog::is_rounding(rate.estimate(), x)) return log.end_rounding(x, rounding);
         // These parts fall in the end; what remains is the error of the leading eigenpair.
         if (rate.not_falling() && other <= 1e-8 * largest(series.term()))
-            return progress.end(x, Verdict::rounding, "the other modes are down to the accuracy of the leading one");
-        if (progress.exhausted()) return progress.end_limit(x);
+            return log.end(x, Verdict::rounding, "the other modes are down to the accuracy of the leading one");
+        if (log.exhausted()) return log.end_limit(x);
         series.advance();
-        progress.count(1.0);
+        log.count(1.0);
     }
 }
 

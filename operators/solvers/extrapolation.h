@@ -21,7 +21,7 @@ using Extrapolate = std::function<std::optional<Trouble>(const TermSeries&, Vect
 
 // Ends when two successive limits differ by less than the tolerance and the residual of the last one, which takes one more
 // application of K, is also small enough; if it is not, checks again after twice as many terms. After Trouble, S_n is used in place
-// of the limit; if S_n converges first, it is the result. Divergence is detected as for the series; Progress::end may refuse the
+// of the limit; if S_n converges first, it is the result. Divergence is detected as for the series; SolverLog::end may refuse the
 // result.
 SolverResult solve_extrapolated(const Problem&, const Extrapolate&);
 

@@ -1,6 +1,6 @@
 #include "operators/solvers/eigen_system.h"
 #include "operators/solvers/krylov.h"
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 
 #include <fmt/format.h>
 #include <unsupported/Eigen/IterativeSolvers>
@@ -23,23 +23,23 @@ Vector after_steps(const Problem& problem, int k) {
 }  // namespace
 
 SolverResult solve_gmres(const Problem& problem, int restart) {
-    Progress progress(problem);
+    SolverLog log(problem);
     const Eigen::Index n = problem.Le.size();
     const int steps = static_cast<int>(std::clamp<Eigen::Index>(restart, 1, std::max<Eigen::Index>(1, n)));
     Vector x = Vector::Zero(n), r(n);
-    if (problem.Le.isZero(0.0)) return progress.end(x, Verdict::converged, "nothing emits");
+    if (problem.Le.isZero(0.0)) return log.end(x, Verdict::converged, "nothing emits");
 
     Gmres gmres;
     bool begun = false;  // a step has begun; its residual is known when K is applied next
     const auto look = [&] {
-        const int k = static_cast<int>(progress.applications());
-        progress.record(gmres.error(), problem.exact && k <= steps ? progress.true_error(after_steps(problem, k))
-                                                                   : std::numeric_limits<double>::quiet_NaN());
+        const int k = static_cast<int>(log.applications());
+        log.record(gmres.error(), problem.exact && k <= steps ? log.true_error(after_steps(problem, k))
+                                                              : std::numeric_limits<double>::quiet_NaN());
     };
     const EigenSystem system(*problem.K, [&] {
         if (begun) look();
         begun = true;
-        progress.count(1.0);
+        log.count(1.0);
     });
     gmres.compute(system);
     gmres.set_restart(steps);
@@ -48,16 +48,16 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
     for (;;) {
         gmres.setTolerance(goal);
-        gmres.setMaxIterations(std::max<Eigen::Index>(1, problem.most - static_cast<Eigen::Index>(progress.applications())));
+        gmres.setMaxIterations(std::max<Eigen::Index>(1, problem.most - static_cast<Eigen::Index>(log.applications())));
         const Vector guess = system.scaled(x);
         x = system.unscaled(gmres.solveWithGuess(system.scaled(problem.Le), guess));
         look();
-        progress.apply(x, r);
+        log.apply(x, r);
         r += problem.Le - x;
-        if (progress.reached(x, progress.from_residual(r, x))) return progress.end(x, Verdict::converged, "by the residual");
-        if ((goal <= least || progress.exhausted()) && Progress::is_rounding(largest(r), x, false))
-            return progress.end_rounding(x, progress.from_residual(r, x));
-        if (progress.exhausted()) return progress.end_limit(x);
+        if (log.reached(x, log.from_residual(r, x))) return log.end(x, Verdict::converged, "by the residual");
+        if ((goal <= least || log.exhausted()) && SolverLog::is_rounding(largest(r), x, false))
+            return log.end_rounding(x, log.from_residual(r, x));
+        if (log.exhausted()) return log.end_limit(x);
         goal = std::max(0.1 * goal, least);
         begun = false;
     }

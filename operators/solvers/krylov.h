@@ -17,7 +17,7 @@ namespace neumann {
 SolverResult solve_conjugate_gradients(const Problem&);
 
 // GMRES (Eigen) in the norm weighted with the measure, restarted after `restart` steps. Estimates in the history are ‖r‖₂/‖Le‖₂,
-// except the last one, Progress::from_residual, for which K is applied once more. Iterates exist only at the end. If the exact
+// except the last one, SolverLog::from_residual, for which K is applied once more. Iterates exist only at the end. If the exact
 // solution is given, the true error after k steps comes from solving again with k steps, up to the first restart; this is not
 // counted.
 SolverResult solve_gmres(const Problem&, int restart = 50);

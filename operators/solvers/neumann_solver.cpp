@@ -1,5 +1,5 @@
-#include "operators/solvers/progress.h"
 #include "operators/solvers/series_solvers.h"
+#include "operators/solvers/solver_log.h"
 #include "operators/solvers/term_series.h"
 
 #include <fmt/format.h>
@@ -9,23 +9,23 @@
 namespace neumann {
 
 SolverResult solve_neumann(const Problem& problem) {
-    Progress progress(problem);
+    SolverLog log(problem);
     TermSeries series(*problem.K, problem.Le);
     ChangeRate rate;
     for (;;) {
         const Vector x = series.sum();
         const double term = largest(series.term());
-        if (!x.allFinite()) return progress.end_overflow(x, "the terms");
+        if (!x.allFinite()) return log.end_overflow(x, "the terms");
         rate.add(term);
-        const double rounding = progress.rounding(rate.rate());
-        if (progress.reached(x, term == 0.0 ? 0.0 : std::max(rate.estimate() / largest(x), rounding)))
-            return progress.end(x, Verdict::converged, fmt::format("the tail is estimated from the rate {:.6g}", rate.rate()));
-        if (Progress::is_rounding(rate.estimate(), x)) return progress.end_rounding(x, rounding);
-        if (rate.not_falling() && progress.diverges())
-            return progress.end_diverging(x, "the terms did not get smaller over the last 32 bounces");
-        if (progress.exhausted()) return progress.end_limit(x);
+        const double rounding = log.rounding(rate.rate());
+        if (log.reached(x, term == 0.0 ? 0.0 : std::max(rate.estimate() / largest(x), rounding)))
+            return log.end(x, Verdict::converged, fmt::format("the tail is estimated from the rate {:.6g}", rate.rate()));
+        if (SolverLog::is_rounding(rate.estimate(), x)) return log.end_rounding(x, rounding);
+        if (rate.not_falling() && log.diverges())
+            return log.end_diverging(x, "the terms did not get smaller over the last 32 bounces");
+        if (log.exhausted()) return log.end_limit(x);
         series.advance();
-        progress.count(1.0);
+        log.count(1.0);
     }
 }
 

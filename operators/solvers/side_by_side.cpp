@@ -1,7 +1,7 @@
 #include "operators/solvers/side_by_side.h"
 
 #include "core/base/stopwatch.h"
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
 
 #include <string_view>
@@ -44,15 +44,14 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
 
 double SolverRow::estimate() const { return result.history.empty() ? unknown : result.history.back().estimate; }
 
-SideBySide solve_side_by_side(Problem problem, const SideBySideOptions& options) {
+SideBySide solve_side_by_side(Problem problem, bool histories, const Watch& watch) {
     SideBySide all;
     problem.exact = nullptr;
     problem.observer = nullptr;
-    const StoppableChannel K(
-        *problem.K, options.interrupted ? options.interrupted : [] { return false; });
+    const StoppableChannel K(*problem.K, watch);
     problem.K = &K;
     try {
-        run_all(problem, options.histories, all);
+        run_all(problem, histories, all);
     } catch (const Stopped&) {
         all.interrupted = true;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "operators/solvers/solvers.h"
+#include "operators/watch.h"
 
 namespace neumann {
 
@@ -21,12 +22,8 @@ struct SideBySide {
     bool interrupted = false;     // the rows end early
 };
 
-struct SideBySideOptions {
-    bool histories = false;             // record true errors; each solver runs again for them, because some are slow with them
-    std::function<bool()> interrupted;  // called before every use of K; the solver that is interrupted gets no row
-};
-
-// `exact` and `observer` of the problem are not used.
-SideBySide solve_side_by_side(Problem problem, const SideBySideOptions& options = {});
+// `histories`: record true errors; each solver runs again for them, because some are slow with them. A solver that `watch` stops
+// gets no row. `exact` and `observer` of the problem are not used.
+SideBySide solve_side_by_side(Problem problem, bool histories = false, const Watch& watch = {});
 
 }  // namespace neumann

@@ -1,27 +1,20 @@
-// A K that can interrupt a solver: it checks before every use whether to go on.
+// A K that can interrupt a solver: before every use it asks a Watch whether to stop.
 #pragma once
 
-#include "core/base/error.h"
 #include "operators/solvers/channel_operator.h"
+#include "operators/watch.h"
 
-#include <functional>
 #include <memory>
 
 namespace neumann {
 
-class Stopped : public RunError {
-public:
-    Stopped() : RunError("interrupted") {}
-};
-
-// Every use throws Stopped once `stop` returns true.
+// Every use throws Stopped once watch.stop() returns true.
 class StoppableChannel : public ChannelOperator {
 public:
-    StoppableChannel(std::shared_ptr<const ChannelOperator> K, std::function<bool()> stop)
-        : K_(std::move(K)), stop_(std::move(stop)) {}
+    StoppableChannel(std::shared_ptr<const ChannelOperator> K, Watch watch) : K_(std::move(K)), watch_(std::move(watch)) {}
     // K is kept by reference.
-    StoppableChannel(const ChannelOperator& K, std::function<bool()> stop)
-        : StoppableChannel(std::shared_ptr<const ChannelOperator>(std::shared_ptr<void>(), &K), std::move(stop)) {}
+    StoppableChannel(const ChannelOperator& K, Watch watch)
+        : StoppableChannel(std::shared_ptr<const ChannelOperator>(std::shared_ptr<void>(), &K), std::move(watch)) {}
 
     Eigen::Index size() const override { return K_->size(); }
     bool has_adjoint() const override { return K_->has_adjoint(); }
@@ -47,10 +40,10 @@ public:
 
 private:
     void go_on() const {
-        if (stop_()) throw Stopped();
+        if (watch_.stop()) throw Stopped();
     }
     std::shared_ptr<const ChannelOperator> K_;
-    std::function<bool()> stop_;
+    Watch watch_;
 };
 
 }  // namespace neumann

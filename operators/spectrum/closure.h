@@ -1,4 +1,4 @@
-// What T, or the form factors F, have to keep: checks on a channel of albedo 1.
+// Laws that T, or the form factors F, must obey, checked on a channel of albedo 1.
 #pragma once
 
 #include "operators/solvers/channel_operator.h"

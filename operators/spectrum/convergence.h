@@ -1,4 +1,4 @@
-// What the spectral radius says of the series: it converges exactly where that is below 1. Norms only bound it.
+// The series converges if and only if the spectral radius is below 1. Norms only bound the radius.
 #pragma once
 
 #include <cmath>
@@ -7,12 +7,12 @@ namespace neumann {
 
 enum class Convergence {
     converges,
-    undecided,  // the radius is as near to 1 as it is uncertain, or is not known
+    undecided,  // the radius differs from 1 by less than its uncertainty, or is not known
     at_one,     // 1 to rounding: albedo 1 in a closed room
     diverges
 };
 
-// `uncertainty`: of a radius that rays and patches give; not a number where it is not known, which is taken as 0.
+// `uncertainty`: that of a radius computed from rays and patches. If it is not a number, it is unknown and counts as 0.
 inline Convergence judge(double radius, double uncertainty) {
     constexpr double rounding = 1e-10;
     if (!std::isfinite(radius)) return Convergence::undecided;

@@ -5,13 +5,13 @@
 
 namespace neumann {
 
-RadiusBounds radius_bounds(const ChannelOperator& K, double most, const std::function<bool()>& go_on) {
+RadiusBounds radius_bounds(const ChannelOperator& K, double most, const Watch& watch) {
     constexpr double rounding = 1e-9;
     constexpr int first = 16;
     RadiusBounds bounds{0.0, std::numeric_limits<double>::infinity(), 0.0};
     Vector x = Vector::Ones(K.size()), next(K.size());
-    double log_size = 0.0;  // of K^n 1; x is that, scaled
-    for (int n = 1, look = first; bounds.applications < most && go_on(); ++n) {
+    double log_size = 0.0;  // log ‖K^n 1‖∞; x is K^n 1, scaled to the norm 1
+    for (int n = 1, look = first; bounds.applications < most && !watch.stop(); ++n) {
         K.apply(x, next);
         ++bounds.applications;
         const double size = next.maxCoeff();

@@ -1,10 +1,9 @@
-// Between which bounds the spectral radius of K ≥ 0 lies, where K keeps some light for good: eigenvalues are then as many as there
-// are ways to go round, all of one modulus, and no search from one start settles on them.
+// Bounds on the spectral radius of a K ≥ 0 that keeps some light for good. Such a K has as many eigenvalues of the same modulus as
+// there are closed loops of light, and a search from one start vector does not converge to them.
 #pragma once
 
 #include "operators/solvers/channel_operator.h"
-
-#include <functional>
+#include "operators/watch.h"
 
 namespace neumann {
 
@@ -14,10 +13,13 @@ struct RadiusBounds {
     bool meet() const { return high - low <= 1e-10 * high; }
 };
 
-// ρ(K) ≤ ‖K^n 1‖∞^(1/n), for every n. And where y ≥ 0 is not 0 and K y ≥ a y, ρ(K) ≥ a (Collatz and Wielandt): y is 1 on the
-// unknowns whose row of K^n is as large as the largest, which are closed among themselves once all others have lost some.
-// n = 16, 32, 64 …, until they meet or there have been `most` applications; fewer where go_on() is false.
-RadiusBounds radius_bounds(
-    const ChannelOperator& K, double most, const std::function<bool()>& go_on = [] { return true; });
+// So many applications show whether K ≥ 0 keeps some light for good.
+constexpr double most_for_bounds = 1000.0;
+
+// Upper bound: ρ(K) ≤ ‖K^n 1‖∞^(1/n), for every n. Lower bound: if y ≥ 0, y ≠ 0 and K y ≥ a y, then ρ(K) ≥ a (Collatz and
+// Wielandt). y is 1 on the unknowns whose row sum of K^n is the largest; these exchange light only with each other once all other
+// unknowns have lost some. Computed for n = 16, 32, 64 …, until the bounds meet, `most` applications are used up, or `watch` stops
+// it.
+RadiusBounds radius_bounds(const ChannelOperator& K, double most, const Watch& watch = {});
 
 }  // namespace neumann

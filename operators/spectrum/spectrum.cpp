@@ -16,24 +16,24 @@ namespace {
 
 constexpr Eigen::Index small = 64;
 constexpr double tolerance = 1e-12;
-// Relative to the modulus: what is found to this is found.
+// A pair counts as found if its residual is below this, relative to the eigenvalue's modulus.
 constexpr double found = 1e-10;
-// Spectra's own limit, beyond that of applications.
+// Never reached: the applications of K are limited instead.
 constexpr Eigen::Index most_restarts = 1 << 20;
-// Before so many applications nothing is foretold.
+// After this many applications, and at every doubling, the number that is still needed is predicted.
 constexpr double first_forecast = 512.0;
 
 struct Ended {};
 
-// What Spectra asks of a matrix.
-class Product {
+// The interface of a matrix that Spectra expects.
+class SpectraMatrix {
 public:
     using Scalar = double;
 
-    Product(Eigen::Index size, std::function<void(const Vector&, Vector&)> apply)
+    SpectraMatrix(Eigen::Index size, std::function<void(const Vector&, Vector&)> apply)
         : apply_(std::move(apply)), input_(size), output_(size) {}
 
-    // Told the place of each vector that K is to be applied to; may throw to end a search.
+    // Called with the address of each vector that K is to be applied to; may throw to end a search.
     std::function<void(const double*)> watch = [](const double*) {};
 
     Eigen::Index rows() const { return input_.size(); }
@@ -58,7 +58,8 @@ private:
     mutable double applications_ = 0.0;
 };
 
-Eigenpairs finish(const Product& product, const Eigen::VectorXcd& values, const Eigen::MatrixXcd& vectors, Eigen::Index count) {
+Eigenpairs finish(const SpectraMatrix& product, const Eigen::VectorXcd& values, const Eigen::MatrixXcd& vectors,
+                  Eigen::Index count) {
     Eigenpairs result;
     for (Eigen::Index i = 0; i < values.size(); ++i) result.pairs.push_back({values[i], vectors.col(i).normalized(), 0.0});
     std::stable_sort(result.pairs.begin(), result.pairs.end(),
@@ -75,10 +76,10 @@ Eigenpairs finish(const Product& product, const Eigen::VectorXcd& values, const 
     return result;
 }
 
-// Arnoldi's method that can be looked at, and ended, at any application of K.
-class Arnoldi : public Spectra::GenEigsSolver<Product> {
+// Arnoldi's method that can be observed and stopped at every application of K.
+class Arnoldi : public Spectra::GenEigsSolver<SpectraMatrix> {
 public:
-    Arnoldi(Product& product, Eigen::Index wanted, Eigen::Index dimensions, const EigenLimits& limits)
+    Arnoldi(SpectraMatrix& product, Eigen::Index wanted, Eigen::Index dimensions, const EigenLimits& limits)
         : GenEigsSolver(product, wanted, dimensions), product_(product), limits_(limits) {
         product.watch = [this](const double* x) { look(x); };
     }
@@ -88,7 +89,7 @@ public:
     Arnoldi(const Arnoldi&) = delete;
     Arnoldi& operator=(const Arnoldi&) = delete;
 
-    // What the wanted ones are in the space spanned so far: K V = V H + f eᵀ, so that V y has the residual |f| |y_last|.
+    // Approximations of the wanted pairs from the space spanned so far: K V = V H + f eᵀ, so V y has the residual |f| |y_last|.
     std::vector<Eigenpair> approximations() const {
         std::vector<Eigenpair> pairs;
         if (columns_ < m_nev) return pairs;
@@ -107,14 +108,15 @@ private:
         const double* const V = m_fac.matrix_V().data();
         const bool in_basis = V && x >= V && x < V + m_n * m_ncv;
         const Eigen::Index before = columns_;
-        // The vector is the column after those of the space.
+        // x is the column of V after the space's last one.
         columns_ = in_basis ? (x - V) / m_n : 0;
         if (columns_ >= m_nev && columns_ <= before) note();
         const EigenStep last = history_.empty() ? EigenStep{product_.applications()} : history_.back();
         if (product_.applications() >= limits_.most) end("");
-        if (!limits_.go_on({product_.applications(), last.residual})) end("stopped");
+        limits_.look({product_.applications(), last.residual});
+        if (limits_.watch.stop()) end("stopped");
     }
-    // After a restart.
+    // Called after each restart.
     void note() {
         EigenStep step{product_.applications(), 0.0};
         const Eigen::EigenSolver<Eigen::MatrixXd> small_one(m_fac.matrix_H().topLeftCorner(columns_, columns_));
@@ -124,7 +126,7 @@ private:
         history_.push_back(step);
         if (step.applications < forecast_) return;
         forecast_ *= 2.0;
-        // Falls as from the first half to the second.
+        // The residual is assumed to go on falling as it fell from the first half of the search to the second.
         double first = std::numeric_limits<double>::infinity(), second = first;
         for (const EigenStep& s : history_) {
             double& best = s.applications < 0.5 * step.applications ? first : second;
@@ -154,9 +156,9 @@ private:
         return m_fac.matrix_H()(columns_, columns_ - 1) * std::abs(y[columns_ - 1]);
     }
 
-    Product& product_;
+    SpectraMatrix& product_;
     const EigenLimits& limits_;
-    Eigen::Index columns_ = 0;  // of V and H that are whole
+    Eigen::Index columns_ = 0;  // finished columns of V and H
     double forecast_ = first_forecast;
     std::vector<EigenStep> history_;
     std::string why_;
@@ -177,7 +179,7 @@ OperatorNorms operator_norms(const ChannelOperator& K, const EigenLimits& limits
     // D K*K D⁻¹ with D = diag(√m) is symmetric.
     const Vector root = K.measure().cwiseSqrt();
     Vector once(n);
-    Product square(n, [&](const Vector& x, Vector& y) {
+    SpectraMatrix square(n, [&](const Vector& x, Vector& y) {
         K.apply(x.cwiseQuotient(root), once);
         K.apply_adjoint(once, y);
         y.array() *= root.array();
@@ -188,10 +190,11 @@ OperatorNorms operator_norms(const ChannelOperator& K, const EigenLimits& limits
         largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
     } else {
         square.watch = [&](const double*) {
-            // Each is one of K and one of K*.
-            if (2.0 * square.applications() >= limits.most || !limits.go_on({2.0 * square.applications()})) throw Ended();
+            // Each application is one of K and one of K*.
+            limits.look({2.0 * square.applications()});
+            if (2.0 * square.applications() >= limits.most || limits.watch.stop()) throw Ended();
         };
-        Spectra::SymEigsSolver<Product> lanczos(square, 1, 20);
+        Spectra::SymEigsSolver<SpectraMatrix> lanczos(square, 1, 20);
         try {
             lanczos.init();
             lanczos.compute(Spectra::SortRule::LargestMagn, 1000, 1e-13);
@@ -213,7 +216,7 @@ double Eigenpairs::radius() const {
 
 Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint, const EigenLimits& limits) {
     const Eigen::Index n = K.size(), wanted = std::min<Eigen::Index>(count, n);
-    Product product(n, [&](const Vector& x, Vector& y) { adjoint ? K.apply_adjoint(x, y) : K.apply(x, y); });
+    SpectraMatrix product(n, [&](const Vector& x, Vector& y) { adjoint ? K.apply_adjoint(x, y) : K.apply(x, y); });
     if (wanted <= 0) return {};
     if (n <= small || wanted > n - 2) {
         const Eigen::EigenSolver<Eigen::MatrixXd> solver(product.formed());

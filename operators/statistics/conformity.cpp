@@ -68,4 +68,13 @@ Conformity conformity_by_error(const Estimate& picture, const SampledReference& 
     });
 }
 
+double brightness(const Image& picture, const Image& reference) {
+    const auto mean_y = [](const Image& xyz) {
+        double sum = 0.0;
+        for (const Rgb& pixel : xyz.pixels) sum += pixel.g;
+        return sum / static_cast<double>(xyz.pixels.size());
+    };
+    return mean_y(picture) / mean_y(reference);
+}
+
 }  // namespace neumann

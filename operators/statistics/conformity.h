@@ -32,4 +32,7 @@ Conformity conformity_by_reference(const Image& picture, std::uint64_t samples, 
 // differ.
 Conformity conformity_by_error(const Estimate& picture, const SampledReference& reference);
 
+// The picture's mean Y divided by the reference's.
+double brightness(const Image& picture, const Image& reference);
+
 }  // namespace neumann

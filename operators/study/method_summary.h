@@ -4,6 +4,7 @@
 #include "operators/study/error_slope.h"
 #include "operators/study/picture_errors.h"
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +30,9 @@ struct PointSummary {
     double efficiency = 0.0;       // 1 / (V T)
     double merit = 0.0;            // 1 / (MSE T), bias included; with MSE plus two standard errors if it is not resolved
     bool infinite_variance = false;
+
+    // The RMSE, or if it is not resolved, a bound on it.
+    double largest_rmse() const { return std::sqrt(1.0 / (merit * seconds.value)); }
 };
 
 struct PictureSummary {

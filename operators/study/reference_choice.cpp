@@ -18,10 +18,10 @@ constexpr std::uint64_t trial_rays = 500'000;
 
 // variance_times_rays(), with a seed that differs from those of all runs and of the reference.
 std::optional<std::vector<double>> try_method(const StudyMethod& method, const Scene& scene, const Pilot& pilot, int bounces,
-                                              const Stop& stop) {
+                                              const Watch& watch) {
     for (int level = first_trial;; ++level) {
         const auto run =
-            run_method(method, sampling_effort(level), bounces, study_seed(0, reference_method, 0, 1), scene, pilot, stop);
+            run_method(method, sampling_effort(level), bounces, study_seed(0, reference_method, 0, 1), scene, pilot, watch);
         if (!run) return std::nullopt;
         if (run->rays >= trial_rays || level == largest_effort) return variance_times_rays(*run);
     }
@@ -51,14 +51,14 @@ VarianceRatio variance_ratio(std::span<const double> first, std::span<const doub
     return {*least, *most, static_cast<std::size_t>(least - ratio.begin()), static_cast<std::size_t>(most - ratio.begin())};
 }
 
-std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces, const Stop& stop) {
+std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces, const Watch& watch) {
     const StudyMethod first{method::Walk::name, method::Walk()}, second{method::Bidirectional::name, method::Bidirectional()};
     if (scene.hide_emitters) return ReferenceChoice{first.name, "bidirectional cannot hide emitters, as the scene asks for"};
     if (scene.emitters.has_delta_lights() && has_specular(scene.materials))
         return ReferenceChoice{second.name, "walk does not find what mirrors and glass throw on from a light without extent"};
-    const auto walk = try_method(first, scene, pilot, bounces, stop);
+    const auto walk = try_method(first, scene, pilot, bounces, watch);
     if (!walk) return std::nullopt;
-    const auto bidirectional = try_method(second, scene, pilot, bounces, stop);
+    const auto bidirectional = try_method(second, scene, pilot, bounces, watch);
     if (!bidirectional) return std::nullopt;
     const VarianceRatio ratio = variance_ratio(*walk, *bidirectional);
     return ReferenceChoice{

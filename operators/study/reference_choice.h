@@ -35,6 +35,6 @@ struct ReferenceChoice {
     std::string method, why;
 };
 // Chooses by short runs of all methods that can make all paths of this scene. Returns nothing if it was stopped.
-std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces, const Stop& stop);
+std::optional<ReferenceChoice> choose_reference(const Scene& scene, const Pilot& pilot, int bounces, const Watch& watch);
 
 }  // namespace neumann

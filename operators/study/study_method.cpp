@@ -18,20 +18,20 @@ Method studied_method(const std::string& word) {
 }
 
 std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
-                                       const Scene& scene, const Pilot& pilot, const Stop& stop) {
+                                       const Scene& scene, const Pilot& pilot, const Watch& watch) {
     try {
         Goal goal;
         goal.bounces = bounces;
         goal.samples = effort.samples;
         goal.seed = seed;
         goal.only_pictures = true;
-        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {stop}, pilot);
+        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {.stop = watch.stop}, pilot);
         if (series.outcome == Outcome::interrupted) return std::nullopt;
         return series;
     } catch (const InputError& e) {
         throw InputError(fmt::format("{}: {}", method.name, e.what()));
     } catch (const RunError& e) {
-        if (stop()) return std::nullopt;
+        if (watch.stop()) return std::nullopt;
         throw RunError(fmt::format("{}: {}", method.name, e.what()));
     }
 }

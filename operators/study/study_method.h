@@ -4,7 +4,6 @@
 #include "operators/methods/render.h"
 #include "operators/study/effort.h"
 
-#include <functional>
 #include <string>
 
 namespace neumann {
@@ -17,9 +16,8 @@ struct StudyMethod {
 // Reads a method like read_method(). Throws InputError if it is unknown or has no place in a study.
 Method studied_method(const std::string& word);
 
-// Returns nothing if it was stopped (Watch::stop). Errors name the method.
-using Stop = std::function<bool()>;
+// Returns nothing if `watch` stops it. Errors name the method.
 std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
-                                       const Scene& scene, const Pilot& pilot, const Stop& stop);
+                                       const Scene& scene, const Pilot& pilot, const Watch& watch);
 
 }  // namespace neumann

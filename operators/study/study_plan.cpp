@@ -35,11 +35,12 @@ struct Measurement {
 
 // Measures until a run takes `enough` seconds. The set-up time of fields also grows with their patches.
 std::optional<Measurement> measure(const StudyMethod& method, double enough, int bounces, std::uint64_t seed, const Scene& scene,
-                                   const Pilot& pilot, const Stop& stop) {
+                                   const Pilot& pilot, const Watch& watch) {
     Measurement result{{}, 0.0, has_fields(method.method)};
     auto& [seconds, setup, fields] = result;
     do {
-        const auto run = run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot, stop);
+        const auto run =
+            run_method(method, effort_of(method, static_cast<int>(seconds.size())), bounces, seed, scene, pilot, watch);
         if (!run) return std::nullopt;
         setup = fields ? 0.0 : run->setup_seconds;
         seconds.push_back(run->seconds - setup);
@@ -50,7 +51,7 @@ std::optional<Measurement> measure(const StudyMethod& method, double enough, int
 }  // namespace
 
 std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vector<StudyMethod>& methods, int bounces,
-                                    std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Stop& stop) {
+                                    std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Watch& watch) {
     StudyPlan plan;
     plan.budgets_are_samples = !wanted.samples.empty();
     std::uint64_t most_samples = 0;
@@ -60,7 +61,7 @@ std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vecto
             std::vector<Effort>& efforts = plan.efforts.emplace_back();
             for (const std::uint64_t n : wanted.samples)
                 efforts.push_back(has_fields(method.method) ? field_effort_of_samples(n) : Effort{n});
-            if (!run_method(method, effort_of(method, 0), bounces, seed, scene, pilot, stop)) return std::nullopt;
+            if (!run_method(method, effort_of(method, 0), bounces, seed, scene, pilot, watch)) return std::nullopt;
         }
         most_samples = wanted.samples.back();
     } else {
@@ -72,7 +73,7 @@ std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vecto
             const bool fields = has_fields(method.method);
             const double part = part_of_budget * largest;
             auto run = measure(method, std::max(shortest_measurement, fields ? part : std::min(part, longest_measurement)), bounces,
-                               seed, scene, pilot, stop);
+                               seed, scene, pilot, watch);
             if (!run) return std::nullopt;
             const double first = run->seconds.front();
             least = std::max(least, fields ? first : run->setup + 4.0 * first);
@@ -87,14 +88,14 @@ std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vecto
             for (const double budget : plan.budgets) {
                 levels.push_back(measured[m].level(budget));
                 if (!measured[m].fields || patches_given || levels.back() == 0.0) continue;
-                const auto run = run_method(methods[m], field_effort(levels.back()), bounces, seed, scene, pilot, stop);
+                const auto run = run_method(methods[m], field_effort(levels.back()), bounces, seed, scene, pilot, watch);
                 if (!run) return std::nullopt;
                 levels.back() = corrected_level(levels.back(), run->seconds, budget);
             }
             plan.efforts.push_back(measured[m].fields ? field_efforts(levels, patches_given) : sampling_efforts(levels));
         }
         const StudyMethod walk{"walk", method::Walk{}};
-        const auto measured_walk = measure(walk, shortest_measurement, bounces, seed, scene, pilot, stop);
+        const auto measured_walk = measure(walk, shortest_measurement, bounces, seed, scene, pilot, watch);
         if (!measured_walk) return std::nullopt;
         most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;
     }

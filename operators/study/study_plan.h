@@ -11,7 +11,8 @@ namespace neumann {
 struct StudyBudgets {
     std::vector<double> seconds = {};
     std::vector<std::uint64_t> samples = {};
-    std::optional<std::uint64_t> reference_samples = {};  // per pixel, of a reference that is rendered; the default depends on the budgets
+    std::optional<std::uint64_t> reference_samples =
+        {};  // per pixel, of a reference that is rendered; the default depends on the budgets
 };
 
 struct StudyPlan {
@@ -23,6 +24,6 @@ struct StudyPlan {
 
 // Measures by short runs how fast each method is; these also find what a method refuses. Returns nothing if it was stopped.
 std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vector<StudyMethod>& methods, int bounces,
-                                    std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Stop& stop);
+                                    std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Watch& watch);
 
 }  // namespace neumann

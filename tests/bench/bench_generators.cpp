@@ -54,14 +54,15 @@ int main(int argc, char** argv) {
     const Scene scene = read_scene(path, {{"res", resolution}});
 
     std::vector<Generator> generators;
-    for (const auto& [name, method] : {std::pair("walk", PathMethod::walk), std::pair("guided", PathMethod::guided),
-                                       std::pair("surface", PathMethod::surface), std::pair("classic", PathMethod::classic),
-                                       std::pair("light", PathMethod::light), std::pair("bidirectional", PathMethod::bidirectional)}) {
+    for (const auto& [name, method] :
+         {std::pair("walk", PathGenerator::walk), std::pair("guided", PathGenerator::guided),
+          std::pair("surface", PathGenerator::surface), std::pair("classic", PathGenerator::classic),
+          std::pair("light", PathGenerator::light), std::pair("bidirectional", PathGenerator::bidirectional)}) {
         Generator g{.name = name, .settings = {}};
-        g.settings.method = method;
+        g.settings.generator = method;
         g.settings.replicate_size = largest_replicate;
         g.settings.walk.bounces = bounces;
-        if (method == PathMethod::guided)
+        if (method == PathGenerator::guided)
             g.setup = seconds_of([&] {
                 GuideSettings guide;
                 guide.bounces = bounces;

@@ -57,7 +57,7 @@ std::vector<Estimate> reference(const Scene& scene, std::uint32_t samples) {
     if (!std::filesystem::exists(file(bounces))) {
         fmt::print("The reference, {} samples a pixel: kept in {}\n", samples, folder.string());
         FieldSettings settings;
-        settings.method = FieldMethod::gather;
+        settings.reading = FieldReading::gather;
         settings.bounces = bounces;
         settings.patching = {250'000, 0.5};
         settings.replicates = 4;
@@ -134,10 +134,10 @@ void compare_methods(const Scene& scene, std::uint32_t samples) {
     const auto walk_needs = [&](double target) { return walk_seconds * walk_error.corrected() / target; };
     fmt::print("{:>8}  {:>8} {:>6} {:>6} {:>7}  {:>8}  {:>9}  {:>9}  {:>9}\n", "method", "patches", "rays", "spp", "gather",
                "relMSE", "fields s", "all s", "of walk's");
-    const auto measure = [&](FieldMethod method, std::size_t patches, std::uint32_t rays, std::uint32_t spp, std::uint32_t gather,
+    const auto measure = [&](FieldReading method, std::size_t patches, std::uint32_t rays, std::uint32_t spp, std::uint32_t gather,
                              int N = bounces) {
         FieldSettings settings;
-        settings.method = method;
+        settings.reading = method;
         settings.bounces = N;
         settings.patching = {patches, 0.5};
         settings.rays = rays;
@@ -160,19 +160,19 @@ void compare_methods(const Scene& scene, std::uint32_t samples) {
         }
         const Error e = error(exact, [&](std::size_t i) { return pictures->term(i); });
         fmt::print("{:>8}  {:>8} {:>6} {:>6} {:>7}  {:>8.5f}  {:>9.4f}  {:>9.4f}  1/{:<7.0f}\n",
-                   method == FieldMethod::matrix ? "matrix" : "gather", pictures->patches, rays * 2, spp * 2,
-                   method == FieldMethod::gather ? fmt::format("{}", gather) : "", e.corrected(), fields, best,
+                   method == FieldReading::matrix ? "matrix" : "gather", pictures->patches, rays * 2, spp * 2,
+                   method == FieldReading::gather ? fmt::format("{}", gather) : "", e.corrected(), fields, best,
                    walk_needs(e.corrected()) / best);
         return best;
     };
-    measure(FieldMethod::matrix, 1000, 32, 4, 0);
-    measure(FieldMethod::matrix, 2000, 64, 4, 0);
-    measure(FieldMethod::matrix, 4000, 128, 16, 0);
-    measure(FieldMethod::gather, 1000, 32, 8, 4);
-    measure(FieldMethod::gather, 4000, 64, 32, 4);
+    measure(FieldReading::matrix, 1000, 32, 4, 0);
+    measure(FieldReading::matrix, 2000, 64, 4, 0);
+    measure(FieldReading::matrix, 4000, 128, 16, 0);
+    measure(FieldReading::gather, 1000, 32, 8, 4);
+    measure(FieldReading::gather, 4000, 64, 32, 4);
     const auto many_pictures = [&](std::size_t patches, std::uint32_t rays, std::uint32_t spp) {
-        const double nine = measure(FieldMethod::matrix, patches, rays, spp, 0),
-                     many = measure(FieldMethod::matrix, patches, rays, spp, 0, 64);
+        const double nine = measure(FieldReading::matrix, patches, rays, spp, 0),
+                     many = measure(FieldReading::matrix, patches, rays, spp, 0, 64);
         fmt::print("65 pictures in {:.2f} times the time of nine\n", many / nine);
     };
     many_pictures(1000, 32, 4);

@@ -195,5 +195,22 @@ TEST_F(Manual, LinksLeadSomewhere) {
     }
 }
 
+// The source files that CONTRIBUTING.md names are there, by the ends of their paths.
+TEST_F(Manual, SourceFilesThatAreNamedExist) {
+    std::vector<std::string> sources;
+    for (const char* folder : {"core", "operators", "apps", "tests"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(repository / folder))
+            sources.push_back("/" + std::filesystem::relative(entry.path(), repository).generic_string());
+    const std::string text = text_of(repository / "CONTRIBUTING.md");
+    const std::regex source(R"([\w/]+\.(h|cpp)\b)");
+    std::size_t named = 0;
+    for (std::sregex_iterator match(text.begin(), text.end(), source), end; match != end; ++match, ++named) {
+        const std::string name = "/" + match->str();
+        EXPECT_TRUE(std::any_of(sources.begin(), sources.end(), [&](const std::string& path) { return path.ends_with(name); }))
+            << name;
+    }
+    EXPECT_GT(named, 30u);
+}
+
 }  // namespace
 }  // namespace neumann

@@ -103,8 +103,9 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
         const auto file = [](const char* name) { return std::string(name) + ".xml"; };
         const Scene scene = read_scene(TEST_DATA "/generators/room.xml",
                                        {{"light", file(light)}, {"camera", file(camera)}, {"things", file(things)}});
-        for (const PathMethod method : {PathMethod::walk, PathMethod::light, PathMethod::bidirectional, PathMethod::surface}) {
-            SamplingSettings settings{.method = method,
+        for (const PathGenerator method :
+             {PathGenerator::walk, PathGenerator::light, PathGenerator::bidirectional, PathGenerator::surface}) {
+            SamplingSettings settings{.generator = method,
                                       .walk = {.bounces = bounces, .rest_probability = 0.0},
                                       .seed = physics::fixed_seed,
                                       .replicate_size = 16};
@@ -112,7 +113,7 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
             SCOPED_TRACE(std::string(light) + " " + things + " " + std::to_string(static_cast<int>(method)));
             EXPECT_EQ(found.self_hits, 0u);
             EXPECT_GT(found.paths, 1000u);
-            EXPECT_EQ(found.camera.has_value(), method == PathMethod::walk || method == PathMethod::bidirectional);
+            EXPECT_EQ(found.camera.has_value(), method == PathGenerator::walk || method == PathGenerator::bidirectional);
             EXPECT_EQ(found.light.has_value(), splats(method));
             for (const auto* half : {&found.camera, &found.light}) {
                 if (!*half) continue;
@@ -150,12 +151,14 @@ TEST(SelfHits, ANarrowGapIsNone) {
 // Two points of one rectangle, of which `surface` chooses many, do not see each other.
 TEST(SelfHits, PointsThatAreChosenAreNone) {
     const Scene scene = read_scene(SCENES "/floating-panels/floating-panels.xml", {{"res", "32"}});
-    for (const PathMethod method : {PathMethod::walk, PathMethod::surface}) {
-        const SamplingSettings settings{
-            .method = method, .walk = {.bounces = 3, .rest_probability = 0.0}, .seed = physics::fixed_seed, .replicate_size = 16};
+    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::surface}) {
+        const SamplingSettings settings{.generator = method,
+                                        .walk = {.bounces = 3, .rest_probability = 0.0},
+                                        .seed = physics::fixed_seed,
+                                        .replicate_size = 16};
         const Checkup found = *check_up(scene, PictureSampler(scene, settings), 64);
         EXPECT_EQ(found.self_hits, 0u);
-        EXPECT_EQ(found.rays > 1000, method == PathMethod::walk);
+        EXPECT_EQ(found.rays > 1000, method == PathGenerator::walk);
     }
 }
 

@@ -42,49 +42,49 @@ std::vector<Remedy> remedies_of_largest(const Scene& scene, const SamplingSettin
     return remedies(scene, sampler, name, quantity);
 }
 
-SamplingSettings settings(PathMethod method, DirectLight direct = DirectLight::mis) {
-    return {.method = method, .walk = {.bounces = bounces, .direct = {direct}}, .seed = 3, .replicate_size = size};
+SamplingSettings settings(PathGenerator method, DirectLight direct = DirectLight::mis) {
+    return {.generator = method, .walk = {.bounces = bounces, .direct = {direct}}, .seed = 3, .replicate_size = size};
 }
 
 using Remedies = std::vector<Remedy>;
 
 TEST(Remedies, ALampBehindGlassIsFoundFromItsOwnEnd) {
     const Scene scene = under_glass(matte(0.8), true);
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathMethod::walk), 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathMethod::walk, DirectLight::bsdf), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk, DirectLight::bsdf), 2), Remedies{Remedy::bidirectional});
     EXPECT_EQ(remedies_of_largest(scene, {.walk = {.bounces = 1}, .seed = 3, .replicate_size = size}, 2),
               (Remedies{Remedy::bidirectional, Remedy::more_bounces}));
 }
 
 TEST(Remedies, ALampThatIsSeenIsAskedFor) {
     const Scene scene = under_glass(matte(0.8), false);
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathMethod::walk, DirectLight::bsdf), 1), Remedies{Remedy::ask_lights});
+    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk, DirectLight::bsdf), 1), Remedies{Remedy::ask_lights});
 }
 
 // The floor is a mirror: every vertex is a delta, and nothing can be joined.
 TEST(Remedies, NothingHelpsWhereNothingCanBeJoined) {
     const Scene scene = under_glass(made_of(Conductor({}, Rgb(0.9))), true);
-    const PictureSampler sampler(scene, settings(PathMethod::walk));
+    const PictureSampler sampler(scene, settings(PathGenerator::walk));
     for (std::uint32_t pixel = 0; pixel < 256; ++pixel) EXPECT_EQ(remedies(scene, sampler, {pixel, 0}, 2), Remedies());
 }
 
 TEST(Remedies, NotWhatTheSceneRefuses) {
     Scene scene = under_glass(matte(0.8), true);
     scene.hide_emitters = true;
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathMethod::walk), 2), Remedies());
+    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk), 2), Remedies());
 }
 
 // In both halves nothing is left to try but bounces that are made from both ends.
 TEST(Remedies, OfOtherMethods) {
     const Scene scene = under_glass(matte(0.8), true);
-    const auto of = [&](PathMethod method, std::size_t quantity) {
+    const auto of = [&](PathGenerator method, std::size_t quantity) {
         return remedies(scene, PictureSampler(scene, settings(method)), {0, 0}, quantity);
     };
-    EXPECT_EQ(of(PathMethod::pointwise, 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(PathMethod::surface, 2), Remedies{Remedy::ask_lights});
-    EXPECT_EQ(of(PathMethod::light, 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(PathMethod::bidirectional, 2), Remedies());
-    EXPECT_EQ(of(PathMethod::bidirectional, bounces + 1), Remedies{Remedy::more_bounces});
+    EXPECT_EQ(of(PathGenerator::pointwise, 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(of(PathGenerator::surface, 2), Remedies{Remedy::ask_lights});
+    EXPECT_EQ(of(PathGenerator::light, 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(of(PathGenerator::bidirectional, 2), Remedies());
+    EXPECT_EQ(of(PathGenerator::bidirectional, bounces + 1), Remedies{Remedy::more_bounces});
 }
 
 }  // namespace

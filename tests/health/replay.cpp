@@ -17,7 +17,7 @@ constexpr int bounces = 3;
 
 struct Case {
     const char* name;
-    PathMethod method;
+    PathGenerator generator;
     SamplerKind sampler = SamplerKind::sobol;
     Split split = {};
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -30,14 +30,14 @@ protected:
     // 49 pixels: the last of the 64 paths that advance together are fewer.
     Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "7"}});
     SamplingSettings settings() const {
-        SamplingSettings s{.method = GetParam().method,
+        SamplingSettings s{.generator = GetParam().generator,
                            .walk = {.bounces = bounces, .split = GetParam().split, .rest_probability = 0.7},
                            .sampler = GetParam().sampler,
                            .seed = 5,
                            .replicate_size = size};
-        if (s.method == PathMethod::guided)
+        if (s.generator == PathGenerator::guided)
             s.tables = std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
-        if (s.method == PathMethod::corrected)
+        if (s.generator == PathGenerator::corrected)
             s.approximation = std::make_shared<const Approximation>(
                 scene, ApproximationSettings{.patches = 100, .rays = 16, .bounces = bounces, .seed = 5});
         return s;
@@ -69,7 +69,7 @@ TEST_P(ReplayEvery, PixelsAreTheMeansOfReplayedSamples) {
         const double* mean = node.data.data() + k * PixelMoments::doubles_per_quantity;
         const Rgb rendered(mean[0], mean[1], mean[2]), replayed = (own[k] + splatted[k]) * (1.0 / size);
         // What comes from the lights is added to the rest in another order here.
-        if (splats(GetParam().method) && q == Q - 1)
+        if (splats(GetParam().generator) && q == Q - 1)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(rendered[c], replayed[c], 1e-14 * std::abs(rendered[c]));
         else
             EXPECT_TRUE(same_bits(rendered, replayed))
@@ -84,7 +84,7 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     const PictureSampler sampler(scene, settings());
     for (std::uint32_t pixel = 0; pixel < 49; pixel += 6) {
         const Replay found = replay(sampler, {pixel, 2});
-        if (!splats(GetParam().method) || GetParam().method == PathMethod::bidirectional) {
+        if (!splats(GetParam().generator) || GetParam().generator == PathGenerator::bidirectional) {
             EXPECT_FALSE(found.steps.empty());
         }
         std::vector<Rgb> sum(sampler.quantities(), Rgb(0.0));
@@ -96,16 +96,16 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(PathMethod, ReplayEvery,
-                         testing::Values(Case{"Walk", PathMethod::walk},
-                                         Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
-                                         Case{"WalkSplit", PathMethod::walk, SamplerKind::sobol, {3, 2}},
-                                         Case{"Guided", PathMethod::guided}, Case{"Corrected", PathMethod::corrected},
-                                         Case{"Surface", PathMethod::surface}, Case{"Classic", PathMethod::classic},
-                                         Case{"Light", PathMethod::light},
-                                         Case{"LightIndependent", PathMethod::light, SamplerKind::independent},
-                                         Case{"Bidirectional", PathMethod::bidirectional},
-                                         Case{"BidirectionalSplit", PathMethod::bidirectional, SamplerKind::sobol, {3, 2}}),
+INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
+                         testing::Values(Case{"Walk", PathGenerator::walk},
+                                         Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
+                                         Case{"WalkSplit", PathGenerator::walk, SamplerKind::sobol, {3, 2}},
+                                         Case{"Guided", PathGenerator::guided}, Case{"Corrected", PathGenerator::corrected},
+                                         Case{"Surface", PathGenerator::surface}, Case{"Classic", PathGenerator::classic},
+                                         Case{"Light", PathGenerator::light},
+                                         Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
+                                         Case{"Bidirectional", PathGenerator::bidirectional},
+                                         Case{"BidirectionalSplit", PathGenerator::bidirectional, SamplerKind::sobol, {3, 2}}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.

@@ -85,7 +85,7 @@ TEST(Importance, IsTheMeanOverDirections) {
 // comparisons at |z| ≤ 4.5: false alarm 7·10⁻⁶ each.
 TEST(Importance, MeasuresTheMeansOfThePictures) {
     const Scene scene = lit_room(matte(0.5));
-    const FieldSettings settings{.method = FieldMethod::patches,
+    const FieldSettings settings{.reading = FieldReading::patches,
                                  .bounces = N,
                                  .patching = {200, 0.6},
                                  .rays = 64,

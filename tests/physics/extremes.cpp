@@ -9,7 +9,8 @@
 namespace neumann::physics {
 namespace {
 
-constexpr Technique all_ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise, Technique::surfaces};
+constexpr Technique all_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise,
+                                        Technique::surfaces};
 
 // A surface seen from behind is black: it neither shines nor reflects, and it hides what is beyond.
 TEST(Extremes, FromBehindASurfaceIsBlack) {
@@ -20,20 +21,20 @@ TEST(Extremes, FromBehindASurfaceIsBlack) {
     const SurfacePoint p = surface_point(scene, {0.2, 0.1, 0}, {0, 0, -1});
     ASSERT_EQ(p.shape, glowing_floor);
     const Vec3 down(0, 0.6, -0.8);
-    for (const Technique way : all_ways) {
-        SCOPED_TRACE(name(way));
+    for (const Technique technique : all_techniques) {
+        SCOPED_TRACE(name(technique));
         const Estimates found = probe(scene,
                                       [=](Random&) {
                                           return Start{p, down};
                                       },
-                                      way, {.samples = 16, .bounces = 3, .rest_probability = 1.0});
+                                      technique, {.samples = 16, .bounces = 3, .rest_probability = 1.0});
         for (const Statistic& term : found.terms) expect_matches(term, 0.0, "light from a back side");
         expect_matches(found.rest, 0.0, "rest");
     }
     // The lower floor sees the upper one's back only: what it reflects is nothing.
-    for (const Technique way : all_ways) {
-        SCOPED_TRACE(name(way));
-        const Estimates found = probe(scene, at(scene, {0, 0, -2}, {0, 0, 1}), way, {.samples = 256, .bounces = 3});
+    for (const Technique technique : all_techniques) {
+        SCOPED_TRACE(name(technique));
+        const Estimates found = probe(scene, at(scene, {0, 0, -2}, {0, 0, 1}), technique, {.samples = 256, .bounces = 3});
         expect_matches(found, std::vector{3.0, 0.0, 0.0, 0.0});
     }
 }

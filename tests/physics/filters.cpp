@@ -113,9 +113,9 @@ TEST(Filters, EveryBounceWeighsAlike) {
     maker.parts.film = {.width = 16, .height = 16, .crop_width = 16, .crop_height = 16, .filter = SignedFilter::lanczos()};
     maker.parts.camera.fov = glm::radians(60.0);
     const Scene scene = maker.make();
-    for (const FieldMethod method : {FieldMethod::matrix, FieldMethod::gather, FieldMethod::patches}) {
+    for (const FieldReading method : {FieldReading::matrix, FieldReading::gather, FieldReading::patches}) {
         FieldSettings settings;
-        settings.method = method;
+        settings.reading = method;
         settings.bounces = 4;
         settings.patching.patches = 600;
         settings.rays = 64;

@@ -17,8 +17,8 @@ constexpr double rho = 0.9;
 Conductor mirror() { return Conductor({}, grey(rho)); }
 
 // Few samples are enough: all have to be the same.
-ProbeSettings effort(Technique way, int bounces) {
-    return {.samples = 2, .bounces = way == Technique::pointwise ? std::min(bounces, 12) : bounces};
+ProbeSettings probe_settings(Technique technique, int bounces) {
+    return {.samples = 2, .bounces = technique == Technique::pointwise ? std::min(bounces, 12) : bounces};
 }
 
 // A diffuse floor lit by a lamp that it sees in a mirror only, as if the lamp were behind it: K^2 Le = ρ_floor ρ F, F the form
@@ -32,9 +32,9 @@ TEST(Mirrors, ALampSeenInAMirrorLightsTheFloor) {
     maker.add(Disk{{0, 0, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}}, lamp(1.0));
     const Scene scene = maker.make();
     const double F = 4.0 / (4.0 + 9.0) - 0.02 * 0.02 / (pi * 4.0);
-    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
-        SCOPED_TRACE(name(way));
-        expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, {.samples = 16384, .bounces = 3}),
+    for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::light}) {
+        SCOPED_TRACE(name(technique));
+        expect_matches(probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), technique, {.samples = 16384, .bounces = 3}),
                        std::vector{0.0, 0.0, 0.5 * rho * F, 0.0}, 0, 0.005);
     }
 }
@@ -47,8 +47,8 @@ TEST(Mirrors, TheBackIsBlackUnlessTwoSided) {
         maker.add(patch({0, 0, 0}, {0, 0, 1}, 1.0), surface);
         maker.add(patch({0, 0, -2}, {0, 0, 1}, 1.0), lamp(1.0));
         const Scene scene = maker.make();
-        for (const Technique way : ways) {
-            const Estimates found = probe(scene, seen(scene, {0.1, 0.2, -1}, {0, 0, 1}), way, effort(way, 2));
+        for (const Technique technique : ways) {
+            const Estimates found = probe(scene, seen(scene, {0.1, 0.2, -1}, {0, 0, 1}), technique, probe_settings(technique, 2));
             expect_exact(found, [=](int i) { return grey(two_sided && i == 1 ? rho : 0.0); });
         }
     }

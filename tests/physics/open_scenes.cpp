@@ -15,6 +15,7 @@ Surface sky(const AreaLight& radiance) { return {std::nullopt, radiance}; }
 struct Body {
     std::string name;
     Shape shape;
+    bool is_known = false;  // among the known answers, where it is
 };
 
 std::vector<Body> convex_bodies() {
@@ -23,17 +24,17 @@ std::vector<Body> convex_bodies() {
     };
     const Mat4 skew = glm::rotate(Mat4(1.0), 0.7, glm::normalize(Vec3(3, -1, 2)));
     return {
-        {"cube", make_cube(Mat4(1.0))},
+        {"cube", make_cube(Mat4(1.0)), true},
         {"cube in a skew position", make_cube(skew)},
-        {"tetrahedron", tetrahedron(1.0)},
-        {"sphere", Sphere{{0.1, 0.2, 0.3}, 1.0, false}},
-        {"icosphere of 20480 triangles", icosphere(5)},
+        {"tetrahedron", tetrahedron(1.0), true},
+        {"sphere", Sphere{{0.1, 0.2, 0.3}, 1.0, false}, true},
+        {"icosphere of 20480 triangles", icosphere(5), true},
         {"prism with 4000 needles, 600 times as long as wide", transformed(prism(2000), skew)},
         {"rod, 10000 times as long as thick", transformed(make_cube(glm::scale(Mat4(1.0), Vec3(1e-4, 1e-4, 1.0))), skew)},
         {"plate, 10000 times as wide as thick", transformed(make_cube(glm::scale(Mat4(1.0), Vec3(1.0, 1.0, 1e-4))), skew)},
         {"small icosphere far from the middle of the scene", moved(icosphere(3), {5.1, -4.3, 3.7}, 1e-3)},
         {"small cube far from the middle of the scene", moved(transformed(make_cube(Mat4(1.0)), skew), {5.1, -4.3, 3.7}, 1e-3)},
-        {"flat floor of 200 strips", strips({-1, -1, 0.3}, {2, 0, 0}, {0, 2, 0}, 200)},
+        {"flat floor of 200 strips", strips({-1, -1, 0.3}, {2, 0, 0}, {0, 2, 0}, 200), true},
         {"tube from outside", Cylinder{{0.1, -0.2, -0.9}, glm::normalize(Vec3(1, 2, 2)), 1.9, 0.4, false}},
         {"wire, 10000 times as long as thick", Cylinder{{-0.3, -0.6, -0.7}, glm::normalize(Vec3(1, 2, 2)), 2.0, 1e-4, false}},
         {"disc", Disk{{0.1, 0.2, 0.3}, {1, 0, 0}, {0.3, 1, 0}, {0, 0, 1}}},
@@ -56,8 +57,8 @@ Shape placed(Shape shape, const Vec3& to, double scale) {
 }
 
 // A convex body sees only the sky: K^1 Le = ρ and K^i Le = 0 for i ≥ 2, exactly. Anything else is a ray that hits the surface it
-// starts on. 14 bodies at 4 places and scales, 65536 starts each and as many rays by light sampling: 7 million rays, none of which
-// may find the body again.
+// starts on. 14 bodies at 4 places and scales but for the 5 that are known answers, 65536 starts each and as many rays by light
+// sampling: 6.7 million rays, none of which may find the body again.
 TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
     const double rho = 0.5;
     struct {
@@ -70,6 +71,7 @@ TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
                         {"1e6 times as large", {-12.3, 4.56, 7.89}, 1e6}};
     for (const auto& [what, to, scale] : places)
         for (const Body& body : convex_bodies()) {
+            if (body.is_known && scale == 1.0) continue;
             SCOPED_TRACE(body.name + ", " + what);
             SceneMaker maker;
             const std::uint32_t shape = maker.add(placed(body.shape, to, scale), matte(rho));

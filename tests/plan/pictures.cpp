@@ -20,9 +20,9 @@ namespace {
 constexpr int bounces = 4;
 
 Pictures rendered(const Scene& scene, const LeftOut& left_out, SamplerKind sampler, double rest,
-                  PathMethod method = PathMethod::walk, std::uint64_t replicates = 4) {
+                  PathGenerator method = PathGenerator::walk, std::uint64_t replicates = 4) {
     return render(scene,
-                  {.method = method,
+                  {.generator = method,
                    .walk = {.bounces = bounces, .left_out = left_out, .rest_probability = rest, .give_up = 50},
                    .sampler = sampler,
                    .seed = fixed_seed,
@@ -125,7 +125,7 @@ TEST(PlannedPictures, OfScenesThatNeedLittle) {
 // The other methods that walk take the same decisions, but for the kernels.
 TEST(PlannedPictures, OfOtherMethods) {
     for (const Scene& scene : {lit_room({0.7, 0.5, 0.3}), box_under(poles()), point_lit_room({0.7, 0.5, 0.3})})
-        for (const PathMethod method : {PathMethod::surface, PathMethod::classic}) {
+        for (const PathGenerator method : {PathGenerator::surface, PathGenerator::classic}) {
             LeftOut left_out = make_plan(scene).walk;
             expect_same_bits(rendered(scene, left_out, SamplerKind::sobol, 0.0, method),
                              rendered(scene, {}, SamplerKind::sobol, 0.0, method));
@@ -162,7 +162,7 @@ TEST(PlannedPictures, RaysThatAreSpared) {
 TEST(PlannedPictures, OfFieldsWithSidesInTheDark) {
     const auto fields = [](const Scene& scene) {
         FieldSettings settings;
-        settings.method = FieldMethod::matrix;
+        settings.reading = FieldReading::matrix;
         settings.bounces = bounces;
         settings.patching.patches = 200;
         settings.replicates = 64;

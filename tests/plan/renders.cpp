@@ -2,6 +2,7 @@
 #include "core/geometry/ray_caster.h"
 #include "operators/methods/method_options.h"
 #include "operators/methods/render.h"
+#include "operators/pictures/pilot.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"
 
@@ -39,6 +40,34 @@ TEST(Renders, OneTreeServesAllAndNothingChanges) {
         EXPECT_TRUE(first.method == second.method) << name;
     }
     EXPECT_EQ(trees_built(), trees);
+}
+
+// A method runs only what it needs: fields with given bounces need no pilot. Nor do paths whose samples are given too and of which
+// only pictures are wanted, except those that leave some out and tell how much is missing.
+TEST(Renders, APilotRunsOnlyWhereItIsNeeded) {
+    const Scene scene = room_from_behind();
+    for (const std::string& name : method_names()) {
+        MethodText text{name};
+        if (has_fields(make_method(text)) || name == "guided") text.options.emplace_back("patches", "50");
+        const Method method = make_method(text);
+        const std::uint64_t before = pilots_run();
+        const BounceSeries series = render(scene, method, quick());
+        EXPECT_EQ(pilots_run() - before, series.paths == Paths::all ? 0u : 1u) << name;
+        if (!has_fields(method)) continue;
+        Goal goal = quick();
+        goal.only_pictures = false;
+        render(scene, method, goal);
+        EXPECT_EQ(pilots_run(), before) << name;
+    }
+    // Without bounces it chooses them, once for the whole render.
+    for (const Method& method : {Method(method::Walk{}), Method(method::Matrix{})}) {
+        Goal goal = quick();
+        goal.bounces.reset();
+        goal.only_pictures = false;
+        const std::uint64_t before = pilots_run();
+        render(scene, method, goal);
+        EXPECT_EQ(pilots_run(), before + 1) << name_of(method);
+    }
 }
 
 // As it ran it is repeated: what was left open is in it.

@@ -6,6 +6,7 @@ import unittest
 
 import neumann
 import numpy as np
+from neumann._neumann import trees_built
 from support import Case, command, cornell, furnace, scene_file
 
 OPTIONS = ["-n", "3", "--spp", "8", "--seed", "7"]
@@ -48,6 +49,19 @@ class Render(Case):
         scene = cornell()
         scene.render(bounces=1, spp=2, method="light")
         self.expect_same(scene.render(bounces=3, spp=8, seed=7), neumann.read(self.folder / "out"))
+
+    def test_a_loaded_scene_is_built_once(self):
+        before = trees_built()
+        scene = cornell()
+        loaded = trees_built()
+        self.assertGreater(loaded, before)
+        few = {"patches": 100, "directions": 64}
+        for method, more in (("walk", {}), ("light", {}), ("guided", few), ("matrix", few), ("gather", few)):
+            scene.render(bounces=1, spp=4, method=method, **more)
+            scene.render(bounces=1, spp=4, method=method, **more)
+        scene.plan()
+        scene.matrices(**few)
+        self.assertEqual(trees_built(), loaded)
 
     def test_other_methods(self):
         for method, more in (("bidirectional", {}), ("matrix", {"patches": 200, "directions": 32}), ("guided", {"patches": 200})):

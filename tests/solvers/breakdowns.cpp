@@ -227,7 +227,7 @@ TEST(SideBySide, EndsAtTheNextUseOfK) {
     int asked = 0;
     const auto patient_for = [&](int uses) {
         asked = 0;
-        return solve_side_by_side(problem, {.interrupted = [&asked, uses] { return asked++ >= uses; }});
+        return solve_side_by_side(problem, false, {.stop = [&asked, uses] { return asked++ >= uses; }});
     };
     const SideBySide all = patient_for(std::numeric_limits<int>::max());
     EXPECT_FALSE(all.interrupted);

@@ -1,4 +1,4 @@
-// Laws of form factors, and the cube put together of them. Closed forms are in operators/known/direct_light.cpp.
+// Laws of form factors, and the cube put together of them. Closed forms are in operators/known/first_bounce.cpp.
 #include "operators/matrix/form_factors.h"
 #include "operators/known/cube.h"
 #include "operators/spectrum/closure.h"

@@ -1,9 +1,9 @@
-// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/known/spectra.cpp.
+// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/known/eigenvalues.cpp.
 #include "operators/known/cube.h"
 #include "operators/known/small_problems.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/radius_bounds.h"
-#include "operators/spectrum/rounding.h"
+#include "operators/spectrum/rounding_floor.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
@@ -61,8 +61,10 @@ TEST(Spectra, WhatIsNotFoundIsSaid) {
     }
     const DenseChannel K(matrix, Vector::Ones(n));
     std::size_t asked = 0;
-    const EigenLimits few{50.0, [](const EigenStep&) { return true; }},
-        stopped{1e9, [&](const EigenStep&) { return ++asked <= 77; }};
+    EigenLimits few, stopped;
+    few.most = 50.0;
+    stopped.most = 1e9;
+    stopped.watch.stop = [&] { return ++asked > 77; };
     for (const EigenLimits* limits : {&few, &stopped}) {
         const Eigenpairs found = leading_eigenpairs(K, 4, false, *limits);
         EXPECT_FALSE(found.converged);

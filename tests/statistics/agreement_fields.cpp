@@ -31,10 +31,10 @@ TEST_P(FieldPicturesSlow, AgreeWithTheWalk) {
     constexpr int N = 4;
     const RenderedSeries truth = walk(scene, N, 4096);
     const auto walked = truth.moments.result();
-    for (const FieldMethod method : {FieldMethod::matrix, FieldMethod::gather}) {
-        SCOPED_TRACE(method == FieldMethod::matrix ? "matrix" : "gather");
+    for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {
+        SCOPED_TRACE(method == FieldReading::matrix ? "matrix" : "gather");
         FieldSettings settings;
-        settings.method = method;
+        settings.reading = method;
         settings.bounces = N;
         settings.patching.patches = 3000;
         settings.rays = 64;
@@ -71,15 +71,18 @@ TEST(FieldPictures, AreGivenUpSoonAfterTheInterruption) {
     settings.patching.patches = 500;
     settings.replicates = 2;
     std::atomic<int> asked = 0;
-    ASSERT_TRUE(render_fields(scene, settings, [&] {
+    Watch watch;
+    watch.stop = [&] {
         ++asked;
         return false;
-    }));
+    };
+    ASSERT_TRUE(render_fields(scene, settings, watch));
     const int all = asked;
     EXPECT_GT(all, 50);
     for (const int patience : {0, 5, all / 4, all / 2, all - 40}) {
         asked = 0;
-        EXPECT_FALSE(render_fields(scene, settings, [&] { return asked++ >= patience; })) << patience << " of " << all;
+        watch.stop = [&] { return asked++ >= patience; };
+        EXPECT_FALSE(render_fields(scene, settings, watch)) << patience << " of " << all;
         EXPECT_LE(asked, patience + 1 + oneapi::tbb::this_task_arena::max_concurrency()) << patience << " of " << all;
     }
 }
@@ -91,7 +94,7 @@ TEST(FieldPictures, AreGivenUpSoonAfterTheInterruption) {
 TEST(FieldPicturesInGapsSlow, DeepBouncesOfACornellBox) {
     const Scene scene = read_scene(SCENES "/mitsuba-cornell/mitsuba-cornell.xml", {{"res", "64"}});
     FieldSettings settings;
-    settings.method = FieldMethod::gather;
+    settings.reading = FieldReading::gather;
     settings.bounces = 48;
     settings.patching.patches = 8000;
     settings.rays = 256;

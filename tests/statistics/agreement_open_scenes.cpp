@@ -42,9 +42,9 @@ Scene open_scene(const std::string& lights) {
     return scene;
 }
 
-RenderedSeries sample(const Scene& scene, PathMethod method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
+RenderedSeries sample(const Scene& scene, PathGenerator method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
     PictureSampler::Settings settings;
-    settings.method = method;
+    settings.generator = method;
     settings.walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0};
     settings.seed = seed;
     settings.replicate_size = 16;
@@ -73,15 +73,15 @@ void expect_alike(const Means& a, const Means& b, const std::string& what, doubl
 
 void expect_agreement(const std::string& lights, bool found_by_chance) {
     const Scene scene = open_scene(lights);
-    const Means walked = means(sample(scene, PathMethod::walk, DirectLight::mis, 1, 2048));
-    expect_alike(means(sample(scene, PathMethod::walk, DirectLight::light, 2, 2048)), walked, "walk by lights alone");
+    const Means walked = means(sample(scene, PathGenerator::walk, DirectLight::mis, 1, 2048));
+    expect_alike(means(sample(scene, PathGenerator::walk, DirectLight::light, 2, 2048)), walked, "walk by lights alone");
     if (found_by_chance) {
-        expect_alike(means(sample(scene, PathMethod::walk, DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
-        expect_alike(means(sample(scene, PathMethod::pointwise, DirectLight::mis, 4, 1024)), walked, "pointwise");
+        expect_alike(means(sample(scene, PathGenerator::walk, DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
+        expect_alike(means(sample(scene, PathGenerator::pointwise, DirectLight::mis, 4, 1024)), walked, "pointwise");
     }
-    for (const FieldMethod method : {FieldMethod::matrix, FieldMethod::gather}) {
+    for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {
         FieldSettings settings;
-        settings.method = method;
+        settings.reading = method;
         settings.bounces = bounces;
         settings.rest = false;
         settings.patching.patches = 3000;
@@ -89,10 +89,10 @@ void expect_agreement(const std::string& lights, bool found_by_chance) {
         settings.samples = 8;
         settings.replicates = 32;
         settings.seed = 5;
-        const FieldPictures pictures = *render_fields(scene, settings, [] { return false; });
+        const FieldPictures pictures = *render_fields(scene, settings);
         Means found;
         for (std::size_t i = 0; i <= bounces; ++i) found.push_back(pictures.mean_of_term(i));
-        expect_alike(found, walked, method == FieldMethod::matrix ? "matrix" : "gather", 0.04, 0.01);
+        expect_alike(found, walked, method == FieldReading::matrix ? "matrix" : "gather", 0.04, 0.01);
     }
 }
 

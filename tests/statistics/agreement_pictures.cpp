@@ -15,13 +15,14 @@ namespace {
 
 constexpr int resolution = 32, bounces = 4;
 
-SeriesMoments::Result render(const Scene& scene, PathMethod method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
+SeriesMoments::Result render(const Scene& scene, PathGenerator method, DirectLight direct, std::uint64_t seed,
+                             std::uint64_t samples) {
     constexpr std::uint32_t replicate_size = 16;
     std::shared_ptr<const DirectionTables> tables;
-    if (method == PathMethod::guided)
+    if (method == PathGenerator::guided)
         tables = std::make_shared<const DirectionTables>(
             scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed});
-    const PictureSampler sampler(scene, {.method = method,
+    const PictureSampler sampler(scene, {.generator = method,
                                          .tables = tables,
                                          .walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0},
                                          .sampler = SamplerKind::sobol,
@@ -71,11 +72,11 @@ void compare_blocks(const Estimate& a, const Estimate& b, int size, const std::s
 // bounce 0 and rises to 1% for bounce 4, in the light's weak blue to 2%.
 TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
-    const auto operators = render(scene, PathMethod::pointwise, DirectLight::bsdf, 1, 8192);
+    const auto operators = render(scene, PathGenerator::pointwise, DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
-        const auto walk =
-            render(scene, PathMethod::walk, direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 4096 : 512);
+        const auto walk = render(scene, PathGenerator::walk, direct, 2 + static_cast<std::uint64_t>(direct),
+                                 direct == DirectLight::bsdf ? 4096 : 512);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what =
@@ -98,11 +99,11 @@ TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
     const std::string name = GetParam();
     const Scene scene = read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", std::to_string(resolution)}});
     const std::uint64_t samples = name == "metal-room" ? 4096 : 1024;
-    const auto walk = render(scene, PathMethod::walk, DirectLight::mis, physics::fixed_seed, 2 * samples);
+    const auto walk = render(scene, PathGenerator::walk, DirectLight::mis, physics::fixed_seed, 2 * samples);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::light}) {
         const auto guided =
-            render(scene, PathMethod::guided, direct, physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct), samples);
+            render(scene, PathGenerator::guided, direct, physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct), samples);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what =

@@ -41,24 +41,25 @@ Scene balls(int resolution) {
     return maker.make();
 }
 
-SamplingSettings settings_of(PathMethod method, const Scene& scene, std::uint64_t seed) {
-    SamplingSettings settings{.method = method,
-                              .walk = {.bounces = bounces, .rest_probability = method == PathMethod::pointwise ? 0.0 : 0.2},
+SamplingSettings settings_of(PathGenerator method, const Scene& scene, std::uint64_t seed) {
+    SamplingSettings settings{.generator = method,
+                              .walk = {.bounces = bounces, .rest_probability = method == PathGenerator::pointwise ? 0.0 : 0.2},
                               .seed = seed,
                               .replicate_size = 8};
-    if (method == PathMethod::guided)
+    if (method == PathGenerator::guided)
         settings.tables = std::make_shared<const DirectionTables>(
             scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed});
     return settings;
 }
 
-constexpr PathMethod methods[] = {PathMethod::walk, PathMethod::guided, PathMethod::pointwise, PathMethod::bidirectional};
+constexpr PathGenerator methods[] = {PathGenerator::walk, PathGenerator::guided, PathGenerator::pointwise,
+                                     PathGenerator::bidirectional};
 
 // As many samples as the alarm wants, of every method. What it says of the tails is left to chance: some look infinite.
 TEST(AlarmSlow, OneSceneHasOneVerdict) {
     const Scene scene = balls(36);
     int rare = 0, looked_at = 0;
-    for (const PathMethod method : methods)
+    for (const PathGenerator method : methods)
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             const RenderedSeries series = render_series(scene, settings_of(method, scene, seed), {64, std::nullopt, std::nullopt});
             const SeriesReport report = report_series(scene, series, RestVerdict::measured);
@@ -77,12 +78,14 @@ TEST(AlarmSlow, OneSceneHasOneVerdict) {
 // bring at most the sun; with questions for light at most half of it more; of the ways of bidirectional each brings at most half.
 TEST(BoundedSamples, StayBelowTheirBound) {
     const Scene scene = balls(24);
-    for (const PathMethod method : {PathMethod::walk, PathMethod::pointwise, PathMethod::bidirectional}) {
+    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::pointwise, PathGenerator::bidirectional}) {
         const SamplingSettings settings = settings_of(method, scene, 1);
         ASSERT_TRUE(samples_are_bounded(scene, settings));
         const RenderedSeries series = render_series(scene, settings, {64, std::nullopt, std::nullopt});
         for (int i = 1; i <= bounces; ++i) {
-            const double ways = method == PathMethod::pointwise ? 1.0 : method == PathMethod::walk ? 1.5 : 1.0 + 0.5 * (i + 1);
+            const double ways = method == PathGenerator::pointwise ? 1.0
+                                : method == PathGenerator::walk    ? 1.5
+                                                                   : 1.0 + 0.5 * (i + 1);
             const auto largest = series.tally.largest[static_cast<std::size_t>(i)].sorted();
             ASSERT_FALSE(largest.empty());
             EXPECT_LE(largest.front(), sun * ways * (1.0 + 1e-9)) << static_cast<int>(method) << ", bounce " << i;
@@ -96,19 +99,20 @@ TEST(BoundedSamples, AreKnownByMethod) {
     maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.5));
     maker.parts.lights.delta = {PointLight(Vec3(0, 0, 1), Rgb(1.0))};
     const Scene point = maker.make();
-    const auto bounded = [](const Scene& scene, PathMethod method, DirectLight direct = DirectLight::mis) {
-        return samples_are_bounded(scene, {.method = method, .walk = {.direct = {direct}}});
+    const auto bounded = [](const Scene& scene, PathGenerator method, DirectLight direct = DirectLight::mis) {
+        return samples_are_bounded(scene, {.generator = method, .walk = {.direct = {direct}}});
     };
-    for (const PathMethod method : methods) {
+    for (const PathGenerator method : methods) {
         EXPECT_TRUE(bounded(sky, method));
         EXPECT_FALSE(bounded(point, method)) << "1/d² near the light";
     }
-    EXPECT_TRUE(bounded(sky, PathMethod::walk, DirectLight::bsdf));
-    EXPECT_FALSE(bounded(sky, PathMethod::walk, DirectLight::light));
-    EXPECT_FALSE(bounded(sky, PathMethod::walk, DirectLight::surfaces));
-    for (const PathMethod method : {PathMethod::surface, PathMethod::light, PathMethod::classic}) EXPECT_FALSE(bounded(sky, method));
+    EXPECT_TRUE(bounded(sky, PathGenerator::walk, DirectLight::bsdf));
+    EXPECT_FALSE(bounded(sky, PathGenerator::walk, DirectLight::light));
+    EXPECT_FALSE(bounded(sky, PathGenerator::walk, DirectLight::surfaces));
+    for (const PathGenerator method : {PathGenerator::surface, PathGenerator::light, PathGenerator::classic})
+        EXPECT_FALSE(bounded(sky, method));
     SamplingSettings ways;
-    ways.method = PathMethod::bidirectional;
+    ways.generator = PathGenerator::bidirectional;
     ways.ways_of_last_bounce = true;
     EXPECT_FALSE(samples_are_bounded(sky, ways));
 }

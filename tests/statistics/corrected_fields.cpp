@@ -31,7 +31,7 @@ SamplingSettings walk_settings(int bounces, std::uint32_t size, std::uint64_t se
 SamplingSettings corrected_settings(const Scene& scene, int bounces, std::uint32_t size, std::uint64_t seed, double rest,
                                     std::size_t patches = 300, std::uint32_t rays = 32) {
     SamplingSettings settings = walk_settings(bounces, size, seed, rest);
-    settings.method = PathMethod::corrected;
+    settings.generator = PathGenerator::corrected;
     settings.approximation = std::make_shared<const Approximation>(
         scene, ApproximationSettings{.patches = patches, .rays = rays, .bounces = bounces, .seed = seed});
     return settings;

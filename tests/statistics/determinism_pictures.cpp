@@ -14,7 +14,7 @@ namespace {
 
 struct Case {
     const char* name;
-    PathMethod method;
+    PathGenerator method;
     SamplerKind sampler;
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
@@ -23,7 +23,7 @@ Scene cornell_box() { return read_scene(SCENES "/cornell-box/cornell-box.xml", {
 
 // Walks are given up soon, so that this is counted, too.
 PictureSampler::Settings settings(const Case& c, std::uint64_t seed = 3) {
-    return {.method = c.method,
+    return {.generator = c.method,
             .walk = {.bounces = 3, .rest_probability = 0.7, .give_up = 4},
             .sampler = c.sampler,
             .seed = seed,
@@ -88,7 +88,7 @@ TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
         return outcome;
     };
     const Outcome one = with_threads(1);
-    if (GetParam().method == PathMethod::walk) {
+    if (GetParam().method == PathGenerator::walk) {
         EXPECT_GT(one.tally.given_up, 0u);
     }
     for (const int threads : {2, 7, 7, 7}) {
@@ -187,23 +187,23 @@ TEST_P(Determinism, ADroppedBlockLeavesNoTrace) {
     const Scene scene = cornell_box();
     const PictureSampler sampler(scene, settings(GetParam()));
     Tally tally(sampler.quantities()), expected(sampler.quantities());
-    EXPECT_FALSE(sampler.run(0, 2, tally, [](std::uint64_t) { return true; }));
+    EXPECT_FALSE(sampler.run(0, 2, tally, {.stop = [] { return true; }}));
     expect_same(tally, expected);
-    const MomentsNode again = *sampler.run(0, 2, tally), plain = *sampler.run(0, 2, expected, [](std::uint64_t) { return false; });
+    const MomentsNode again = *sampler.run(0, 2, tally), plain = *sampler.run(0, 2, expected);
     EXPECT_TRUE(same_bits(again.data, plain.data));
     expect_same(tally, expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllWays, Determinism,
-                         testing::Values(Case{"WalkIndependent", PathMethod::walk, SamplerKind::independent},
-                                         Case{"WalkSobol", PathMethod::walk, SamplerKind::sobol},
-                                         Case{"PointwiseIndependent", PathMethod::pointwise, SamplerKind::independent},
-                                         Case{"PointwiseSobol", PathMethod::pointwise, SamplerKind::sobol},
-                                         Case{"SurfaceSobol", PathMethod::surface, SamplerKind::sobol},
-                                         Case{"LightIndependent", PathMethod::light, SamplerKind::independent},
-                                         Case{"LightSobol", PathMethod::light, SamplerKind::sobol},
-                                         Case{"BidirectionalIndependent", PathMethod::bidirectional, SamplerKind::independent},
-                                         Case{"BidirectionalSobol", PathMethod::bidirectional, SamplerKind::sobol}),
+                         testing::Values(Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
+                                         Case{"WalkSobol", PathGenerator::walk, SamplerKind::sobol},
+                                         Case{"PointwiseIndependent", PathGenerator::pointwise, SamplerKind::independent},
+                                         Case{"PointwiseSobol", PathGenerator::pointwise, SamplerKind::sobol},
+                                         Case{"SurfaceSobol", PathGenerator::surface, SamplerKind::sobol},
+                                         Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
+                                         Case{"LightSobol", PathGenerator::light, SamplerKind::sobol},
+                                         Case{"BidirectionalIndependent", PathGenerator::bidirectional, SamplerKind::independent},
+                                         Case{"BidirectionalSobol", PathGenerator::bidirectional, SamplerKind::sobol}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 FieldSettings settings(std::size_t patches, std::uint32_t rays, std::uint32_t samples) {
     FieldSettings s;
-    s.method = FieldMethod::patches;
+    s.reading = FieldReading::patches;
     s.patching.patches = patches;
     s.rays = s.light_samples = rays;
     s.samples = samples;

@@ -194,7 +194,7 @@ TEST(GuidedWalk, EveryPixelOfAFurnaceIsThePowerOfTheAlbedo) {
         enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
         const Scene scene = enclosure.maker.make();
         const Pictures pictures = render(scene,
-                                         {.method = PathMethod::guided,
+                                         {.generator = PathGenerator::guided,
                                           .tables = tables(scene, 100),
                                           .walk = {.bounces = 10, .direct = {DirectLight::bsdf}, .rest_probability = 0.0},
                                           .seed = fixed_seed},
@@ -216,7 +216,8 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
     for (const std::size_t threads : {1, 2, 7}) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
         results.push_back(
-            render(scene, {.method = PathMethod::guided, .tables = tables(scene), .walk = {.bounces = 4}, .seed = fixed_seed}, 4)
+            render(scene, {.generator = PathGenerator::guided, .tables = tables(scene), .walk = {.bounces = 4}, .seed = fixed_seed},
+                   4)
                 .result);
     }
     for (std::size_t i = 0; i <= 5; ++i)
@@ -230,16 +231,16 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
 // ratio of two such sums has an error of about 3%.
 TEST(GuidedWalkSlow, HasLessVarianceThanThePlainWalk) {
     const Scene scene = cornell_box(48);
-    const auto rendered = [&](PathMethod method) {
+    const auto rendered = [&](PathGenerator method) {
         return render(scene,
-                      {.method = method,
-                       .tables = method == PathMethod::guided ? tables(scene, 2000) : nullptr,
+                      {.generator = method,
+                       .tables = method == PathGenerator::guided ? tables(scene, 2000) : nullptr,
                        .walk = {.bounces = 7, .rest_probability = 0.0},
                        .seed = fixed_seed},
                       32)
             .result;
     };
-    const auto plain = rendered(PathMethod::walk), guided = rendered(PathMethod::guided);
+    const auto plain = rendered(PathGenerator::walk), guided = rendered(PathGenerator::guided);
     for (std::size_t i = 2; i <= 6; ++i)
         EXPECT_LT(std::pow(relative_standard_error(guided.term(i)) / relative_standard_error(plain.term(i)), 2), 0.6) << i;
 }

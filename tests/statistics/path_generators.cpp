@@ -73,10 +73,10 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
     int compared = 0;
     for (const Case& c : cases) {
         const Scene scene = scene_of(c);
-        const auto find = [&](PathMethod method, std::uint64_t seed, const Split& split = {}) {
-            return render(scene,
-                          {.method = method, .walk = {.bounces = bounces, .split = split, .rest_probability = 0.0}, .seed = seed},
-                          128);
+        const auto find = [&](PathGenerator method, std::uint64_t seed, const Split& split = {}) {
+            return render(
+                scene, {.generator = method, .walk = {.bounces = bounces, .split = split, .rest_probability = 0.0}, .seed = seed},
+                128);
         };
         const auto expect_agreement = [&](const Result& a, const Result& b, std::size_t i, const char* what) {
             if (a.infinite(i) || b.infinite(i)) return;
@@ -84,8 +84,9 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
             EXPECT_LE(std::abs(z(a.moments.mean_of_term(i), b.moments.mean_of_term(i))), limit)
                 << c.light << ", " << c.camera << ", " << c.things << ", " << what << ", bounce " << i;
         };
-        const Result walk = find(PathMethod::walk, physics::fixed_seed), paths = find(PathMethod::bidirectional, physics::fixed_seed + 1),
-                     trees = find(PathMethod::bidirectional, physics::fixed_seed + 2, {3, 2});
+        const Result walk = find(PathGenerator::walk, physics::fixed_seed),
+                     paths = find(PathGenerator::bidirectional, physics::fixed_seed + 1),
+                     trees = find(PathGenerator::bidirectional, physics::fixed_seed + 2, {3, 2});
         EXPECT_GT(trees.tally.rays[2], paths.tally.rays[2]);
         const bool walk_misses = std::string(c.light) == "points" && std::string(c.things) != "rough";
         for (std::size_t i = 0; i <= bounces; ++i) {
@@ -93,7 +94,7 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
             if (i > 0) expect_agreement(trees, paths, i, "trees");
         }
         if (!c.light_makes_all) continue;
-        const Result light = find(PathMethod::light, physics::fixed_seed + 1);
+        const Result light = find(PathGenerator::light, physics::fixed_seed + 1);
         for (std::size_t i = 0; i <= bounces; ++i) expect_agreement(light, walk, i, "light");
     }
     EXPECT_GE(compared, 35);
@@ -111,11 +112,11 @@ TEST(PathGeneratorsSlow, AgreeOnTheScenesThatCompareThem) {
         // The walk meets the lamp by way of the ball so rarely that fewer samples do not know their own error.
         const bool rare = std::string(name) == "glass-ball";
         const Result walk = render(scene, settings, rare ? 2048 : 64);
-        for (const PathMethod method : {PathMethod::light, PathMethod::bidirectional, PathMethod::surface}) {
+        for (const PathGenerator method : {PathGenerator::light, PathGenerator::bidirectional, PathGenerator::surface}) {
             if (paths_of(method, scene) != Paths::all) continue;
-            if (method == PathMethod::surface && std::string(name) != "floating-panels") continue;
-            settings.method = method;
-            settings.walk.direct.direct = method == PathMethod::surface ? DirectLight::light : DirectLight::mis;
+            if (method == PathGenerator::surface && std::string(name) != "floating-panels") continue;
+            settings.generator = method;
+            settings.walk.direct.direct = method == PathGenerator::surface ? DirectLight::light : DirectLight::mis;
             settings.seed = physics::fixed_seed + 1;
             const Result other = render(scene, settings, 64);
             // The lamp's image in the ball, in bounce 1, and the caustic as seen through it, in bounce 4, are as rare from both
@@ -139,8 +140,8 @@ TEST(PathGeneratorsSlow, AgreeInEveryPixelWithinTheirErrors) {
         const Scene scene = read_scene(TEST_DATA "/generators/panels.xml", {{"camera", camera}});
         SamplingSettings settings{.walk = {.bounces = 3, .rest_probability = 0.0}, .seed = physics::fixed_seed};
         const Result walk = render(scene, settings, 128);
-        for (const PathMethod method : {PathMethod::light, PathMethod::bidirectional}) {
-            settings.method = method;
+        for (const PathGenerator method : {PathGenerator::light, PathGenerator::bidirectional}) {
+            settings.generator = method;
             settings.seed = physics::fixed_seed + 1;
             const Result other = render(scene, settings, 128);
             for (std::size_t i = 1; i <= 3; ++i)
@@ -157,7 +158,7 @@ TEST(PathGeneratorsSlow, TheWaysToMakeABounceAgreeWithoutWeights) {
     const Scene scene = read_scene(TEST_DATA "/generators/panels.xml", {});
     SamplingSettings settings{.walk = {.bounces = bounce, .rest_probability = 0.0}, .seed = physics::fixed_seed};
     const Result walk = render(scene, settings, 256);
-    settings.method = PathMethod::bidirectional;
+    settings.generator = PathGenerator::bidirectional;
     settings.ways_of_last_bounce = true;
     settings.seed = physics::fixed_seed + 1;
     const Result ways = render(scene, settings, 256);

@@ -2,9 +2,9 @@
 
 #include "core/colour/metals.h"
 #include "core/reader/plugins/plastics.h"
-#include "core/reader/plugins/principled.h"
+#include "core/reader/plugins/principled_bsdfs.h"
 #include "core/reader/plugins/retroreflectors.h"
-#include "core/reader/plugins/roughness.h"
+#include "core/reader/plugins/roughness_parameters.h"
 #include "core/reader/plugins/textures.h"
 #include "core/reader/plugins/transparent_bsdfs.h"
 #include "core/reader/xml/grammar.h"

@@ -1,4 +1,4 @@
-#include "core/reader/plugins/sensor.h"
+#include "core/reader/plugins/sensors.h"
 #include "core/reader/xml/properties.h"
 
 #include <algorithm>

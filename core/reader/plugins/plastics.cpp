@@ -1,7 +1,7 @@
 #include "core/reader/plugins/plastics.h"
 
 #include "core/reader/plugins/ior.h"
-#include "core/reader/plugins/roughness.h"
+#include "core/reader/plugins/roughness_parameters.h"
 #include "core/reader/plugins/textures.h"
 
 #include <fmt/format.h>

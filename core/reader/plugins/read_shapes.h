@@ -4,7 +4,7 @@
 // a hit identifies it by its shape alone; the price is memory for every copy, which is checked before it is allocated.
 #pragma once
 
-#include "core/reader/plugins/shapes.h"
+#include "core/reader/plugins/shape_plugins.h"
 
 #include <functional>
 

@@ -2,7 +2,7 @@
 
 #include "core/reader/plugins/color.h"
 #include "core/reader/plugins/light_images.h"
-#include "core/reader/plugins/sensor.h"
+#include "core/reader/plugins/sensors.h"
 
 #include <fmt/format.h>
 

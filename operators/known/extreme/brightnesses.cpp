@@ -1,4 +1,4 @@
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/unit_cube.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// Cameras in odd places, and with nothing to see.
+// Cameras in unusual places, and cameras that see nothing.
 #include "core/base/error.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"
 #include "operators/matrix/scene_patches.h"
@@ -16,7 +16,7 @@ namespace neumann::known {
 
 namespace {
 
-// A film of one box-filtered 4 × 4 picture.
+// A film of 4 × 4 pixels with a box filter.
 BounceSeries picture_from(SceneMaker maker, const Mat4& camera, int bounces, std::uint64_t seed, double fov = 1.0) {
     maker.parts.camera.to_world = camera;
     maker.parts.camera.fov = fov;
@@ -94,7 +94,7 @@ Cases extreme_camera_cases() {
                              figures.near(fmt::format("K^{} Le", i), mean.mean,
                                           n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)), 4.5 * mean.standard_error);
                          }
-                         // Patches hold no camera within glass, and have to say so.
+                         // Methods with patches cannot have the camera within glass, and must say so.
                          maker.parts.camera.fov = 1.0;
                          const Scene scene = maker.make();
                          try {

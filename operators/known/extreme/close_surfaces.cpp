@@ -1,5 +1,5 @@
 // Surfaces that are nearer to each other than floats of the scene's size can tell: creases, thin gaps, boxes that touch.
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/scene_maker.h"
 
@@ -22,7 +22,7 @@ Mat4 turned_and_moved(const Vec3& to) { return glm::rotate(glm::translate(Mat4(1
 Vec3 moved(const Mat4& to_world, const Vec3& p) { return Vec3(to_world * glm::dvec4(p, 1.0)); }
 Vec3 turned(const Mat4& to_world, const Vec3& n) { return glm::dmat3(to_world) * n; }
 
-// At p on a shape, which a ray from space would miss: the floats nearest to where it starts may be behind the surface.
+// The point p on a shape, made without a ray: the float nearest to the origin of a ray may be behind the surface.
 StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, const Vec3& normal) {
     SurfacePoint nearest;
     double distance = std::numeric_limits<double>::infinity();
@@ -48,8 +48,9 @@ void groove(Figures& figures, std::uint64_t seed, double half_length, double p, 
     std::vector<double> exact;
     for (int i = 1; i <= 3; ++i) exact.push_back(std::pow(rho, i) * s * std::pow(1.0 - s, i - 1));
     const StartPicker start = on_shape(scene, floor, moved(to_world, {p, 0.3, 0}), turned(to_world, {0, 0, 1}));
-    for (const Technique way : {Technique::mis, Technique::bsdf})
-        figures.terms(sharp_probe(scene, start, way, {.samples = 1024, .bounces = 3, .seed = seed}), exact, 1, 4.0 * 0.5684 * p);
+    for (const Technique technique : {Technique::mis, Technique::bsdf})
+        figures.terms(sharp_probe(scene, start, technique, {.samples = 1024, .bounces = 3, .seed = seed}), exact, 1,
+                      4.0 * 0.5684 * p);
 }
 
 // Form factors of rectangles from a point, for the corner that is nearest to it; Howell, A Catalog of Radiation Heat Transfer
@@ -72,9 +73,9 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
     const Scene scene = maker.make();
     const auto measure = [&](const char* where, double x, double F) {
         const StartPicker start = on_shape(scene, ground, moved(to_world, {x, 0, 0}), turned(to_world, {0, 0, 1}));
-        for (const Technique way : {Technique::mis, Technique::bsdf})
-            figures.sampled(fmt::format("K Le {}, {}", where, short_name(way)),
-                            sharp_probe(scene, start, way, {.samples = 1024, .bounces = 1, .seed = seed}).terms[1],
+        for (const Technique technique : {Technique::mis, Technique::bsdf})
+            figures.sampled(fmt::format("K Le {}, {}", where, short_name(technique)),
+                            sharp_probe(scene, start, technique, {.samples = 1024, .bounces = 1, .seed = seed}).terms[1],
                             rho * (1.0 - F));
     };
     const double side = perpendicular_corner(0.5, 1.0 + gap, gap) - perpendicular_corner(0.5, gap, gap);
@@ -83,7 +84,7 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
     measure("below it", 0.5 - gap, 2.0 * (parallel_corner(gap, 0.5, gap) + parallel_corner(1.0 - gap, 0.5, gap)));
 }
 
-// All that shines alike is seen to be ρ^i from everywhere; what is inside of bodies is black.
+// In a furnace every visible surface has ρ^i; the insides of bodies are black.
 void bodies_in_furnace(Figures& figures, std::uint64_t seed, const std::vector<Shape>& bodies, const Mat4& to_world) {
     SceneMaker maker;
     for (const TriangleMesh& face : room({-1, -1, 0}, {1, 1, 2})) maker.add(transformed(face, to_world), glowing(0.8, 1.0));

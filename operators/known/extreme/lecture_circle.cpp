@@ -1,7 +1,7 @@
 // The circle of a lecture on path tracing (CS184, lecture 13) at (1930.420, 1973.505), radius 1: in single precision a ray from the
 // origin to its centre misses the surface by so much that shadows become noisy.
 #include "core/sampling/independent_sampler.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"
 
@@ -10,8 +10,6 @@
 #include <limits>
 
 namespace neumann::known {
-
-namespace {}  // namespace
 
 void lecture_circle(Figures& figures, std::uint64_t seed) {
     const Vec3 center(1930.420, 1973.505, 0.0);

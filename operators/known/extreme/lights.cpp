@@ -1,5 +1,5 @@
 // Lights that are small, large, or low.
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"
@@ -10,7 +10,7 @@ namespace neumann::known {
 
 Cases extreme_light_cases() {
     Cases cases;
-    // Of side s at the middle of a room of side 2, Le s² kept: ρ Le s² cosθ cosθ'/(π r²) (1 + O(s²/r²)).
+    // A light of side s in the middle of a room of side 2, with constant Le s²: ρ Le s² cosθ cosθ'/(π r²) (1 + O(s²/r²)).
     for (const double s : {1e-2, 1e-4, 1e-6})
         for (const bool round : {false, true})
             cases.push_back({fmt::format("extreme/light-size-{:g}/{}", s, round ? "sphere" : "square"), "point light, 1 + s^2/r^2",
@@ -27,32 +27,33 @@ Cases extreme_light_cases() {
                                  const Scene scene = maker.make();
                                  // A sphere of diameter s looks the same from everywhere: π s²/4 across.
                                  const double exact = rho * cosine * (round ? 0.25 * pi : cosine) / (pi * r2);
-                                 for (const Technique way : {Technique::mis, Technique::light})
-                                     figures.sampled(fmt::format("K Le, {}", short_name(way)),
-                                                     sharp_probe(scene, at(scene, p, {0, 0, 1}), way,
+                                 for (const Technique technique : {Technique::mis, Technique::light})
+                                     figures.sampled(fmt::format("K Le, {}", short_name(technique)),
+                                                     sharp_probe(scene, at(scene, p, {0, 0, 1}), technique,
                                                                  {.samples = 1024, .bounces = 1, .seed = seed})
                                                          .terms[1],
                                                      exact, exact * (s * s / r2 + 1e-12));
                              }});
     // A ceiling 1 above, of side 1e4.
-    for (const Technique way : {Technique::mis, Technique::light, Technique::bsdf})
+    for (const Technique technique : {Technique::mis, Technique::light, Technique::bsdf})
         cases.push_back(
-            {"extreme/light-size-1e4/" + short_name(way), "Lambert's formula: exact", [way](Figures& figures, std::uint64_t seed) {
+            {"extreme/light-size-1e4/" + short_name(technique), "Lambert's formula: exact",
+             [technique](Figures& figures, std::uint64_t seed) {
                  SceneMaker maker;
                  maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.5), matte(0.7));
                  maker.add(patch({0, 0, 1}, {0, 0, -1}, 5e3), lamp(3.0));
                  const Scene scene = maker.make();
                  const double exact = 0.7 * 3.0 * rectangle_overhead(1e4, 1e4, 1.0);
-                 ProbeSettings effort{.samples = 1024, .bounces = 1, .seed = seed};
-                 if (way == Technique::light) {
+                 ProbeSettings settings{.samples = 1024, .bounces = 1, .seed = seed};
+                 if (technique == Technique::light) {
                      // By area the light above, of all of it that is far away, is found once in 1e8 times: by solid angle.
-                     effort.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
+                     settings.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  }
-                 // A ray in 3e7 passes by the light, which few samples do not show.
-                 figures.sampled("K Le", sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way, effort).terms[1], exact,
+                 // One ray in 3e7 passes the light, which few samples do not show.
+                 figures.sampled("K Le", sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), technique, settings).terms[1], exact,
                                  0.7 * 3.0 - exact);
              }});
-    // Light that grazes: ρ E cosθ/π, and the part of a sphere that is above the horizon (direct_light.cpp).
+    // Light that grazes: ρ E cosθ/π, and the part of a sphere that is above the horizon (first_bounce.cpp).
     cases.push_back(
         {"extreme/grazing/parallel", "rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {
              for (const double cosine : {1e-2, 1e-4, 1e-6}) {
@@ -74,12 +75,12 @@ Cases extreme_light_cases() {
                  maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(0.5));
                  maker.add(parallelogram({1, -50, 0}, {0, 0, h}, {0, 100, 0}), lamp(2.0));
                  const Scene scene = maker.make();
-                 ProbeSettings effort{.samples = 1024, .bounces = 1, .seed = seed};
-                 effort.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
+                 ProbeSettings settings{.samples = 1024, .bounces = 1, .seed = seed};
+                 settings.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  const double exact = 0.5 * (1.0 - 1.0 / std::sqrt(1.0 + h * h));
                  // A strip as wide as w on either side lacks O(1/w³) of it.
                  figures.sampled(fmt::format("K Le, height {:g}", h),
-                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Technique::light, effort).terms[1], exact,
+                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Technique::light, settings).terms[1], exact,
                                  1e-5 * exact);
              }
          }});

@@ -1,5 +1,5 @@
 // The cube and a furnace larger, smaller, turned, and elsewhere.
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/unit_cube.h"
 
 #include <fmt/format.h>
@@ -7,8 +7,6 @@
 #include <limits>
 
 namespace neumann::known {
-
-namespace {}  // namespace
 
 Cases extreme_place_cases() {
     Cases cases;

@@ -1,4 +1,4 @@
-#include "core/reader/plugins/roughness.h"
+#include "core/reader/plugins/roughness_parameters.h"
 
 #include "core/reader/plugins/textures.h"
 

@@ -8,9 +8,9 @@
 
 namespace neumann {
 
-class Progress {
+class SolverLog {
 public:
-    explicit Progress(const Problem& problem);
+    explicit SolverLog(const Problem& problem);
 
     const Problem& problem() const { return problem_; }
     const ChannelOperator& K() const { return *problem_.K; }

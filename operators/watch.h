@@ -1,6 +1,8 @@
-// Callbacks of a running render, and the only way to stop it.
+// Callbacks of work that takes a while (a render, a study, a matrix, a solver, a search for eigenvalues), and the only way to stop
+// it. Each kind of work calls those that make sense for it.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/image/image.h"
 
 #include <cstdint>
@@ -12,11 +14,11 @@
 namespace neumann {
 
 struct RenderProgress {
-    int bounces;            // 0 … N have pictures
-    std::uint64_t samples;  // finished samples per pixel
-    double seconds;         // so far
-    double fraction;        // part of the goal that is done, 0 … 1, as far as known
-    std::optional<double> seconds_left;
+    int bounces = 0;            // 0 … N have pictures
+    std::uint64_t samples = 0;  // finished samples per pixel
+    double seconds = 0.0;       // so far
+    double fraction = 0.0;      // part of the goal that is done, 0 … 1, as far as known
+    std::optional<double> seconds_left = {};
 };
 
 // The error at one number of samples.
@@ -30,7 +32,7 @@ struct Checkpoint {
 };
 
 struct Watch {
-    // Called from any thread; must stay true once it is. The render then ends soon and returns what it has.
+    // Called from any thread; must stay true once it is. The work then ends soon and returns what it has, or throws Stopped.
     std::function<bool()> stop = [] { return false; };
     // Called from time to time, from any thread.
     std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {};
@@ -42,6 +44,12 @@ struct Watch {
     std::function<void(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint&)> judge = {};
     // Whether to make checkpoints before the last one; they cost time.
     bool checkpoints = true;
+};
+
+// Thrown by work that was stopped and has no result.
+class Stopped : public RunError {
+public:
+    Stopped() : RunError("interrupted") {}
 };
 
 }  // namespace neumann

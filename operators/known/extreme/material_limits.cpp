@@ -1,8 +1,8 @@
-// Roughness, index and albedo at their ends.
+// Roughness, refractive index and albedo at the ends of their ranges.
 #include "core/material/fresnel.h"
 #include "core/sampling/independent_sampler.h"
 #include "core/sampling/warp.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
 #include "operators/known/quadrature.h"
 #include "operators/known/scene_maker.h"
@@ -13,8 +13,6 @@
 #include <limits>
 
 namespace neumann::known {
-
-namespace {}  // namespace
 
 Cases extreme_material_cases() {
     Cases cases;
@@ -84,31 +82,31 @@ Cases extreme_material_cases() {
                              }
                          }});
     for (const double rho : {0.0, 1.0})
-        cases.push_back({fmt::format("extreme/albedo-{:g}", rho), "exact", [=](Figures& figures, std::uint64_t seed) {
-                             SceneMaker maker;
-                             maker.add(make_cube(Mat4(1.0), true), glowing(rho, 1.0));
-                             const Scene scene = maker.make();
-                             for (const Technique way : {Technique::bsdf, Technique::mis, Technique::light, Technique::pointwise}) {
-                                 if (rho == 1.0 && way != Technique::bsdf && way != Technique::pointwise) continue;
-                                 const Estimates found = probe(scene, anywhere(scene), way,
-                                                               {.samples = 16,
-                                                                .bounces = way == Technique::pointwise ? 5 : 8,
-                                                                .rest_probability = way == Technique::pointwise ? 0.0 : 1.0,
-                                                                .give_up = 100,
-                                                                .seed = seed});
-                                 double largest = 0.0, smallest = infinity;
-                                 for (std::size_t i = 1; i < found.terms.size(); ++i) {
-                                     largest = std::max(largest, found.terms[i].mean.r);
-                                     smallest = std::min(smallest, found.terms[i].mean.r);
-                                 }
-                                 figures.near(fmt::format("largest K^i Le, i > 0, {}", short_name(way)), largest, rho, 0.0);
-                                 figures.near(fmt::format("smallest K^i Le, i > 0, {}", short_name(way)), smallest, rho, 0.0);
-                                 if (way != Technique::pointwise)
-                                     figures.near(fmt::format("walks given up, of all, {}", short_name(way)),
-                                                  static_cast<double>(found.given_up) / static_cast<double>(found.samples), rho,
-                                                  0.0);
-                             }
-                         }});
+        cases.push_back(
+            {fmt::format("extreme/albedo-{:g}", rho), "exact", [=](Figures& figures, std::uint64_t seed) {
+                 SceneMaker maker;
+                 maker.add(make_cube(Mat4(1.0), true), glowing(rho, 1.0));
+                 const Scene scene = maker.make();
+                 for (const Technique technique : {Technique::bsdf, Technique::mis, Technique::light, Technique::pointwise}) {
+                     if (rho == 1.0 && technique != Technique::bsdf && technique != Technique::pointwise) continue;
+                     const Estimates found = probe(scene, anywhere(scene), technique,
+                                                   {.samples = 16,
+                                                    .bounces = technique == Technique::pointwise ? 5 : 8,
+                                                    .rest_probability = technique == Technique::pointwise ? 0.0 : 1.0,
+                                                    .give_up = 100,
+                                                    .seed = seed});
+                     double largest = 0.0, smallest = infinity;
+                     for (std::size_t i = 1; i < found.terms.size(); ++i) {
+                         largest = std::max(largest, found.terms[i].mean.r);
+                         smallest = std::min(smallest, found.terms[i].mean.r);
+                     }
+                     figures.near(fmt::format("largest K^i Le, i > 0, {}", short_name(technique)), largest, rho, 0.0);
+                     figures.near(fmt::format("smallest K^i Le, i > 0, {}", short_name(technique)), smallest, rho, 0.0);
+                     if (technique != Technique::pointwise)
+                         figures.near(fmt::format("walks given up, of all, {}", short_name(technique)),
+                                      static_cast<double>(found.given_up) / static_cast<double>(found.samples), rho, 0.0);
+                 }
+             }});
     return cases;
 }
 

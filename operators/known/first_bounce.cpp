@@ -17,17 +17,18 @@ struct Receiver {
     Vec3 point, normal;
 };
 
-// By ways that look for the light, and by chance where that is not too rare.
+// By all techniques that sample lights, and by the others where the light is large enough to be found by chance.
 void add_point(Cases& cases, const std::string& name, const Shape& light, const Receiver& receiver, double F) {
-    for (const Technique way : {Technique::mis, Technique::light, Technique::bsdf, Technique::pointwise, Technique::surfaces}) {
-        if (!looks_for_lights(way) && F < 0.1) continue;
-        cases.push_back({fmt::format("direct-light/{}/{}", name, short_name(way)), "rho Le F: closed form",
+    for (const Technique technique :
+         {Technique::mis, Technique::light, Technique::bsdf, Technique::pointwise, Technique::surfaces}) {
+        if (!looks_for_lights(technique) && F < 0.1) continue;
+        cases.push_back({fmt::format("direct-light/{}/{}", name, short_name(technique)), "rho Le F: closed form",
                          [=](Figures& figures, std::uint64_t seed) {
                              SceneMaker maker;
                              maker.add(patch(receiver.point, receiver.normal, 0.01), matte(receiver_rho));
                              maker.add(light, lamp(radiance));
                              const Scene scene = maker.make();
-                             const Estimates found = sharp_probe(scene, at(scene, receiver.point, receiver.normal), way,
+                             const Estimates found = sharp_probe(scene, at(scene, receiver.point, receiver.normal), technique,
                                                                  {.samples = 1024, .bounces = 2, .seed = seed});
                              figures.terms(found, std::vector{receiver_rho * radiance * F, 0.0});
                          }});
@@ -48,7 +49,7 @@ Parallelogram flat(const TriangleMesh& mesh) {
     return turned ? Parallelogram{corner, b, a} : Parallelogram{corner, a, b};
 }
 
-// Averages over the receiver. Where both touch, light sampling has infinite variance (∫ G² diverges).
+// Means over the receiver. If it touches the light, light sampling has infinite variance (∫ G² diverges).
 struct Pair {
     const char* name;
     TriangleMesh receiver, light;
@@ -72,17 +73,18 @@ void add_pairs(Cases& cases) {
                              const Parallelogram a = flat(pair.receiver), b = flat(pair.light);
                              figures.near("F", exchange_area(a, b) / a.area(), pair.F, 1e-13);
                          }});
-        for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light}) {
-            if ((pair.touching && way == Technique::light) || (pair.F < 0.1 && way == Technique::bsdf)) continue;
-            cases.push_back({name(short_name(way).c_str()), "rho Le F: closed form", [=](Figures& figures, std::uint64_t seed) {
-                                 SceneMaker maker;
-                                 const std::uint32_t receiver = maker.add(pair.receiver, matte(receiver_rho));
-                                 maker.add(pair.light, lamp(radiance));
-                                 const Scene scene = maker.make();
-                                 figures.terms(sharp_probe(scene, anywhere_on(scene, receiver), way,
-                                                           {.samples = 1024, .bounces = 2, .seed = seed}),
-                                               std::vector{receiver_rho * radiance * pair.F, 0.0});
-                             }});
+        for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::light}) {
+            if ((pair.touching && technique == Technique::light) || (pair.F < 0.1 && technique == Technique::bsdf)) continue;
+            cases.push_back(
+                {name(short_name(technique).c_str()), "rho Le F: closed form", [=](Figures& figures, std::uint64_t seed) {
+                     SceneMaker maker;
+                     const std::uint32_t receiver = maker.add(pair.receiver, matte(receiver_rho));
+                     maker.add(pair.light, lamp(radiance));
+                     const Scene scene = maker.make();
+                     figures.terms(
+                         sharp_probe(scene, anywhere_on(scene, receiver), technique, {.samples = 1024, .bounces = 2, .seed = seed}),
+                         std::vector{receiver_rho * radiance * pair.F, 0.0});
+                 }});
         }
     }
 }
@@ -109,10 +111,10 @@ void add_far_pairs(Cases& cases) {
 // E/π of environments of radiance 1, ω·n, (ω·n)², (ω·t)² and ω_n ω_t over the upper half, put together as 1 + b·ω + (q·ω)²:
 // K Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²].
 void add_sky(Cases& cases) {
-    for (const Technique way : {Technique::mis, Technique::bsdf, Technique::light})
+    for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::light})
         cases.push_back(
-            {"direct-light/sky/" + short_name(way), "rho [1 + 2/3 b.n + |q|^2/4 + (q.n)^2/4]: exact",
-             [way](Figures& figures, std::uint64_t seed) {
+            {"direct-light/sky/" + short_name(technique), "rho [1 + 2/3 b.n + |q|^2/4 + (q.n)^2/4]: exact",
+             [technique](Figures& figures, std::uint64_t seed) {
                  const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
                  SceneMaker maker;
                  maker.add(make_cube(Mat4(1.0)), matte(receiver_rho));
@@ -125,15 +127,15 @@ void add_sky(Cases& cases) {
                  const Scene scene = maker.make();
                  for (const auto& [name, n] : {std::pair{"x", Vec3(1, 0, 0)}, {"-y", Vec3(0, -1, 0)}, {"z", Vec3(0, 0, 1)}})
                      figures.sampled(fmt::format("K Le, normal {}", name),
-                                     sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n), way,
-                                                 {.samples = 1024, .bounces = 1, .seed = seed})
+                                     sharp_probe(scene, at(scene, n + Vec3(0.3, 0.2, 0.1) * (Vec3(1.0) - glm::abs(n)), n),
+                                                 technique, {.samples = 1024, .bounces = 1, .seed = seed})
                                          .terms[1],
                                      receiver_rho * (1.0 + 2.0 / 3.0 * glm::dot(b, n) + 0.25 * glm::dot(q, q) +
                                                      0.25 * std::pow(glm::dot(q, n), 2)));
              }});
 }
 
-// Without extent, and asked for by every walk alike: ρ I cosθ/(π d²) and ρ E0 cosθ/π, to rounding.
+// Lights without extent, which every walk samples alike: ρ I cosθ/(π d²) and ρ E0 cosθ/π, to rounding.
 void add_point_lights(Cases& cases) {
     cases.push_back(
         {"direct-light/point-and-parallel", "rho I cos/(pi d^2), rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {

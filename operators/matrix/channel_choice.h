@@ -1,7 +1,7 @@
-// Chooses a colour channel for commands that work on a single one.
+// Chooses a colour channel for work on a single one.
 #pragma once
 
-#include "apps/commands/patch_scene.h"
+#include "operators/matrix/traced_system.h"
 
 #include <string>
 
@@ -16,10 +16,7 @@ struct ChosenChannel {
     std::string why;
 };
 
-// Throws InputError unless it is r, g, b, or empty.
-void check_channel_name(const std::string& name);
-
-// The channel `wanted`, or the one with the largest spectral radius if that is empty.
-ChosenChannel choose_channel(const PatchScene& scene, const std::string& wanted);
+// The given channel, or else the one with the largest spectral radius. If the scene is grey, its only channel.
+ChosenChannel choose_channel(const TracedSystem& system, std::optional<int> given, const Watch& watch = {});
 
 }  // namespace neumann

@@ -1,7 +1,7 @@
-// The results of `neumann spectrum`, before they are printed.
+// The spectrum of a scene: for each colour channel of its K norms, leading eigenvalues, whether and how fast the series converges,
+// and how much of that patches and rays make.
 #pragma once
 
-#include "apps/commands/spectrum_command.h"
 #include "operators/matrix/refinement.h"
 #include "operators/spectrum/convergence.h"
 #include "operators/spectrum/radius_bounds.h"
@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace neumann {
 
@@ -27,7 +28,7 @@ struct ChannelSpectrum {
     std::array<double, 2> rounding{}, stagnation{};  // in float and in double
 };
 
-struct SpectrumReport {
+struct SceneSpectrum {
     static constexpr std::array<double, 3> remaining{0.1, 0.01, 0.001};
     static constexpr int most_bounces = 10000;
 
@@ -40,13 +41,15 @@ struct SpectrumReport {
     std::vector<std::string> warnings;
 };
 
-// Calls `tell` with the progress from time to time. If out of time or interrupted, returns what was found so far, with a warning.
-SpectrumReport spectrum_report(
-    const PatchScene& scene, const SpectrumRequest& request,
-    const std::function<void(const std::function<std::string()>&)>& tell = [](const auto&) {});
+struct SpectrumLimits {
+    int eigenvalues = 4;
+    double seconds = 60.0;
+    double most = 10000.0;  // applications of K in a search
+    // Called in every search with what is searched, and how far the search is.
+    std::function<void(const std::string& what, const EigenStep&)> look = [](const std::string&, const EigenStep&) {};
+};
 
-void print_spectrum(const PatchScene& scene, const SpectrumReport& report);
-void print_spectrum_csv(const PatchScene& scene, const SpectrumReport& report);
-nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SpectrumReport& report);
+// If out of time or stopped, returns what was found so far, with a warning.
+SceneSpectrum scene_spectrum(const TracedSystem& system, const SpectrumLimits& limits, const Watch& watch = {});
 
 }  // namespace neumann

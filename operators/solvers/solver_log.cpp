@@ -1,4 +1,4 @@
-#include "operators/solvers/progress.h"
+#include "operators/solvers/solver_log.h"
 
 #include <fmt/format.h>
 
@@ -16,19 +16,19 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 double largest(const Vector& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
 
-Progress::Progress(const Problem& problem) : problem_(problem), evidence_(problem.K, problem.radius) {
+SolverLog::SolverLog(const Problem& problem) : problem_(problem), evidence_(problem.K, problem.radius) {
     if (!problem.K || problem.K->size() != problem.Le.size())
         throw std::invalid_argument("Le needs one value for each unknown of K");
     if (problem.exact && problem.exact->size() != problem.Le.size())
         throw std::invalid_argument("the exact solution needs one value for each unknown of K");
 }
 
-void Progress::apply(const Vector& x, Vector& y) {
+void SolverLog::apply(const Vector& x, Vector& y) {
     problem_.K->apply(x, y);
     count(1.0);
 }
 
-double Progress::from_residual(const Vector& r, const Vector& x, double rate) const {
+double SolverLog::from_residual(const Vector& r, const Vector& x, double rate) const {
     const double size = largest(x), residual = largest(r);
     if (residual == 0.0 && size == 0.0) return 0.0;
     double amplification = 1.0;
@@ -39,39 +39,39 @@ double Progress::from_residual(const Vector& r, const Vector& x, double rate) co
     return std::max(residual * amplification / size, rounding(rate));
 }
 
-double Progress::rounding(double rate) const {
+double SolverLog::rounding(double rate) const {
     if (problem_.radius && *problem_.radius < 1.0) rate = *problem_.radius;
     return epsilon / (rate < 1.0 ? 1.0 - rate : 1.0);
 }
 
-bool Progress::is_rounding(double change, const Vector& x, bool falling) {
+bool SolverLog::is_rounding(double change, const Vector& x, bool falling) {
     const double size = largest(x);
     return size > 0.0 && change <= (falling ? epsilon : 1e-12) * size;
 }
 
-double Progress::true_error(const Vector& x) const {
+double SolverLog::true_error(const Vector& x) const {
     return problem_.exact ? largest(x - *problem_.exact) / largest(*problem_.exact) : std::numeric_limits<double>::quiet_NaN();
 }
 
-bool Progress::record(double estimate, double error) {
+bool SolverLog::record(double estimate, double error) {
     result_.history.push_back({result_.applications, estimate, error, watch_.seconds()});
     if (problem_.observer) problem_.observer(result_.history.back());
     return estimate <= problem_.tolerance;
 }
 
-bool Progress::diverges() {
+bool SolverLog::diverges() {
     const double before = evidence_.applications();
     const bool shown = evidence_.shows_divergence();
     count(evidence_.applications() - before);
     return shown;
 }
 
-bool Progress::converges() {
+bool SolverLog::converges() {
     diverges();
     return evidence_.known_to_converge();
 }
 
-SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
+SolverResult SolverLog::end(Vector x, Verdict verdict, std::string why) {
     if (!x.allFinite() && verdict != Verdict::diverging) {
         if (verdict != Verdict::broke_down) why = "values that are not finite";
         verdict = Verdict::broke_down;
@@ -99,26 +99,26 @@ SolverResult Progress::end(Vector x, Verdict verdict, std::string why) {
     return std::move(result_);
 }
 
-SolverResult Progress::end_without_entries() {
+SolverResult SolverLog::end_without_entries() {
     return end(problem_.Le, Verdict::refused, "needs the entries of K, its rows and columns, and this K can only be applied");
 }
 
-SolverResult Progress::end_limit(Vector x) {
+SolverResult SolverLog::end_limit(Vector x) {
     if (evidence_.known_to_diverge())
         return end_diverging(std::move(x), fmt::format("{} applications were used up", problem_.most));
     return end(std::move(x), Verdict::limit, fmt::format("{} applications were used up", problem_.most));
 }
 
-SolverResult Progress::end_diverging(Vector x, const std::string& seen) {
+SolverResult SolverLog::end_diverging(Vector x, const std::string& seen) {
     return end(std::move(x), Verdict::diverging, fmt::format("{}, and the spectral radius is {:.6g}", seen, evidence_.radius()));
 }
 
-SolverResult Progress::end_overflow(Vector x, const char* what) {
+SolverResult SolverLog::end_overflow(Vector x, const char* what) {
     const std::string seen = fmt::format("{} grew until they were not finite", what);
     return diverges() ? end_diverging(std::move(x), seen) : end(std::move(x), Verdict::broke_down, seen);
 }
 
-SolverResult Progress::end_rounding(Vector x, double error) {
+SolverResult SolverLog::end_rounding(Vector x, double error) {
     const std::string left = fmt::format("rounding leaves an error of about {:.2g}", error);
     if (!(error < 1e-3)) return end(std::move(x), Verdict::refused, left + ": I − K is singular to rounding");
     return end(std::move(x), Verdict::rounding, left);

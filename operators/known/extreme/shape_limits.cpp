@@ -1,6 +1,6 @@
-// Needles, and shapes in one place.
+// Needles, and shapes that coincide.
 #include "core/sampling/independent_sampler.h"
-#include "operators/known/extreme/groups.h"
+#include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/extreme/unit_cube.h"
 
@@ -9,8 +9,6 @@
 #include <limits>
 
 namespace neumann::known {
-
-namespace {}  // namespace
 
 Cases extreme_shape_cases() {
     Cases cases;
@@ -23,9 +21,9 @@ Cases extreme_shape_cases() {
                              const Vec3 across(0, 0.01, 0), along(20, 0, 0);
                              maker.add(strips(Vec3(0, 0, 1) - 0.5 * (across + along), across, along, pieces), lamp(2.0));
                              const Scene scene = maker.make();
-                             for (const Technique way : {Technique::mis, Technique::light})
-                                 figures.sampled(fmt::format("K Le, {}", short_name(way)),
-                                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), way,
+                             for (const Technique technique : {Technique::mis, Technique::light})
+                                 figures.sampled(fmt::format("K Le, {}", short_name(technique)),
+                                                 sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), technique,
                                                              {.samples = 1024, .bounces = 1, .seed = seed})
                                                      .terms[1],
                                                  rectangle_overhead(20.0, 0.01, 1.0));
@@ -57,7 +55,7 @@ Cases extreme_shape_cases() {
                              figures.at_most(fmt::format("relative difference of terms, {} floors", copies), largest, 8 * eps);
                          }
                      }});
-    // Which of two unlike surfaces in the same place is seen is chance: where one of them is a light, that is warned of.
+    // Which of two coincident surfaces is seen is left to chance. If one of them is a light, a warning is expected.
     cases.push_back(
         {"extreme/coincident/unlike", "warned of; nothing is missed", [](Figures& figures, std::uint64_t seed) {
              SceneMaker maker;
@@ -78,7 +76,7 @@ Cases extreme_shape_cases() {
              }
              figures.near("rays to the floor that end on it", found, 20000, 0);
          }});
-    // A rug that lies in the plane of the floor, and not a box that stands there, whose bottom looks the other way.
+    // A rug in the plane of the floor is warned of; a box that stands on the floor is not, because its bottom faces the other way.
     cases.push_back({"extreme/coincident/unlike-materials", "warned of", [](Figures& figures, std::uint64_t) {
                          const auto is_warned_of = [](const TriangleMesh& mesh) {
                              SceneMaker maker;
@@ -93,7 +91,7 @@ Cases extreme_shape_cases() {
                          figures.holds("rug", is_warned_of(parallelogram({0.3, 0.4, 0}, {0.31, 0.02, 0}, {-0.03, 0.23, 0})));
                          figures.holds("no box", !is_warned_of(box({0.3, 0.4, 0}, {0.6, 0.7, 0.5})));
                      }});
-    // Two boxes in a furnace, one into the other: what is inside is never seen.
+    // Two overlapping boxes in a furnace: the faces inside are never seen.
     cases.push_back({"extreme/overlapping/boxes", "rho^i: exact", [](Figures& figures, std::uint64_t seed) {
                          SceneMaker maker;
                          maker.add(room({-1, -1, -1}, {1, 1, 1}), glowing(0.8, 1.0));

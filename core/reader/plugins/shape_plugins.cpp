@@ -1,4 +1,4 @@
-#include "core/reader/plugins/shapes.h"
+#include "core/reader/plugins/shape_plugins.h"
 
 #include "core/geometry/transformed.h"
 #include "core/reader/plugins/mesh_shape.h"

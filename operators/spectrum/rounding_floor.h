@@ -1,4 +1,4 @@
-// What rounding leaves of the series: where naive addition stops by itself, and how much the result is worth.
+// The effect of rounding on the series: the bounce at which plain addition stops changing the sum, and the error of the result.
 #pragma once
 
 #include "operators/solvers/term_series.h"
@@ -7,8 +7,9 @@
 
 namespace neumann {
 
-// The first n with S_n = S_{n−1} at every unknown although t_n ≠ 0: terms rounded to Real, added one after another in Real. A loop
-// that ends "when the sum does not change any more" ends here, with an error of about n ε. Nothing up to `most` bounces.
+// The first n with S_n = S_{n−1} at every unknown although t_n ≠ 0, if the terms are rounded to Real and added one after another in
+// Real. A loop that runs "until the sum does not change any more" ends at this n, with an error of about n ε. Returns nothing if
+// there is no such n up to `most` bounces.
 template <class Real>
 std::optional<int> stagnation(const ChannelOperator& K, const Vector& Le, int most) {
     using Values = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
@@ -23,14 +24,14 @@ std::optional<int> stagnation(const ChannelOperator& K, const Vector& Le, int mo
     return std::nullopt;
 }
 
-// Where it is to be expected at spectral radius ρ < 1: t_n / S falls like ρ^n (1 − ρ), and adding less than half a unit in the last
-// place, ε/2, changes nothing: n ≈ ln(ε / (2 (1 − ρ))) / ln ρ.
+// The n that is expected at the spectral radius ρ < 1: t_n / S falls like ρ^n (1 − ρ), and adding less than half a unit in the last
+// place, ε/2, changes nothing. So n ≈ ln(ε / (2 (1 − ρ))) / ln ρ.
 inline double expected_stagnation(double epsilon, double radius) {
     return std::log(0.5 * epsilon / (1.0 - radius)) / std::log(radius);
 }
 
-// Relative error that remains however carefully terms are added, once K itself is rounded to ε: an entry's relative change δ ≤ ε/2
-// turns ρ into ρ(1+δ), and L ~ 1/(1−ρ) into L (1 + δ ρ/(1−ρ)).
+// The relative error of L that comes from rounding K to ε, however carefully the terms are added. A relative change δ ≤ ε/2 of the
+// entries turns ρ into ρ (1+δ), and L ~ 1/(1−ρ) into L (1 + δ ρ/(1−ρ)).
 inline double rounding_floor(double epsilon, double radius) { return 0.5 * epsilon * radius / (1.0 - radius); }
 
 }  // namespace neumann

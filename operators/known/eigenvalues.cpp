@@ -60,7 +60,8 @@ void ring(Figures& figures, std::uint64_t) {
     figures.near("largest imaginary part", imaginary, 0.9 * std::sqrt(3.0) / 2, 1e-14);
 }
 
-// Patch centre to patch centre, F ≈ G A/π: rows up to 1.27, and a series that diverges below albedo 1. The defect is to be seen.
+// Form factors from patch centre to patch centre, F ≈ G A/π, have row sums up to 1.27: the series diverges below albedo 1. The
+// checks must show this defect.
 void centre_to_centre(Figures& figures, std::uint64_t) {
     struct Row {
         int n;

@@ -1,4 +1,4 @@
-#include "core/reader/plugins/principled.h"
+#include "core/reader/plugins/principled_bsdfs.h"
 
 #include "core/reader/plugins/textures.h"
 

@@ -1,4 +1,5 @@
-// What is at the edge of what numbers hold, with answers that are as plain as anywhere else; a file each.
+// Cases near the limits of the number formats: very large, small, bright or distant scenes, with answers that are known exactly.
+// Each group has a file of its own.
 #pragma once
 
 #include "operators/known/cases.h"

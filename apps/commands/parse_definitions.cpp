@@ -1,4 +1,4 @@
-#include "apps/commands/definitions.h"
+#include "apps/commands/parse_definitions.h"
 
 #include "core/base/error.h"
 

@@ -1,15 +1,15 @@
-// Slow series added up naively and compensated, in float and in double, beside what bounds their errors: u = ε/2 is the unit
-// roundoff,
+// Slow series added up naively and compensated, in float and in double, beside the bounds on their errors. u = ε/2 is the
+// unit roundoff.
 //
 //     terms multiplied one from another   u ρ/(1−ρ)      of the sum: term k has k roundings, and the mean of k is ρ/(1−ρ)
-//     added one after another             u n            n terms; or until they change nothing any more
+//     added one after another             u n            n terms; or until the sum stops changing
 //     added with compensation             2 u
 //
-// against the exact sum (1−ρ^n)/(1−ρ) for the ρ that is left after rounding.
-#include "operators/spectrum/rounding.h"
+// The exact sum is (1−ρ^n)/(1−ρ), with ρ after rounding.
 #include "operators/known/cube.h"
 #include "operators/known/groups.h"
 #include "operators/series/compensated_sum.h"
+#include "operators/spectrum/rounding_floor.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ Sums add_up(double albedo, int terms) {
     return sums;
 }
 
-// `naive` and `stagnates`: of float, measured with another program.
+// `naive` and `stagnates`: in float, measured with another program.
 void add_furnace(Cases& cases, double rho, int terms, double change, double naive, int stagnates) {
     cases.push_back({fmt::format("rounding/furnace/albedo-{:g}", rho), "float arithmetic elsewhere; n u, u rho/(1 - rho)",
                      [=](Figures& figures, std::uint64_t) {
@@ -61,7 +61,7 @@ void add_furnace(Cases& cases, double rho, int terms, double change, double naiv
                      }});
 }
 
-// What a loop that ends "when the sum does not change any more" takes for converged, on the cube of 16 × 16 patches a face.
+// Where a loop ends that runs until the sum does not change any more, on the cube of 16 × 16 patches a face.
 void stagnation_of_cube(Figures& figures, std::uint64_t) {
     const Cube cube = symmetric_cube(16);
     const auto of = [&](double rho, int most) { return stagnation<float>(cube.channel(rho), cube.ceiling(), most).value_or(0); };

@@ -1,0 +1,13 @@
+// What `neumann spectrum` prints: tables, CSV, JSON.
+#pragma once
+
+#include "apps/commands/spectrum_command.h"
+#include "operators/matrix/scene_spectrum.h"
+
+namespace neumann {
+
+void print_spectrum(const PatchScene& scene, const SceneSpectrum& report);
+void print_spectrum_csv(const PatchScene& scene, const SceneSpectrum& report);
+nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SceneSpectrum& report);
+
+}  // namespace neumann

@@ -1,0 +1,121 @@
+#include "operators/matrix/scene_spectrum.h"
+
+#include "core/base/stopwatch.h"
+#include "operators/matrix/scene_patches.h"
+#include "operators/solvers/stoppable.h"
+#include "operators/spectrum/closure.h"
+#include "operators/spectrum/remaining.h"
+#include "operators/spectrum/rounding_floor.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <limits>
+
+namespace neumann {
+
+namespace {
+
+// Bounces are counted until this part of the power is left, well below what is asked for.
+constexpr double power_left = 1e-6;
+
+constexpr const char* trapped_light =
+    "light that total reflection keeps within glass has the eigenvalue 1; where none gets there, the series converges all the same";
+
+// Divides the time limit among the searches.
+class SearchTime {
+public:
+    SearchTime(const SpectrumLimits& limits, const Watch& watch) : limits_(limits), watch_(watch) {}
+
+    double left() const { return std::max(limits_.seconds - clock_.seconds(), 0.0); }
+    // Limits for a search that may take this fraction of the time left.
+    EigenLimits part(double part, const std::string& what) const {
+        EigenLimits limits;
+        limits.most = limits_.most;
+        limits.look = [this, what](const EigenStep& step) { limits_.look(what, step); };
+        limits.watch.stop = [this, end = clock_.seconds() + part * left()] { return watch_.stop() || clock_.seconds() >= end; };
+        return limits;
+    }
+
+private:
+    const SpectrumLimits& limits_;
+    const Watch& watch_;
+    Stopwatch clock_;
+};
+
+ChannelSpectrum channel_spectrum(const TracedSystem& system, int c, int eigenvalues, const EigenLimits& limits,
+                                 const Watch& watch) {
+    const TracedChannel K = system.channel(c);
+    ChannelSpectrum s;
+    s.name = system.channel_name(c);
+    s.largest_albedo = system.largest_albedo(c);
+    s.norms = operator_norms(K, limits);
+    s.one_error = K.standard_error_of_power(s.norms.one_at);
+    s.one_part = K.measure()[s.norms.one_at] / K.measure().sum();
+    s.leading = leading_eigenpairs(K, eigenvalues, false, limits);
+    s.radius = s.leading.radius();
+    if (!std::isfinite(s.radius)) {
+        s.bounds = radius_bounds(K, most_for_bounds, watch);
+        if (s.bounds->meet()) s.radius = s.bounds->high;
+    }
+    return s;
+}
+
+void find_convergence(ChannelSpectrum& s, const TracedSystem& system, int c, const std::vector<RefinementRow>& coarser,
+                      const Watch& watch) {
+    s.shift = radius_shift(coarser, static_cast<std::size_t>(c), s.radius);
+    s.convergence = judge(s.radius, s.shift);
+    if (s.convergence == Convergence::at_one && has_glass(system.space())) s.convergence = Convergence::undecided;
+    if (s.convergence != Convergence::converges) return;
+    const TracedChannel K = system.channel(c);
+    try {
+        const StoppableChannel stoppable(K, watch);
+        const auto rows = power_rows(stoppable, system.emitted(c), system.direct(c), power_left, SceneSpectrum::most_bounces);
+        for (std::size_t i = 0; i < s.bounces.size(); ++i) s.bounces[i] = bounces_until(rows, SceneSpectrum::remaining[i]);
+    } catch (const Stopped&) {
+        s.bounces_stopped = true;
+    }
+    const double epsilon[] = {std::numeric_limits<float>::epsilon(), std::numeric_limits<double>::epsilon()};
+    for (std::size_t i = 0; i < 2; ++i) {
+        s.rounding[i] = rounding_floor(epsilon[i], s.radius);
+        s.stagnation[i] = expected_stagnation(epsilon[i], s.radius);
+    }
+}
+
+}  // namespace
+
+SceneSpectrum scene_spectrum(const TracedSystem& system, const SpectrumLimits& limits, const Watch& watch) {
+    const SearchTime time(limits, watch);
+    const TracedChannel transport = system.transport();
+    SceneSpectrum found;
+    const Vector sums = row_sums(transport);
+    found.row_min = sums.minCoeff();
+    found.row_mean = sums.mean();
+    found.row_max = sums.maxCoeff();
+    found.rays_without_hit = static_cast<double>(system.rays_that_see_nothing()) / static_cast<double>(system.rays());
+    found.reciprocity_defect = reciprocity_defect(transport);
+    found.emits = !system.scene().emitters.empty();
+    const int channels = system.channels();
+    // Each channel gets as much time as all comparisons together.
+    for (int c = 0; c < channels; ++c)
+        found.channels.push_back(
+            channel_spectrum(system, c, limits.eigenvalues, time.part(1.0 / (channels - c + 1), system.channel_name(c)), watch));
+    found.coarser = coarser_spectra(system.scene(), system.settings(), time.part(1.0, "coarser"));
+    for (int c = 0; c < channels; ++c) {
+        ChannelSpectrum& s = found.channels[static_cast<std::size_t>(c)];
+        find_convergence(s, system, c, found.coarser, time.part(1.0, s.name).watch);
+        if (s.norms.sup >= 1.0)
+            found.warnings.push_back(
+                fmt::format("{}: ‖K‖∞ = {:.6g} is not below 1 and bounds no tail; whether the series converges is for the spectral "
+                            "radius to say",
+                            s.name, s.norms.sup));
+        if (!s.leading.converged) found.warnings.push_back(fmt::format("{}: eigenvalues were {}", s.name, s.leading.why));
+    }
+    if (has_glass(system.space())) found.warnings.push_back(trapped_light);
+    if (watch.stop())
+        found.warnings.push_back("interrupted: this is what was found until then");
+    else if (time.left() == 0.0)
+        found.warnings.push_back(fmt::format("the time of {:g} s was up: this is what was found until then", limits.seconds));
+    return found;
+}
+
+}  // namespace neumann

@@ -1,0 +1,26 @@
+// Samples of a render that ran before, traced again.
+#pragma once
+
+#include "operators/methods/method.h"
+#include "operators/pictures/replay.h"
+
+#include <string>
+
+namespace neumann {
+
+// What determines the samples of a render in its scene: as in the BounceSeries that it returned.
+struct RecordedRender {
+    Method method;
+    std::uint64_t seed = 0;
+    int bounces = 0;
+    double rest_probability = 0.0;
+    std::uint32_t replicate_size = 1;
+};
+
+// Why this method has no paths to replay, in words; empty if it has.
+std::string why_no_replay(const Method& method);
+
+// With the same bits as in the render, if the scene is the same. Throws InputError if the method cannot render the scene.
+Replay replay(const Scene& scene, const RecordedRender& render, const SampleName& name);
+
+}  // namespace neumann
