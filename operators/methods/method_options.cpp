@@ -278,7 +278,8 @@ std::vector<std::string> method_names() {
 const std::string& method_help() {
     static const std::string text =
         "walk: one walk from the camera for all bounces, the default; guided: the same with directions sampled from a matrix "
-        "solution; surface: the same with points sampled on all surfaces; light: walks from the lights to the camera; "
+        "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
+        "sampled on all surfaces; light: walks from the lights to the camera; "
         "bidirectional: walks from both ends, joined everywhere; classic: mirrors and glass alone, which leaves out other paths; "
         "pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K applied once "
         "more at the pixel; patches: the patches as they are";

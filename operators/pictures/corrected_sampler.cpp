@@ -91,7 +91,7 @@ std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint6
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
     auto node =
         run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
-                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& watch) {
+                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
                                return settings_.sampler == SamplerKind::sobol
                                           ? sample_picture<SobolSampler>(replicate, picture, ranges, new_tally, of_picture)
                                           : sample_picture<IndependentSampler>(replicate, picture, ranges, new_tally, of_picture);
