@@ -53,7 +53,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
     switch (report.rest_verdict) {
         case RestVerdict::measured:
             fmt::print("{:>6}  {:>12.6g}  {:<18}  measured: {}\n", "rest", report.rest.mean,
-                       interval(report.rest, report.rest_infinite_variance, false, report.rest_unmet),
+                       interval(report.rest, report.rest_infinite_variance, report.rest_rare_large_samples, report.rest_unmet),
                        std::isfinite(report.tail_fraction())
                            ? fmt::format("with its interval {:.2g} of the sum", report.tail_fraction())
                            : "no sample met any light");
@@ -74,7 +74,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
     if (report.infinite_variance())
         fmt::print(
             "The largest samples show that the variance is infinite: no interval holds there, and more samples help little.\n");
-    if (report.rare_large_samples())
+    if (report.rare_large_samples() || report.rest_rare_large_samples)
         fmt::print(
             "At least: the variance is finite, but the largest samples are rare and make much of what is there. The interval may "
             "be\n"

@@ -67,7 +67,7 @@ Json rest_json(const Scene& scene, const BounceSeries& series) {
     Json json;
     switch (report.rest_verdict) {
         case RestVerdict::measured:
-            json = mean_json(report.rest, report.rest_infinite_variance, false, report.rest_unmet);
+            json = mean_json(report.rest, report.rest_infinite_variance, report.rest_rare_large_samples, report.rest_unmet);
             json["verdict"] = "measured";
             json["fraction_of_sum_with_interval"] = json_number(report.tail_fraction());
             break;

@@ -21,4 +21,10 @@ bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
     }
 }
 
+bool rest_has_finite_variance(const Scene& scene, const SamplingSettings& settings) {
+    const Roulette& roulette = settings.walk.roulette;
+    const double albedo = max_component(scene.materials.largest_albedo());
+    return samples_are_bounded(scene, settings) && (roulette.kind != Roulette::Kind::fixed || albedo * albedo < roulette.survival);
+}
+
 }  // namespace neumann

@@ -45,6 +45,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
     series.replicate_size = settings.replicate_size;
     series.samples_are_bounded = samples_are_bounded(scene, settings);
+    series.rest_has_finite_variance = rest_has_finite_variance(scene, settings);
     const Stopwatch clock;
 
     const auto report = [&](double replicates_done) {

@@ -27,6 +27,7 @@ struct RenderedSeries {
     std::uint64_t samples = 0;
     double seconds = 0.0;
     bool samples_are_bounded = false;  // of bounces 0 … N (bounded_samples.h)
+    bool rest_has_finite_variance = false;
 };
 
 // Samples per pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 4 replicates. Larger

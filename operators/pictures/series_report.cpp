@@ -45,7 +45,9 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     if (rest_verdict == RestVerdict::measured) {
         report.rest = result.mean_of_term(N + 1);
         const auto tail = tail_index(series.tally.largest[N + 1]);
-        report.rest_infinite_variance = tail && tail->variance_is_infinite();
+        const bool heavy = tail && tail->variance_is_infinite();
+        report.rest_infinite_variance = heavy && !series.rest_has_finite_variance;
+        report.rest_rare_large_samples = heavy && series.rest_has_finite_variance;
     }
     return report;
 }

@@ -46,7 +46,7 @@ struct SeriesReport {
     std::optional<DiscretisationReport> sum_discretisation;
     RestVerdict rest_verdict = RestVerdict::measured;
     MeanWithError rest;
-    bool rest_infinite_variance = false, rest_unmet = false;
+    bool rest_infinite_variance = false, rest_rare_large_samples = false, rest_unmet = false;
 
     bool infinite_variance() const;
     bool rare_large_samples() const;

@@ -91,6 +91,16 @@ class Matrices(Case):
         values = np.linalg.eigvals(made.K.toarray())
         self.assertAlmostEqual(np.abs(values).max(), red.spectral_radius, 10)
 
+    def test_what_is_not_found_is_a_warning(self):
+        # Light that goes round in a ball of glass has eigenvalues of modulus 1 without end.
+        ball = neumann.load(scene_file("glass-ball"))
+        with self.assertWarnsRegex(
+            neumann.NeumannWarning, "^red: eigenvalues were not found within 40 applications of K, largest residual "
+        ):
+            found = ball.spectrum(patches=400, directions=16, most=40)
+        for channel in found.channels:
+            self.assertAlmostEqual(channel.spectral_radius, 1.0, 9)
+
     def test_solve(self):
         found = furnace(0.9).solve(error=1e-8, **SIZE)
         self.assertEqual(list(found)[0], "neumann")

@@ -64,6 +64,7 @@ TEST(AlarmSlow, OneSceneHasOneVerdict) {
             const RenderedSeries series = render_series(scene, settings_of(method, scene, seed), {64, std::nullopt, std::nullopt});
             const SeriesReport report = report_series(scene, series, RestVerdict::measured);
             EXPECT_FALSE(report.infinite_variance()) << static_cast<int>(method);
+            EXPECT_FALSE(report.rest_infinite_variance) << static_cast<int>(method);
             for (const BounceReport& b : report.bounces) {
                 EXPECT_FALSE(b.infinite_variance && b.rare_large_samples);
                 rare += b.rare_large_samples;
@@ -72,6 +73,29 @@ TEST(AlarmSlow, OneSceneHasOneVerdict) {
         }
     std::printf("glass and metals: %d of %d tails look infinite and are not\n", rare, looked_at);
     EXPECT_GT(looked_at, 30);
+}
+
+// The rest, with samples added whose tail is that of an infinite variance: where that cannot be, they are rare and no more.
+TEST(BoundedSamples, TheRestHasTheSameVerdict) {
+    const Scene scene = balls(4);
+    const auto verdict = [&](PathMethod method, const Roulette& roulette) {
+        SamplingSettings settings = settings_of(method, scene, 1);
+        settings.walk.roulette = roulette;
+        RenderedSeries series = render_series(scene, settings, {8, std::nullopt, std::nullopt});
+        LargestSamples& rest = series.tally.largest[bounces + 1];
+        for (int i = 1; i <= 1000; ++i) rest.add(1e9 * std::pow(i, -1.0 / 1.2));
+        rest.add_count(1'000'000);
+        const SeriesReport report = report_series(scene, series, RestVerdict::measured);
+        EXPECT_NE(report.rest_infinite_variance, report.rest_rare_large_samples);
+        return report.rest_infinite_variance ? "infinite" : "rare";
+    };
+    for (const PathMethod method : {PathMethod::walk, PathMethod::guided, PathMethod::bidirectional}) {
+        EXPECT_STREQ(verdict(method, {}), "rare") << static_cast<int>(method);
+        EXPECT_STREQ(verdict(method, {Roulette::Kind::albedo}), "rare") << static_cast<int>(method);
+        // The largest albedo is that of glass.
+        EXPECT_STREQ(verdict(method, {Roulette::Kind::fixed, 0.9}), "infinite") << static_cast<int>(method);
+    }
+    EXPECT_STREQ(verdict(PathMethod::light, {}), "infinite");
 }
 
 // The bound itself. Weights are at most 1 but in glass, whose n² cancel until a path has left it, so directions by the materials
