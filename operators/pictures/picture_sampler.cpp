@@ -1,5 +1,7 @@
 #include "operators/pictures/picture_sampler.h"
 
+#include "core/base/hot.h"
+#include "core/base/large_array.h"
 #include "operators/pictures/path_group.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -20,52 +22,64 @@ namespace {
 struct Workspace {
     Workspace(std::size_t pixels, std::size_t quantities, std::size_t levels)
         : sum(quantities),
+          low(quantities),
+          high(quantities),
           carry(quantities * PixelMoments::doubles_per_quantity),
           waiting(pixels, std::vector(levels, carry)),
           tally(quantities) {}
     PathGroup group;
-    std::vector<Rgb> sum;
+    std::vector<Rgb> sum, low, high;  // of the samples of a pixel in a replicate
     std::vector<double> carry;
     std::vector<std::vector<std::vector<double>>> waiting;
     Tally tally;
 };
 
-// Records the samples of one quantity that are not finite, sets them to zero, and returns the sum of the others.
-Rgb leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, std::uint32_t pixel, std::uint64_t replicate,
-                         Workspace& work) {
-    Rgb sum(0.0);
+// Records the samples of one quantity that are not finite, and sets them to zero.
+void leave_out_non_finite(std::span<Rgb> samples, std::size_t size, std::size_t q, std::uint32_t pixel, std::uint64_t replicate,
+                          Workspace& work) {
     for (std::size_t i = 0; i < size; ++i) {
         Rgb& x = samples[i * work.sum.size() + q];
-        if (!is_finite(x)) {
-            work.tally.keep({static_cast<int>(q), {pixel, {pixel, replicate * size + i}}});
-            x = Rgb(0.0);
-        }
-        sum += x;
+        if (is_finite(x)) continue;
+        work.tally.keep({static_cast<int>(q), {pixel, {pixel, replicate * size + i}}});
+        x = Rgb(0.0);
     }
-    return sum;
 }
 
-// Writes the means of one pixel's samples in a replicate into work.sum, and the range of the samples of each quantity into
-// `ranges`.
-void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_weights,
+// The sums, the smallest and the largest of `size` samples, each of n numbers.
+NEUMANN_HOT void add_up(const double* samples, std::size_t size, std::size_t n, double* __restrict sum, double* __restrict low,
+                        double* __restrict high) {
+    for (std::size_t k = 0; k < n; ++k) sum[k] = low[k] = high[k] = samples[k];
+    for (std::size_t i = 1; i < size; ++i)
+        for (std::size_t k = 0; k < n; ++k) {
+            const double x = samples[i * n + k];
+            sum[k] += x;
+            low[k] = x < low[k] ? x : low[k];
+            high[k] = x > high[k] ? x : high[k];
+        }
+}
+
+// Writes the means of one pixel's samples in a replicate into work.sum, and adds the samples of each quantity to `ranges`.
+void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate,
              const std::optional<glm::dmat3>& colors, std::span<SampleRange> ranges, Workspace& work) {
     const std::size_t quantities = work.sum.size();
-    std::copy_n(samples.begin(), quantities, work.sum.begin());
-    for (std::size_t i = 1; i < size; ++i)
-        for (std::size_t q = 0; q < quantities; ++q) work.sum[q] += samples[i * quantities + q];
+    const auto all = [&] { add_up(&samples[0].x, size, 3 * quantities, &work.sum[0].x, &work.low[0].x, &work.high[0].x); };
+    all();
+    if (!std::ranges::all_of(work.sum, [](const Rgb& sum) { return is_finite(sum); })) [[unlikely]] {
+        for (std::size_t q = 0; q < quantities; ++q)
+            if (!is_finite(work.sum[q])) leave_out_non_finite(samples, size, q, pixel, replicate, work);
+        all();
+    }
     for (std::size_t q = 0; q < quantities; ++q) {
-        Rgb& sum = work.sum[q];
+        const Rgb &low = work.low[q], &high = work.high[q];
         LargestSamples& largest = work.tally.largest[q];
         largest.add_count(size);
-        if (!is_finite(sum)) [[unlikely]]
-            sum = leave_out_non_finite(samples, size, q, pixel, replicate, work);
-        // If no sample is negative, none exceeds the sum.
-        if (has_negative_weights || max_component(sum) > largest.threshold())
+        if (max_component(glm::max(glm::abs(low), glm::abs(high))) > largest.threshold())
             for (std::size_t i = 0; i < size; ++i)
                 largest.add(max_component(glm::abs(samples[i * quantities + q])), {pixel, {pixel, replicate * size + i}});
-        for (std::size_t i = 0; i < size; ++i) ranges[q].add(samples[i * quantities + q]);
-        sum *= 1.0 / static_cast<double>(size);
-        if (colors) sum = *colors * sum;
+        ranges[q].add(low);
+        ranges[q].add(high);
+        work.sum[q] *= 1.0 / static_cast<double>(size);
+        if (colors) work.sum[q] = *colors * work.sum[q];
     }
 }
 
@@ -105,8 +119,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
     MomentsNode node{first, count, std::move(memory)};
-    node.data.resize(pixels * stride);
-    node.ranges.of.resize(pixels * quantities());
+    resize_large(node.data, pixels * stride);
+    resize_large(node.ranges.of, pixels * quantities());
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work(pixels_at_once, quantities(), levels);
@@ -130,8 +144,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
                                          std::span(work.tally.rays));
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
-                        begin + static_cast<std::uint32_t>(i), first + r, std::holds_alternative<SignedFilter>(scene_.film.filter),
-                        settings_.colors, std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()), work);
+                        begin + static_cast<std::uint32_t>(i), first + r, settings_.colors,
+                        std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()), work);
                 append(r, work.waiting[i], work);
             }
         }
