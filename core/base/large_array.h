@@ -5,10 +5,12 @@
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 namespace neumann {
 
@@ -28,6 +30,18 @@ LargeArray<T> make_large_array(std::size_t size) {
     if (!memory) throw std::bad_alloc();
     madvise(memory, bytes, MADV_HUGEPAGE);  // advice: where it is not taken nothing changes
     return LargeArray<T>(static_cast<T*>(memory));
+}
+
+// The same for a vector: v.resize(size).
+template <class T>
+void resize_large(std::vector<T>& v, std::size_t size) {
+    constexpr std::size_t page = 4096;
+    if (v.capacity() < size) {
+        v.reserve(size);
+        const std::size_t before = -reinterpret_cast<std::uintptr_t>(v.data()) % page, bytes = size * sizeof(T);
+        if (bytes > before) madvise(reinterpret_cast<char*>(v.data()) + before, (bytes - before) / page * page, MADV_HUGEPAGE);
+    }
+    v.resize(size);
 }
 
 }  // namespace neumann

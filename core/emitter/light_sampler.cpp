@@ -50,6 +50,7 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
       place_(place),
       table_(geometry, emitters, share,
              place == LightPlace::solid_angle ? LightTable::Rectangles::whole : LightTable::Rectangles::as_triangles) {
+    for (const Part& part : table_.parts()) places_.push_back(geometry.place(part.shape, part.primitive));
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
                                                         : (choice == LightChoice::all ? 1.0 : share[shape]) / geometry.area(shape));
@@ -108,8 +109,7 @@ LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) 
     if (!(share > 0.0)) return {};
     const Vec2 left(std::min((u - below) / share, 0x1.fffffffffffffp-1), uv.y);
     if (table_.is_distant(chosen)) return on_distant(table_.distant(chosen), share / all, x, left);
-    const Part& part = table_.parts()[chosen];
-    return on_part(part, share / all / table_.area(part), x, left);
+    return on_part(chosen, share / all / table_.area(table_.parts()[chosen]), x, left);
 }
 
 double LightSampler::pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const {

@@ -72,9 +72,10 @@ private:
         return glm::dot(d, d) / std::abs(glm::dot(normal, w));
     }
 
-    LightSample on_part(const Part& part, double density, const Vec3& x, const Vec2& uv) const {
-        if (place_ == LightPlace::solid_angle) return on_part_as_seen(part, density, x, uv);
-        return at_point(geometry_->point(part.shape, part.primitive, uv), density, x);
+    // `part`: its index in the table.
+    LightSample on_part(std::size_t part, double density, const Vec3& x, const Vec2& uv) const {
+        if (place_ == LightPlace::solid_angle) return on_part_as_seen(table_.parts()[part], density, x, uv);
+        return at_point(geometry_->point(places_[part], uv), density, x);
     }
     LightSample at_point(const SurfacePoint& point, double density, const Vec3& x) const {
         LightSample light;
@@ -92,8 +93,7 @@ private:
         const Vec2 left(chosen.left, v);
         if (table_.is_distant(chosen.index))
             return on_distant(table_.distant(chosen.index), choice_ == LightChoice::all ? 1.0 : chosen.probability, x, left);
-        const Part& part = table_.parts()[chosen.index];
-        return on_part(part, density_of_shape_[part.shape], x, left);
+        return on_part(chosen.index, density_of_shape_[places_[chosen.index].shape], x, left);
     }
     LightSample on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const;
     LightSample on_part_as_seen(const Part& part, double density, const Vec3& x, const Vec2& uv) const;
@@ -114,6 +114,7 @@ private:
     LightChoice choice_;
     LightPlace place_;
     LightTable table_;
+    std::vector<Geometry::Place> places_;   // of the table's parts
     std::vector<double> density_of_shape_;  // density of a sample, per area
 };
 

@@ -58,11 +58,16 @@ public:
 
 private:
     Choice choose(double u, std::size_t first, std::size_t end) const {
-        const auto begin = cumulative_.begin();
-        const auto found =
-            std::upper_bound(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end) - 1, u);
-        const double below = found == begin ? 0.0 : found[-1], share = *found - below;
-        return {static_cast<std::size_t>(found - begin), share, std::clamp((u - below) / share, 0.0, 0x1.fffffffffffffp-1)};
+        // Of few entries all are compared: which one is found cannot be predicted, and a search branches by that.
+        constexpr std::size_t few = 8;
+        const double* const sums = cumulative_.data();
+        std::size_t found = first;
+        if (end - first <= few)
+            for (std::size_t i = first; i + 1 < end; ++i) found += sums[i] <= u;
+        else
+            found = static_cast<std::size_t>(std::upper_bound(sums + first, sums + end - 1, u) - sums);
+        const double below = found == 0 ? 0.0 : sums[found - 1], share = sums[found] - below;
+        return {found, share, std::clamp((u - below) / share, 0.0, 0x1.fffffffffffffp-1)};
     }
 
     const Geometry* geometry_;

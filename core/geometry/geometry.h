@@ -123,10 +123,23 @@ public:
     double area(std::uint32_t shape, std::uint32_t primitive) const;
     double area(std::uint32_t shape) const;
     SurfacePoint point(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
-        if (triangles_[shape].empty()) return point_on_round_surface(shape, uv);
-        const Triangle& t = triangles_[shape][primitive];
+        return point(place(shape, primitive), uv);
+    }
+    // The same in two steps, for a primitive that is sampled often. The place is valid as long as the geometry.
+    struct Place {
+        std::uint32_t shape, primitive;
+        const Triangle* triangle;  // null on a round shape
+        Triangle::Edges edges;
+    };
+    Place place(std::uint32_t shape, std::uint32_t primitive) const {
+        if (triangles_[shape].empty()) return {shape, primitive, nullptr, {}};
+        return {shape, primitive, &triangles_[shape][primitive], edges(shape, primitive)};
+    }
+    SurfacePoint point(const Place& place, const Vec2& uv) const {
+        if (!place.triangle) return point_on_round_surface(place.shape, uv);
+        const Triangle& t = *place.triangle;
         const Vec2 weights = uniform_triangle(uv);
-        SurfacePoint p{t.at(weights.x, weights.y, edges(shape, primitive)), t.normal(), t.error(), shape, primitive};
+        SurfacePoint p{t.at(weights.x, weights.y, place.edges), t.normal(), t.error(), place.shape, place.primitive};
         if (!t.is_clear(weights)) look_around(p);
         return p;
     }

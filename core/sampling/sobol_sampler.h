@@ -9,51 +9,54 @@
 #include "core/sampling/counter_based.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace neumann {
 
-// The first points of the sequence, with reversed bits, by dimension; shared by all pixels.
+// The first points of the sequence, with reversed bits; shared by all pixels.
 class SobolPoints {
 public:
-    static constexpr std::uint32_t dimensions = 4;
+    static constexpr std::uint32_t dimensions = 4, log2_largest_part = 6;
+    using Numbers = std::array<std::uint32_t, dimensions>;
 
     // `size`: a power of two.
     explicit SobolPoints(std::uint32_t size);
 
     std::uint32_t size() const { return size_; }
     std::uint32_t log2_size() const { return log2_size_; }
-    std::uint32_t reversed(std::uint32_t dimension, std::uint32_t index) const { return reversed_[dimension * size_ + index]; }
+
+    // The points in another order and scrambled, by nested permutations of the indices (`order`) and of the coordinates (`seeds`).
+    // Of these, those from `first` on are written, at most 2^log2_largest_part.
+    void scramble(std::uint32_t order, const Numbers& seeds, std::uint32_t first, std::span<Numbers> numbers) const;
 
 private:
     std::uint32_t size_, log2_size_;
-    std::vector<std::uint32_t> reversed_;
+    std::vector<Numbers> reversed_;
+    std::vector<std::uint32_t> reversed_index_;  // as a 32-bit fraction of `size`
 };
 
-// The random numbers of one sample of a pixel. Copies share the scrambling seeds of their pixel, so all copies must be at the same
-// replicate at any time.
+// The random numbers of one sample of a pixel. Copies share the scrambled points of their pixel, which are made for up to 64
+// samples at once.
 class SobolSampler {
 public:
     SobolSampler(const SobolPoints& points, std::uint64_t seed, std::uint32_t pixel)
-        : points_(&points), random_(seed, pixel), scrambles_(std::make_shared<Scrambles>()) {}
+        : points_(&points),
+          random_(seed, pixel),
+          scrambled_(std::make_shared<Scrambled>(std::min(points.log2_size(), SobolPoints::log2_largest_part))) {}
 
     void start(std::uint64_t sample) {
-        const std::uint32_t size = points_->size(), bits = points_->log2_size();
-        const std::uint64_t replicate = sample >> bits;
-        // The index in the replicate as a 32-bit fraction of `size`, with reversed bits.
-        reversed_index_ = reverse(static_cast<std::uint32_t>((sample & (size - 1)) << 32 >> bits));
-        if (replicate != scrambles_->replicate) scrambles_->known = 0;
-        scrambles_->replicate = replicate;
         sample_ = sample;
         dimension_ = 0;
     }
 
     double next() {
-        const std::uint32_t d = dimension_++;
-        if (d >= scrambled_dimensions) return beyond(d);
-        if (d % SobolPoints::dimensions == 0) start_group(d / SobolPoints::dimensions);
-        return to_unit_interval(scramble(points_->reversed(d % SobolPoints::dimensions, index_), scrambles_->seed[d]));
+        const std::uint32_t lane = dimension_ % SobolPoints::dimensions;
+        if (lane == 0) start_group(dimension_ / SobolPoints::dimensions);
+        ++dimension_;
+        return to_unit_interval(bits_[lane]);
     }
     Vec2 next2() {
         const double x = next();
@@ -61,55 +64,48 @@ public:
     }
 
 private:
-    // Beyond these dimensions, which only long walks reach, the numbers are independent.
-    static constexpr std::uint32_t scrambled_dimensions = 128, groups = scrambled_dimensions / SobolPoints::dimensions;
-    struct Scrambles {
-        std::uint64_t replicate = ~std::uint64_t{0};
-        std::uint32_t known = 0;  // number of groups of dimensions whose seeds are computed
-        std::array<std::uint32_t, scrambled_dimensions> seed;
-        std::array<std::uint32_t, groups> order;
-    };
+    // Beyond these groups of dimensions, which only long walks reach, the numbers are independent.
+    static constexpr std::uint32_t scrambled_groups = 32;
     static constexpr std::uint32_t order_block = 0x40000000u, beyond_block = 0x80000000u;  // separate the uses of the counter
+    // Some groups of dimensions, each of 2^log2_size samples: paths that advance together are seldom further apart.
+    struct Scrambled {
+        static constexpr std::size_t places = 8;
+        struct Part {
+            std::uint64_t samples = ~std::uint64_t{0};  // from samples · 2^log2_size on
+            std::uint32_t group = 0;
+            bool operator==(const Part&) const = default;
+        };
 
-    static std::uint32_t reverse(std::uint32_t x) {
-        x = __builtin_bswap32(x);
-        x = (x & 0x0f0f0f0fu) << 4 | (x & 0xf0f0f0f0u) >> 4;
-        x = (x & 0x33333333u) << 2 | (x & 0xccccccccu) >> 2;
-        return (x & 0x55555555u) << 1 | (x & 0xaaaaaaaau) >> 1;
-    }
-    // Each bit of the result depends only on itself and the higher bits of the point (lower bits here, as they are reversed): a
-    // nested permutation.
-    static std::uint32_t scramble(std::uint32_t reversed, std::uint32_t seed) {
-        std::uint32_t x = reversed;
-        x ^= x * 0x3d20adeau;
-        x += seed;
-        x *= (seed >> 16) | 1u;
-        x ^= x * 0x05526c56u;
-        x ^= x * 0x53a22864u;
-        return reverse(x);
-    }
+        explicit Scrambled(std::uint32_t log2) : log2_size(log2), numbers(places << log2) {}
+        std::uint32_t log2_size;
+        std::array<Part, places> parts;
+        std::vector<SobolPoints::Numbers> numbers;
+    };
+
     void start_group(std::uint32_t group) {
-        if (group >= scrambles_->known) {
-            const auto seeds = random_(scrambles_->replicate, group);
-            std::copy(seeds.begin(), seeds.end(), scrambles_->seed.begin() + group * SobolPoints::dimensions);
-            scrambles_->order[group] = random_(scrambles_->replicate, order_block | group)[0];
-            scrambles_->known = group + 1;
+        if (group >= scrambled_groups) {
+            bits_ = random_(sample_, beyond_block | group);
+            return;
         }
-        index_ =
-            static_cast<std::uint32_t>(std::uint64_t{scramble(reversed_index_, scrambles_->order[group])} * points_->size() >> 32);
-    }
-    double beyond(std::uint32_t d) {
-        const std::uint32_t lane = d % 4;
-        if (lane == 0) bits_ = random_(sample_, beyond_block | d / 4);
-        return to_unit_interval(bits_[lane]);
+        Scrambled& known = *scrambled_;
+        const Scrambled::Part part{sample_ >> known.log2_size, group};
+        const std::size_t place = (part.samples + group) % Scrambled::places, size = std::size_t{1} << known.log2_size;
+        if (known.parts[place] != part) {
+            const std::uint64_t replicate = sample_ >> points_->log2_size();
+            points_->scramble(random_(replicate, order_block | group)[0], random_(replicate, group),
+                              static_cast<std::uint32_t>(sample_ & (points_->size() - size)),
+                              std::span(known.numbers).subspan(place * size, size));
+            known.parts[place] = part;
+        }
+        bits_ = known.numbers[place * size + (sample_ & (size - 1))];
     }
 
     const SobolPoints* points_;
     CounterBased random_;
-    std::shared_ptr<Scrambles> scrambles_;
+    std::shared_ptr<Scrambled> scrambled_;
     std::uint64_t sample_ = 0;
-    std::uint32_t reversed_index_ = 0, index_ = 0, dimension_ = 0;
-    std::array<std::uint32_t, 4> bits_{};
+    std::uint32_t dimension_ = 0;
+    SobolPoints::Numbers bits_{};  // of the current group
 };
 
 }  // namespace neumann

@@ -46,12 +46,6 @@ Perspective::Perspective(const SensorOptions& options, const Film& film)
       near_(options.near_clip),
       far_(options.far_clip) {}
 
-CameraRay Perspective::ray(const Vec2& position, const Vec2&) const {
-    const Vec3 direction = glm::normalize(plane_.at(position));
-    const double along = 1.0 / glm::dot(direction, axis_);  // distance per unit of depth
-    return {origin_ + direction * (near_ * along), direction, (far_ - near_) * along};
-}
-
 std::optional<FilmPoint> Perspective::see(const Vec3& p, const Vec2&) const {
     return see_through(origin_, plane_, axis_, near_, far_, p);
 }

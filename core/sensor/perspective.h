@@ -14,7 +14,11 @@ class Perspective {
 public:
     Perspective(const SensorOptions& options, const Film& film);
 
-    CameraRay ray(const Vec2& position, const Vec2&) const;
+    CameraRay ray(const Vec2& position, const Vec2&) const {
+        const Vec3 direction = glm::normalize(plane_.at(position));
+        const double along = 1.0 / glm::dot(direction, axis_);  // distance per unit of depth
+        return {origin_ + direction * (near_ * along), direction, (far_ - near_) * along};
+    }
     // Nothing if p is not between the near and the far plane. The position may be outside the film.
     std::optional<FilmPoint> see(const Vec3& p, const Vec2&) const;
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const;

@@ -5,6 +5,7 @@
 #include "operators/pictures/any_sampler.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/path_group.h"
+#include "operators/pictures/pixel_average.h"
 
 namespace neumann {
 
@@ -13,11 +14,11 @@ inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100
 
 template <class Sampler>
 struct CorrectedSampler::Workspace {
-    explicit Workspace(std::size_t quantities) : mean(quantities), tally(quantities) {}
+    explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
     CorrectedWalkers<Sampler> walkers;
     std::vector<Sampler> camera, directions;  // of the group's samples, and of its pixels
-    std::vector<Rgb> mean;
+    PixelAverage average;
     Tally tally;
 };
 

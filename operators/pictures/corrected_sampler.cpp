@@ -68,9 +68,10 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
             const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels_);
             trace_group(replicate, begin * size, (end - begin) * size, points ? &*points : nullptr, work);
             for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-                average(std::span(work.group.samples).subspan((pixel - begin) * size * Q, size * Q), size, pixel, replicate, true,
-                        settings_.colors, work.mean, std::span(ranges.of).subspan(pixel * Q, Q), work.tally);
-                std::copy(work.mean.begin(), work.mean.end(), picture.begin() + static_cast<std::ptrdiff_t>(pixel * Q));
+                average(std::span(work.group.samples).subspan((pixel - begin) * size * Q, size * Q), size, pixel, replicate,
+                        settings_.colors, work.average, std::span(ranges.of).subspan(pixel * Q, Q), work.tally);
+                std::copy(work.average.mean.begin(), work.average.mean.end(),
+                          picture.begin() + static_cast<std::ptrdiff_t>(pixel * Q));
             }
         }
         done += static_cast<std::uint32_t>(range.size());

@@ -60,7 +60,12 @@ void for_neighbourhood(int width, int height, std::size_t pixel, const F& f) {
 class Look {
 public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
-        : scene_(&scene), result_(&result), ranges_(&ranges), quantities_(result.quantities()), bounds_(bounds(scene, settings)) {
+        : scene_(&scene),
+          generator_(settings.generator),
+          result_(&result),
+          ranges_(&ranges),
+          quantities_(result.quantities()),
+          bounds_(bounds(scene, settings)) {
         lights_ = seen_lights(scene, settings.seed);
         find_albedo(settings.seed);
     }
@@ -87,7 +92,9 @@ public:
                         differences[pixel][c] = d;
                     }
                     if (d == 0.0) continue;
-                    double h = (error <= agreement * std::abs(mean) ? rule_of_three : 1.0) * d / samples;
+                    const bool agree = error <= agreement * std::abs(mean);
+                    if (!agree && samples_are_mixtures(q)) continue;
+                    double h = (agree ? rule_of_three : 1.0) * d / samples;
                     if (mean == 0.0) h = std::min(h, bounds_[q][c]);
                     errors[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(h / t);
                 }
@@ -106,6 +113,7 @@ public:
     }
 
 private:
+    bool samples_are_mixtures(std::size_t q) const { return generator_ == PathGenerator::corrected && q > 1; }
     const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * quantities_ + q]; }
 
     Rgb difference_nearby(std::size_t pixel, std::size_t q) const {
@@ -157,6 +165,7 @@ private:
     }
 
     const Scene* scene_;
+    PathGenerator generator_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
     std::size_t quantities_;

@@ -4,7 +4,8 @@
 //     h/t,  h = 3 D/n      if all replicates agree, in particular if all samples are 0: the rule of three, as p, the probability of
 //                          a sample that differs, is below 3/n with 95% confidence: (1 − p)^n ≤ e^{−pn} = 0.05
 //           h = D/n        otherwise: one sample more or less. Replicates of stratified samples often meet something equally often
-//                          although their expectation lies a little higher, and their spread does not show that
+//                          although their expectation lies a little higher, and their spread does not show that. (Not in bounces
+//                          from 2 on by corrected fields: such a sample is a mean of several rays that read fields everywhere.)
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
 // neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an

@@ -1,5 +1,7 @@
 #include "operators/pictures/picture_sampler.h"
 
+#include "core/base/hot.h"
+#include "core/base/large_array.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/pixel_average.h"
 
@@ -20,20 +22,20 @@ namespace {
 // pixel.
 struct Workspace {
     Workspace(std::size_t pixels, std::size_t quantities, std::size_t levels)
-        : sum(quantities),
+        : average(quantities),
           carry(quantities * PixelMoments::doubles_per_quantity),
           waiting(pixels, std::vector(levels, carry)),
           tally(quantities) {}
     PathGroup group;
-    std::vector<Rgb> sum;
+    PixelAverage average;
     std::vector<double> carry;
     std::vector<std::vector<std::vector<double>>> waiting;
     Tally tally;
 };
 
-// Appends work.sum as the r-th replicate: nodes of equal size are merged, like carries when 1 is added to a binary number.
+// Appends the means as the r-th replicate: nodes of equal size are merged, like carries when 1 is added to a binary number.
 void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace& work) {
-    PixelMoments::set(work.carry, work.sum);
+    PixelMoments::set(work.carry, work.average.mean);
     std::size_t level = 0;
     for (; r >> level & 1; ++level) {
         const auto n = static_cast<double>(std::uint64_t{1} << level);
@@ -70,8 +72,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
     MomentsNode node{first, count, std::move(memory)};
-    node.data.resize(pixels * stride);
-    node.ranges.of.resize(pixels * quantities());
+    resize_large(node.data, pixels * stride);
+    resize_large(node.ranges.of, pixels * quantities());
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work(pixels_at_once, quantities(), levels);
@@ -95,9 +97,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
                                          std::span(work.tally.rays));
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
-                        begin + static_cast<std::uint32_t>(i), first + r, std::holds_alternative<SignedFilter>(scene_.film.filter),
-                        settings_.colors, work.sum, std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()),
-                        work.tally);
+                        begin + static_cast<std::uint32_t>(i), first + r, settings_.colors, work.average,
+                        std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()), work.tally);
                 append(r, work.waiting[i], work);
             }
         }

@@ -8,12 +8,19 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace neumann {
 
-// `samples`: sample by sample, all quantities of each. Writes the means into `mean` and adds the samples to the pixel's ranges and
-// to the tally; samples that are not finite are recorded there and left out. `colors`: as SamplingSettings::colors.
-void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate, bool has_negative_samples,
-             const std::optional<glm::dmat3>& colors, std::span<Rgb> mean, std::span<SampleRange> ranges, Tally& tally);
+// The means of all quantities, and work space.
+struct PixelAverage {
+    explicit PixelAverage(std::size_t quantities) : mean(quantities), low(quantities), high(quantities) {}
+    std::vector<Rgb> mean, low, high;
+};
+
+// `samples`: sample by sample, all quantities of each. Writes the means into `average.mean` and adds the samples to the pixel's
+// ranges and to the tally; samples that are not finite are recorded there and left out. `colors`: as SamplingSettings::colors.
+void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate,
+             const std::optional<glm::dmat3>& colors, PixelAverage& average, std::span<SampleRange> ranges, Tally& tally);
 
 }  // namespace neumann

@@ -1,6 +1,8 @@
 #include "operators/statistics/series_moments.h"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -48,20 +50,19 @@ void PixelMoments::merge(std::span<double> a, double na, std::span<const double>
 
 std::uint64_t SeriesMoments::replicates() const {
     std::uint64_t count = 0;
-    for (const MomentsNode& node : nodes_) count += node.count;
+    for (const Node& node : nodes_) count += node.count;
     return count;
 }
 
 std::vector<double> SeriesMoments::add(MomentsNode node) {
     join(node.ranges);
-    node.ranges = {};
-    return join(std::move(node));
+    return join({node.first, node.count, std::make_shared<std::vector<double>>(std::move(node.data))});
 }
 
 void SeriesMoments::add(const SeriesMoments& next) {
     if (next.nodes_.empty()) return;
     join(next.ranges_);
-    for (const MomentsNode& node : next.nodes_) join(node);
+    for (const Node& node : next.nodes_) join(node);
 }
 
 void SeriesMoments::join(const SampleRanges& ranges) {
@@ -71,19 +72,19 @@ void SeriesMoments::join(const SampleRanges& ranges) {
         ranges_.merge(ranges);
 }
 
-std::vector<double> SeriesMoments::join(MomentsNode node) {
+std::vector<double> SeriesMoments::join(Node node) {
     if (!nodes_.empty() && node.first != nodes_.back().first + nodes_.back().count)
         throw std::logic_error("SeriesMoments: replicates are not consecutive");
     nodes_.push_back(std::move(node));
     std::vector<double> free;
     while (nodes_.size() >= 2) {
-        MomentsNode& left = nodes_[nodes_.size() - 2];
-        const MomentsNode& right = nodes_.back();
+        Node &left = nodes_[nodes_.size() - 2], &right = nodes_.back();
         if (left.count != right.count || left.first % (2 * left.count) != 0) break;
-        merge_pictures(left.data, static_cast<double>(left.count), right.data, static_cast<double>(right.count),
+        if (left.data.use_count() > 1) left.data = std::make_shared<std::vector<double>>(*left.data);
+        merge_pictures(*left.data, static_cast<double>(left.count), *right.data, static_cast<double>(right.count),
                        doubles_per_pixel());
         left.count *= 2;
-        free = std::move(nodes_.back().data);
+        if (right.data.use_count() == 1) free = std::move(*right.data);
         nodes_.pop_back();
     }
     return free;
@@ -95,24 +96,43 @@ SeriesMoments::Result SeriesMoments::result() const {
     result.height_ = height_;
     result.quantities_ = quantities_;
     if (nodes_.empty()) {
-        result.data_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * doubles_per_pixel(), 0.0);
+        result.data_ = std::make_shared<std::vector<double>>(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
+                                                             doubles_per_pixel());
         return result;
     }
-    // Merges from the right, where the smallest nodes are.
-    result.data_ = nodes_.back().data;
-    result.count_ = static_cast<double>(nodes_.back().count);
-    for (std::size_t i = nodes_.size() - 1; i-- > 0;) {
-        std::vector<double> left = nodes_[i].data;
-        const double count = static_cast<double>(nodes_[i].count);
-        merge_pictures(left, count, result.data_, result.count_, doubles_per_pixel());
-        result.data_ = std::move(left);
-        result.count_ += count;
+    result.count_ = static_cast<double>(replicates());
+    if (nodes_.size() == 1) {
+        result.data_ = nodes_.front().data;
+        return result;
     }
+    const std::size_t stride_of_pixel = doubles_per_pixel();
+    const auto merged = std::make_shared<std::vector<double>>(nodes_.front().data->size());
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, merged->size() / stride_of_pixel, 256),
+                              [&](const auto& range) {
+                                  std::vector<double> left(stride_of_pixel);
+                                  for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+                                      const auto of = [&](const Node& node) {
+                                          return std::span(*node.data).subspan(pixel * stride_of_pixel, stride_of_pixel);
+                                      };
+                                      const auto sum = std::span(*merged).subspan(pixel * stride_of_pixel, stride_of_pixel);
+                                      // From the right, where the smallest nodes are.
+                                      std::ranges::copy(of(nodes_.back()), sum.begin());
+                                      double count = static_cast<double>(nodes_.back().count);
+                                      for (std::size_t i = nodes_.size() - 1; i-- > 0;) {
+                                          const auto n = static_cast<double>(nodes_[i].count);
+                                          std::ranges::copy(of(nodes_[i]), left.begin());
+                                          PixelMoments::merge(left, n, sum, count);
+                                          std::ranges::copy(left, sum.begin());
+                                          count += n;
+                                      }
+                                  }
+                              });
+    result.data_ = merged;
     return result;
 }
 
 std::pair<Rgb, Rgb> SeriesMoments::Result::at(std::size_t pixel, std::size_t quantity, bool sum) const {
-    const double* data = data_.data() + pixel * quantities_ * stride;
+    const double* data = data_->data() + pixel * quantities_ * stride;
     const std::size_t m2_at = sum ? sum_m2_at : term_m2_at;
     std::pair<Rgb, Rgb> result;
     for (int c = 0; c < 3; ++c) {

@@ -11,6 +11,7 @@
 #include "operators/statistics/sample_ranges.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -50,22 +51,26 @@ public:
     std::size_t doubles_per_pixel() const { return quantities_ * PixelMoments::doubles_per_quantity; }
     int width() const { return width_; }
     int height() const { return height_; }
-    const std::vector<MomentsNode>& nodes() const { return nodes_; }
+    struct Node {
+        std::uint64_t first, count;
+        std::shared_ptr<std::vector<double>> data;  // shared with results
+    };
+    const std::vector<Node>& nodes() const { return nodes_; }
     // Ranges of all samples; empty if they were not kept.
     const SampleRanges& ranges() const { return ranges_; }
 
-    // All nodes merged, for reading term() and sum().
+    // All nodes merged, for reading term() and sum(). If there is a single node, nothing is copied.
     class Result;
     Result result() const;
 
 private:
     void join(const SampleRanges& ranges);
-    std::vector<double> join(MomentsNode node);
+    std::vector<double> join(Node node);
 
     int width_, height_;
     std::size_t quantities_;
-    std::vector<MomentsNode> nodes_;
-    SampleRanges ranges_;  // of all nodes together; the nodes' own ranges are empty
+    std::vector<Node> nodes_;
+    SampleRanges ranges_;  // of all nodes together
 };
 
 class SeriesMoments::Result {
@@ -97,12 +102,12 @@ private:
     PictureMeans means(std::size_t i, bool sum) const;
     // Mean and standard error at one pixel.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
-    bool pixels_are_independent() const { return data_.size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }
+    bool pixels_are_independent() const { return data_->size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }
 
     int width_ = 0, height_ = 0;
     std::size_t quantities_ = 0;
     double count_ = 0.0;
-    std::vector<double> data_;
+    std::shared_ptr<const std::vector<double>> data_;
 };
 
 }  // namespace neumann

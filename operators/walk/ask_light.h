@@ -36,17 +36,21 @@ template <class Transport, class AnyWalkers, class Observer, class Found>
 std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out, int bounce,
                    AnyWalkers& walkers, const Observer& observer, const Found& found) {
     auto& asking = walkers.asking;
-    asking.clear();
+    asking.resize(walkers.alive.size());
+    Walker* const all = walkers.walker.data();
+    const bool asks_directions = direct.asks_directions();
+    std::size_t asked = 0;
     for (const std::uint32_t i : walkers.alive) {
-        const Walker& w = walkers.walker[i];
-        if (is_black(w.asked.value)) continue;
-        if (!direct.asks_directions() && is_in_sight(left_out, w.x, w.asked.y))
-            found(i, w.asked.value);
-        else
-            asking.push_back(i);
+        const Walker& w = all[i];
+        const bool is_asked = !is_black(w.asked.value),
+                   is_known = is_asked && !asks_directions && is_in_sight(left_out, w.x, w.asked.y);
+        if (is_known) found(i, w.asked.value);
+        asking[asked] = i;
+        asked += is_asked && !is_known;
     }
-    const auto at = [&](std::size_t k) -> Walker& { return walkers.walker[asking[k]]; };
-    if (direct.asks_directions()) {
+    asking.resize(asked);
+    const auto at = [all, some = asking.data()](std::size_t k) -> Walker& { return all[some[k]]; };
+    if (asks_directions) {
         for (std::size_t k = 0; k < asking.size(); k += RayCaster::packet_size) {
             const std::size_t n = std::min(RayCaster::packet_size, asking.size() - k);
             const std::uint32_t hit = T.first_hits(

@@ -25,7 +25,7 @@ LightQuestion DirectLightSampler::ask_direction(const SurfaceSide& side, const V
     Vec3 local = cosine ? cosine_hemisphere(u) : uniform_hemisphere(u);
     const double pdf = (cosine ? local.z * inv_pi : 0.5 * inv_pi) * (both ? 0.5 : 1.0);
     if (both && which_side >= 0.5) local.z = -local.z;
-    return {side.p.frame.to_world(local), {}, Rgb(pdf > 0.0 ? 1.0 / pdf : 0.0), pdf};
+    return {{}, side.p.frame.to_world(local), Rgb(pdf > 0.0 ? 1.0 / pdf : 0.0), pdf};
 }
 
 LightQuestion DirectLightSampler::ask_surface(const SurfacePoint& x, double choice, const Vec2& u) const {

@@ -14,13 +14,8 @@ namespace neumann {
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
 // A light sample whose visibility is not known yet. A ray tells whether `point` is seen or, if directions are sampled, what is seen
-// along `w`.
-struct LightQuestion {
-    Vec3 w{0.0};
-    SurfacePoint point;
-    Rgb weight{0.0};   // for a point, Le / pdf; for a direction, 1 / pdf, which multiplies the Le that is found
-    double pdf = 0.0;  // of w, per solid angle, or delta_pdf
-};
+// along `w`; `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
+using LightQuestion = LightSample;
 
 class DirectLightSampler {
 public:
@@ -44,10 +39,8 @@ public:
                 const double choice = sampler.next();
                 return ask_surface(side.p, choice, sampler.next2());
             }
-            default: {
-                const LightSample light = lights_.sample(side.p.position, sampler.next2(), question);
-                return {light.w, light.point, light.weight, light.pdf};
-            }
+            default:
+                return lights_.sample(side.p.position, sampler.next2(), question);
         }
     }
     // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material`: of that direction,

@@ -27,9 +27,14 @@ struct Together {
     // Keeps the paths for which f(walker, index) is true.
     template <class Keep>
     void keep_if(const Keep& f) {
+        Walker* const all = walker.data();
+        std::uint32_t* const live = alive.data();
         std::size_t kept = 0;
-        for (const std::uint32_t i : alive)
-            if (f(walker[i], i)) alive[kept++] = i;
+        for (std::size_t k = 0, n = alive.size(); k < n; ++k) {
+            const std::uint32_t i = live[k];
+            live[kept] = i;
+            kept += f(all[i], i);
+        }
         alive.resize(kept);
     }
 
@@ -38,16 +43,19 @@ struct Together {
     template <class Observer, class Ask, class Keep>
     void advance(int reflections, const Observer& observer, const Ask& ask, const Keep& f) {
         constexpr std::size_t packet = RayCaster::packet_size;
+        Walker* const all = walker.data();
+        std::uint32_t* const live = alive.data();
         std::size_t kept = 0;
-        for (std::size_t k = 0; k < alive.size(); k += packet) {
-            const std::size_t n = std::min(packet, alive.size() - k);
-            for (std::size_t j = 0; j < n; ++j) observer.casts(alive[k + j], Walker::from_light, reflections, walker[alive[k + j]]);
-            const std::uint32_t found = ask(k, n, [&](std::size_t j) -> SurfacePoint& { return walker[alive[k + j]].x; });
+        for (std::size_t k = 0, count = alive.size(); k < count; k += packet) {
+            const std::size_t n = std::min(packet, count - k);
+            for (std::size_t j = 0; j < n; ++j) observer.casts(live[k + j], Walker::from_light, reflections, all[live[k + j]]);
+            const std::uint32_t found = ask(k, n, [&](std::size_t j) -> SurfacePoint& { return all[live[k + j]].x; });
             for (std::size_t j = 0; j < n; ++j) {
-                const std::uint32_t i = alive[k + j];
-                if (!(found >> j & 1u)) walker[i].x.shape = SurfacePoint::infinity;
-                observer.meets(i, walker[i].x);
-                if (f(walker[i], i)) alive[kept++] = i;
+                const std::uint32_t i = live[k + j];
+                if (!(found >> j & 1u)) all[i].x.shape = SurfacePoint::infinity;
+                observer.meets(i, all[i].x);
+                live[kept] = i;
+                kept += f(all[i], i);
             }
         }
         alive.resize(kept);
@@ -57,8 +65,8 @@ struct Together {
     std::uint32_t first_hits(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         return T.first_hits(
             n,
-            [&](std::size_t j) {
-                const Walker& w = walker[alive[k + j]];
+            [all = walker.data(), some = alive.data() + k](std::size_t j) {
+                const Walker& w = all[some[j]];
                 return std::pair<const SurfacePoint&, const Vec3&>(w.x, w.w);
             },
             hit);

@@ -78,7 +78,7 @@ TEST(AlarmSlow, OneSceneHasOneVerdict) {
 // The rest, with samples added whose tail is that of an infinite variance: where that cannot be, they are rare and no more.
 TEST(BoundedSamples, TheRestHasTheSameVerdict) {
     const Scene scene = balls(4);
-    const auto verdict = [&](PathMethod method, const Roulette& roulette) {
+    const auto verdict = [&](PathGenerator method, const Roulette& roulette) {
         SamplingSettings settings = settings_of(method, scene, 1);
         settings.walk.roulette = roulette;
         RenderedSeries series = render_series(scene, settings, {8, std::nullopt, std::nullopt});
@@ -89,13 +89,13 @@ TEST(BoundedSamples, TheRestHasTheSameVerdict) {
         EXPECT_NE(report.rest_infinite_variance, report.rest_rare_large_samples);
         return report.rest_infinite_variance ? "infinite" : "rare";
     };
-    for (const PathMethod method : {PathMethod::walk, PathMethod::guided, PathMethod::bidirectional}) {
+    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::guided, PathGenerator::bidirectional}) {
         EXPECT_STREQ(verdict(method, {}), "rare") << static_cast<int>(method);
         EXPECT_STREQ(verdict(method, {Roulette::Kind::albedo}), "rare") << static_cast<int>(method);
         // The largest albedo is that of glass.
         EXPECT_STREQ(verdict(method, {Roulette::Kind::fixed, 0.9}), "infinite") << static_cast<int>(method);
     }
-    EXPECT_STREQ(verdict(PathMethod::light, {}), "infinite");
+    EXPECT_STREQ(verdict(PathGenerator::light, {}), "infinite");
 }
 
 // The bound itself. Weights are at most 1 but in glass, whose n² cancel until a path has left it, so directions by the materials

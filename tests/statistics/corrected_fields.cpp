@@ -137,7 +137,7 @@ TEST(CorrectedFieldsSlow, EveryFurnaceIsThePowerOfTheAlbedo) {
 // What a seed's points bring goes into all of its pixels, so that the share of pixels has a standard error of 0.4% over seeds, and
 // that of means one of 1.5%.
 TEST(CorrectedFieldsSlow, IntervalsHoldTheTruth) {
-    const Scene scene = stock_scene("mitsuba-cornell", 12);
+    const Scene scene = stock_scene("mitsuba-cornell", 16);
     constexpr int bounces = 4;
     constexpr std::uint64_t seeds = 200;
     struct Found {
@@ -147,7 +147,7 @@ TEST(CorrectedFieldsSlow, IntervalsHoldTheTruth) {
     std::vector<std::vector<Found>> terms(bounces + 1);
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         const BounceSeries series =
-            render(scene, method::Corrected{{}, 300, 32}, {.bounces = bounces, .samples = 16, .seed = fixed_seed + seed});
+            render(scene, method::Corrected{{}, 300, 32}, {.bounces = bounces, .samples = 32, .seed = fixed_seed + seed});
         for (std::size_t q = 1; q <= bounces; ++q) {
             const PixelEstimate term = series.term(q);
             terms[q].push_back({term.mean, term.pixel_errors(), series.means_of_term(q).all});

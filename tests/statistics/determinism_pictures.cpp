@@ -55,7 +55,7 @@ void expect_same(const SeriesMoments& a, const SeriesMoments& b) {
     for (std::size_t i = 0; i < a.nodes().size(); ++i) {
         EXPECT_EQ(a.nodes()[i].first, b.nodes()[i].first);
         EXPECT_EQ(a.nodes()[i].count, b.nodes()[i].count);
-        EXPECT_TRUE(same_bits(a.nodes()[i].data, b.nodes()[i].data));
+        EXPECT_TRUE(same_bits(*a.nodes()[i].data, *b.nodes()[i].data));
     }
     const auto ra = a.result(), rb = b.result();
     EXPECT_EQ(ra.degrees_of_freedom(), rb.degrees_of_freedom());

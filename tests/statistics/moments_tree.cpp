@@ -75,6 +75,24 @@ TEST(Moments, AreThoseOfTheTwoPassFormulas) {
     }
 }
 
+// Results share the memory of the moments that go on.
+TEST(Moments, AResultStaysWhenReplicatesAreAdded) {
+    const Replicates all = random_replicates(8, 8);
+    SeriesMoments moments(width, height, quantities);
+    std::vector<SeriesMoments::Result> results;
+    for (std::size_t r = 0; r < all.size(); ++r) {
+        moments.add(leaf(all, r));
+        results.push_back(moments.result());
+    }
+    for (std::size_t r = 0; r < all.size(); ++r) {
+        const auto expected = moments_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(r) + 1}).result();
+        for (std::size_t q = 0; q < quantities; ++q) {
+            EXPECT_EQ(results[r].term(q).mean.pixels, expected.term(q).mean.pixels) << r;
+            if (r > 0) EXPECT_EQ(results[r].sum(q).standard_error.pixels, expected.sum(q).standard_error.pixels) << r;
+        }
+    }
+}
+
 // √(1² + .1² …) would be wrong: terms of one walk go up and down together.
 TEST(Moments, OfASumKnowThatItsTermsAreCorrelated) {
     Replicates all(4, std::vector<Rgb>(pixels * quantities));

@@ -162,6 +162,23 @@ TYPED_TEST(Sampler, NumbersDependOnTheirPlaceOnly) {
     EXPECT_GE(seen.size(), 4u * 16 * 64 * 8 - 10);  // 32,768 numbers of 32 bits: 0.1 pairs alike
 }
 
+// Copies of a pixel's sampler share what they know, wherever each of them is: in other replicates, far apart in a large net, some
+// dimensions ahead.
+TEST(SobolSampler, CopiesDoNotDisturbEachOther) {
+    const SobolPoints points(256);
+    const SobolSampler pixel(points, 7, 3);
+    std::vector<SobolSampler> together, alone;
+    for (const std::uint64_t sample : {0, 1, 63, 64, 200, 255, 256, 320, 5000}) {
+        together.push_back(pixel);
+        alone.emplace_back(points, 7, 3);
+        together.back().start(sample);
+        alone.back().start(sample);
+    }
+    for (int step = 0; step < 140; ++step)
+        for (std::size_t i = 0; i < together.size(); ++i)
+            for (std::size_t n = 0; n < i % 3 + 1; ++n) ASSERT_EQ(together[i].next(), alone[i].next()) << step << ' ' << i;
+}
+
 // The mean of a replicate of 8 samples is right on average. 2 × 40,000 replicates.
 template <class Kind>
 struct ReplicateMeans {
