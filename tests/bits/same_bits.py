@@ -27,6 +27,7 @@ FIELDS = ["--patches", "100", "--directions", "64", "--spp", "8"]
 METHODS = {
     "walk": PATHS,
     "guided": [*PATHS, "--patches", "100", "--directions", "256"],
+    "corrected": [*PATHS, "--patches", "100", "--directions", "16"],
     **{name: PATHS for name in ("surface", "light", "bidirectional", "classic", "pointwise")},
     **{name: FIELDS for name in ("patches", "matrix", "gather")},
 }

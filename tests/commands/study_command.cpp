@@ -246,7 +246,7 @@ TEST_F(StudyCommand, Refused) {
     };
     EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
               "--methods wlak: --method: wlak not in "
-              "{walk,guided,surface,light,bidirectional,classic,pointwise,matrix,gather,patches}\n");
+              "{walk,guided,corrected,surface,light,bidirectional,classic,pointwise,matrix,gather,patches}\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
     EXPECT_EQ(refusal({"--methods", "walk:colour=red"}),
               "--methods walk:colour=red: 'colour' is not an option of a method, such as direct, lights or roulette\n");

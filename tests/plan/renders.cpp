@@ -33,7 +33,7 @@ TEST(Renders, OneTreeServesAllAndNothingChanges) {
     const std::uint64_t trees = trees_built();
     for (const std::string& name : method_names()) {
         MethodText text{name};
-        if (has_fields(make_method(text)) || name == "guided") text.options.emplace_back("patches", "50");
+        if (has_fields(make_method(text)) || name == "guided" || name == "corrected") text.options.emplace_back("patches", "50");
         const BounceSeries first = render(scene, make_method(text), quick()), second = render(scene, make_method(text), quick());
         EXPECT_EQ(first.bounces(), 2);
         for (std::size_t i = 0; i <= 2; ++i) EXPECT_TRUE(same_bits(first.term(i).mean, second.term(i).mean)) << name << " " << i;
@@ -48,7 +48,7 @@ TEST(Renders, APilotRunsOnlyWhereItIsNeeded) {
     const Scene scene = room_from_behind();
     for (const std::string& name : method_names()) {
         MethodText text{name};
-        if (has_fields(make_method(text)) || name == "guided") text.options.emplace_back("patches", "50");
+        if (has_fields(make_method(text)) || name == "guided" || name == "corrected") text.options.emplace_back("patches", "50");
         const Method method = make_method(text);
         const std::uint64_t before = pilots_run();
         const BounceSeries series = render(scene, method, quick());
