@@ -37,7 +37,7 @@ std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSamp
                    AnyWalkers& walkers, const Observer& observer, const Found& found) {
     auto& asking = walkers.asking;
     asking.resize(walkers.alive.size());
-    Walker* const all = walkers.walker.data();
+    auto* const all = walkers.walker.data();
     const bool asks_directions = direct.asks_directions();
     std::size_t asked = 0;
     for (const std::uint32_t i : walkers.alive) {
