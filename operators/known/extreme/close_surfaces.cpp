@@ -24,7 +24,7 @@ Vec3 moved(const Mat4& to_world, const Vec3& p) { return Vec3(to_world * glm::dv
 Vec3 turned(const Mat4& to_world, const Vec3& n) { return glm::dmat3(to_world) * n; }
 
 // The point p on a shape, made without a ray: the float nearest to the origin of a ray may be behind the surface.
-StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, const Vec3& normal) {
+SurfacePoint point_on(const Scene& scene, std::uint32_t shape, const Vec3& p) {
     SurfacePoint nearest;
     double distance = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < scene.geometry.primitive_count(shape); ++i) {
@@ -33,7 +33,10 @@ StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, con
         distance = glm::length(point.position - p);
         nearest = point;
     }
-    return [start = Start{nearest, normal}](Random&) { return start; };
+    return nearest;
+}
+StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, const Vec3& normal) {
+    return [start = Start{point_on(scene, shape, p), normal}](Random&) { return start; };
 }
 
 // Two walls of unit height that meet at an angle a, under the sky. A point near the crease sees sin²(a/2) of it, and the other wall
@@ -85,24 +88,53 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
     measure("below it", 0.5 - gap, 2.0 * (parallel_corner(gap, 0.5, gap) + parallel_corner(1.0 - gap, 0.5, gap)));
 }
 
-constexpr double albedo_of_bodies = 0.8;
+const Surface glow = glowing(0.8, 1.0);
+const double bounce_8 = std::pow(0.8, 8);
 
-// All that shines alike is seen to be ρ^i from everywhere; what is inside of bodies is black.
-Statistic bounce_8_among(const std::vector<Shape>& bodies, const Mat4& to_world, const ProbeSettings& settings) {
-    const Surface glow = glowing(albedo_of_bodies, 1.0);
+// All that shines alike is seen to be ρ^i from everywhere; what is inside of bodies is black. The shapes 0 to 5 are the walls.
+Scene furnace_with(const std::vector<Shape>& bodies, const Mat4& to_world) {
     SceneMaker maker;
     for (const TriangleMesh& face : room({-1, -1, 0}, {1, 1, 2})) maker.add(transformed(face, to_world), glow);
     for (const Shape& body : bodies) maker.add(transformed(body, to_world).value(), glow);
-    const Scene scene = maker.make();
-    return probe(scene, at(scene, moved(to_world, {0.1, -0.7, 0}), turned(to_world, {0, 0, 1})), Technique::bsdf, settings)
-        .terms[8];
+    return maker.make();
 }
-const double bounce_8 = std::pow(albedo_of_bodies, 8);
 
 void bodies_in_furnace(Figures& figures, std::uint64_t seed, const std::vector<Shape>& bodies, const Mat4& to_world) {
-    const Statistic found = bounce_8_among(bodies, to_world, {.samples = 2048, .seed = seed});
+    const Scene scene = furnace_with(bodies, to_world);
+    const Statistic found = probe(scene, at(scene, moved(to_world, {0.1, -0.7, 0}), turned(to_world, {0, 0, 1})), Technique::bsdf,
+                                  {.samples = 2048, .seed = seed})
+                                .terms[8];
     figures.near("K^8 Le", found.mean.r, bounce_8, 64 * eps);
     figures.near("standard error", found.standard_error.r, 0.0, 0.0);
+}
+
+struct Box {
+    Vec3 low, high;
+    bool holds(const Vec3& p) const {
+        constexpr double margin = 1e-10;
+        return glm::all(glm::greaterThan(p, low - margin)) && glm::all(glm::lessThan(p, high + margin));
+    }
+};
+
+// On the faces of boxes and in none of the others, at distances from an edge that are small more often than not.
+StartPicker beside_edges(const Scene& scene, const std::vector<Box>& boxes, const Mat4& to_world) {
+    return [&](Random& random) {
+        for (;;) {
+            const auto k = std::min(static_cast<std::size_t>(random.next() * static_cast<double>(boxes.size())), boxes.size() - 1);
+            const auto axis = static_cast<glm::length_t>(3.0 * random.next()), next = (axis + 1) % 3, last = (axis + 2) % 3;
+            const bool above = random.next() < 0.5, from_high = random.next() < 0.5;
+            const double aside = 0.5 * std::pow(10.0, -6.0 * random.next());
+            Vec3 p, normal(0.0);
+            p[axis] = above ? boxes[k].high[axis] : boxes[k].low[axis];
+            p[next] = glm::mix(boxes[k].low[next], boxes[k].high[next], from_high ? 1.0 - aside : aside);
+            p[last] = glm::mix(boxes[k].low[last], boxes[k].high[last], random.next());
+            normal[axis] = above ? 1.0 : -1.0;
+            bool open = p.z > 1e-10;
+            for (std::size_t i = 0; i < boxes.size(); ++i) open = open && (i == k || !boxes[i].holds(p));
+            if (open)
+                return Start{point_on(scene, static_cast<std::uint32_t>(6 + k), moved(to_world, p)), turned(to_world, normal)};
+        }
+    };
 }
 
 // A thousand rooms with five boxes each. Their faces lie in a few common planes, or a little beside them, so that boxes touch,
@@ -110,22 +142,23 @@ void bodies_in_furnace(Figures& figures, std::uint64_t seed, const std::vector<S
 void boxes_at_random(Figures& figures, std::uint64_t seed, const Mat4& to_world) {
     constexpr double beside[] = {0.0, 0.0, 1e-6, -1e-6, 1e-9, -1e-9};
     IndependentSampler random(seed, 0);
-    const auto one_of = [&](std::size_t n) { return static_cast<std::size_t>(random.next() * static_cast<double>(n)); };
+    const auto one_of = [&](int n) { return static_cast<int>(random.next() * n); };
     int wrong = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
         random.start(i);
-        std::vector<Shape> bodies;
-        for (int k = 0; k < 5; ++k) {
-            Vec3 low, high;
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto from = static_cast<double>(one_of(5)), to = from + 1.0 + static_cast<double>(one_of(2));
-                const double first = axis == 2 ? 0.0 : -0.6;
-                low[axis] = first + 0.2 * from + beside[one_of(6)];
-                high[axis] = first + 0.2 * to + beside[one_of(6)];
+        std::vector<Box> boxes(5);
+        for (Box& b : boxes)
+            for (glm::length_t axis = 0; axis < 3; ++axis) {
+                const double from = one_of(5), to = from + 1.0 + one_of(2), first = axis == 2 ? 0.0 : -0.6;
+                b.low[axis] = first + 0.2 * from + beside[one_of(6)];
+                b.high[axis] = first + 0.2 * to + beside[one_of(6)];
             }
-            bodies.emplace_back(box(low, high));
-        }
-        const Statistic found = bounce_8_among(bodies, to_world, {.samples = 4, .seed = seed + i});
+        std::vector<Shape> bodies;
+        for (const Box& b : boxes) bodies.emplace_back(box(b.low, b.high));
+        const Scene scene = furnace_with(bodies, to_world);
+        const Statistic found = probe(scene, beside_edges(scene, boxes, to_world), Technique::bsdf,
+                                      {.samples = 8, .sampler = SamplerKind::independent, .seed = seed + i})
+                                    .terms[8];
         wrong += std::abs(found.mean.r - bounce_8) > 64 * eps || found.standard_error.r != 0.0;
     }
     figures.near("rooms of 1000 that lose light", wrong, 0.0, 0.0);
