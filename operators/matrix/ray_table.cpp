@@ -32,13 +32,13 @@ RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t se
         sobol.try_emplace(n, n);
         first_.push_back(first_.back() + n);
     }
-    seen_.resize(first_.back());
+    seen_ = make_large_array<std::uint32_t>(first_.back());
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 16),
                               [&](const auto& range) {
                                   if (watch.stop()) throw Stopped();
                                   for (std::uint32_t f = range.begin(); f < range.end(); ++f)
                                       trace_facet(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f,
-                                                  seen_.data() + first_[f]);
+                                                  seen_.get() + first_[f]);
                               });
 }
 

@@ -3,6 +3,7 @@
 // étendue area · π / rays, times n². The table depends on the seed, not on the number of threads.
 #pragma once
 
+#include "core/base/large_array.h"
 #include "operators/patches/patch_space.h"
 #include "operators/watch.h"
 
@@ -24,9 +25,9 @@ public:
     static std::uint32_t rays(const Facet& facet, std::uint32_t rays) { return std::max(rays, facet.cells.size()); }
     // The unknowns seen by the rays of a facet; PatchSpace::nothing() if a ray sees none.
     std::span<const std::uint32_t> row(std::uint32_t facet) const {
-        return {seen_.data() + first_[facet], seen_.data() + first_[facet + 1]};
+        return {seen_.get() + first_[facet], seen_.get() + first_[facet + 1]};
     }
-    std::span<const std::uint32_t> seen() const { return seen_; }
+    std::span<const std::uint32_t> seen() const { return {seen_.get(), first_.back()}; }
     // The same for the rays in the cell of directions of one unknown.
     std::span<const std::uint32_t> row_of_cell(std::uint32_t unknown) const {
         const std::uint32_t f = space_->facet_of(unknown);
@@ -50,7 +51,7 @@ public:
 private:
     const PatchSpace* space_;
     std::vector<std::size_t> first_;  // first ray of each facet, and the end
-    std::vector<std::uint32_t> seen_;
+    LargeArray<std::uint32_t> seen_;
 };
 
 }  // namespace neumann

@@ -257,11 +257,11 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
               "--methods matrix:direct=light: --direct belongs to --method walk and bidirectional, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "walk:patches=100", "--samples", "4"}),
-              "--methods walk:patches=100: --patches belongs to --method guided, matrix, gather and patches, not to walk\n");
+              "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
     EXPECT_EQ(
         refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
-        "--methods matrix:sampler=sobol: --sampler belongs to --method walk, guided, surface, light, bidirectional, classic and "
-        "pointwise, not to matrix\n");
+        "--methods matrix:sampler=sobol: --sampler belongs to --method walk, guided, corrected, surface, light, bidirectional, "
+        "classic and pointwise, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),
               "--methods patches:importance=true: ways and importance have no place in a study, which compares pictures of "
               "radiance\n");

@@ -55,8 +55,8 @@ class Render(Case):
         scene = cornell()
         loaded = trees_built()
         self.assertGreater(loaded, before)
-        few = {"patches": 100, "directions": 64}
-        for method, more in (("walk", {}), ("light", {}), ("guided", few), ("matrix", few), ("gather", few)):
+        few = {"patches": 100, "directions": 256}
+        for method, more in (("walk", {}), ("light", {}), ("guided", few), ("corrected", few), ("matrix", few), ("gather", few)):
             scene.render(bounces=1, spp=4, method=method, **more)
             scene.render(bounces=1, spp=4, method=method, **more)
         scene.plan()
