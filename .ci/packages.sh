@@ -9,6 +9,11 @@ cmake               | CMake 3.25 or later                     | cmake
 ninja-build         | Ninja                                   | ninja
 libembree-dev       | Embree 3.13 or 4                        | embree4/rtcore.h embree3/rtcore.h
 libopenimageio-dev  | OpenImageIO 2.4 or later                | OpenImageIO/imageio.h
+libopenexr-dev      | OpenEXR 3.1 or later                    | OpenEXR/ImfOutputFile.h
+libpng-dev          | libpng                                  | png.h
+libgif-dev          | giflib 5                                | gif_lib.h
+libfreetype-dev     | FreeType                                | freetype2/ft2build.h
+libdeflate-dev      | libdeflate                              | libdeflate.h
 libglm-dev          | GLM                                     | glm/glm.hpp
 libtbb-dev          | oneTBB 2021 or later                    | tbb/parallel_for.h
 libpugixml-dev      | pugixml                                 | pugixml.hpp

@@ -6,7 +6,7 @@ set(packaging ${PROJECT_SOURCE_DIR}/apps/packaging)
 set(scenes ${CMAKE_INSTALL_DATADIR}/neumann/scenes)
 
 install(TARGETS neumann RUNTIME COMPONENT program)
-install(TARGETS neumann_pictures LIBRARY DESTINATION ${NEUMANN_MODULES} COMPONENT pictures)
+install(TARGETS neumann_read_pictures neumann_write_pictures LIBRARY DESTINATION ${NEUMANN_MODULES} COMPONENT pictures)
 install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libneumann-pictures COMPONENT pictures)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/ DESTINATION ${scenes} COMPONENT program)
 install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
@@ -75,7 +75,7 @@ set(CPACK_DEBIAN_PICTURES_PACKAGE_NAME libneumann-pictures)
 set(CPACK_DEBIAN_PICTURES_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_PICTURES_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PICTURES_DESCRIPTION "pictures of neumann as files
- The part of neumann that reads and writes pictures. It is loaded when it is
+ The parts of neumann that read and write pictures. Each is loaded when it is
  first needed, so that all else starts at once.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libneumann-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

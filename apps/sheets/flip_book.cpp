@@ -12,7 +12,7 @@ namespace neumann {
 namespace {
 
 constexpr int longest_side = 512, longest_enlarged = 320, flip_label_size = 18;
-constexpr double seconds_to_spare = 6.0;
+constexpr double seconds_to_spare = 0.6;
 constexpr int hundredths_a_page = 67;
 
 std::vector<std::string> compressed(std::span<const DisplayImage> frames) {
@@ -24,7 +24,7 @@ std::vector<std::string> compressed(std::span<const DisplayImage> frames) {
 }  // namespace
 
 double affordable_scale(int width, int height, std::size_t pictures, double seconds) {
-    constexpr double pixels_a_second = 1e6;  // compressed per core
+    constexpr double pixels_a_second = 1e7;  // compressed per core
     return std::sqrt(seconds * pixels_a_second / (static_cast<double>(width) * height * static_cast<double>(pictures)));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t last_in_strip = 6;
 constexpr int slide_width = 1920, largest_picture = 480, strip_label_size = 20;
-constexpr double gif_seconds = 0.6;
+constexpr double gif_seconds = 0.06;
 
 // The power of two by which to brighten a term.
 double brightening(const Image& term, const Image& emission, double exposure) {

@@ -1,6 +1,7 @@
 #include "core/image/display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,11 +9,39 @@ namespace neumann {
 namespace {
 
 // IEC 61966-2-1.
-std::uint8_t srgb_byte(double linear) {
-    const double v = std::clamp(linear, 0.0, 1.0);
-    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+int srgb_byte(double linear) {
+    const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    return static_cast<int>(std::lround(255.0 * encoded));
 }
+
+// The same by a table, since the power takes longer than all else that is done with a pixel.
+class SrgbTable {
+public:
+    SrgbTable() {
+        for (int byte = 1; byte < 256; ++byte) {
+            const double encoded = (byte - 0.5) / 255.0;
+            double x = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+            while (srgb_byte(x) >= byte) x = std::nextafter(x, 0.0);
+            while (srgb_byte(x) < byte) x = std::nextafter(x, 1.0);
+            least_[static_cast<std::size_t>(byte)] = x;
+        }
+        for (int k = 0; k < steps; ++k)
+            first_[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(srgb_byte(static_cast<double>(k) / steps));
+    }
+
+    std::uint8_t operator()(double linear) const {
+        if (!(linear > 0.0)) return 0;
+        if (linear >= 1.0) return 255;
+        const std::uint8_t byte = first_[static_cast<std::size_t>(linear * steps)];
+        return byte < 255 && linear >= least_[byte + 1u] ? static_cast<std::uint8_t>(byte + 1) : byte;
+    }
+
+private:
+    // A step is 1/4096 long, and no byte is so short: the shortest is 1/(255 · 12.92).
+    static constexpr int steps = 4096;
+    std::array<std::uint8_t, steps> first_{};  // byte of k / steps
+    std::array<double, 256> least_{};          // the least value of each byte
+};
 
 }  // namespace
 
@@ -47,11 +76,12 @@ double exposure_for(const Image& sum, const Image& emission) {
 }
 
 DisplayImage to_display(const Image& picture, double exposure) {
+    static const SrgbTable srgb;
     DisplayImage out(picture.width, picture.height, 0);
     auto byte = out.bytes.begin();
     for (const Rgb& pixel : picture.pixels) {
         const Rgb shown = is_finite(pixel) ? pixel * exposure : Rgb(1.0, 0.0, 1.0);
-        for (int c = 0; c < 3; ++c) *byte++ = srgb_byte(shown[c]);
+        for (int c = 0; c < 3; ++c) *byte++ = srgb(shown[c]);
     }
     return out;
 }

@@ -1,5 +1,5 @@
-// Animated GIFs put together from single ones. OpenImageIO compresses frames one after another, and some of its versions ignore the
-// frame rate asked for; so each frame is compressed as a GIF of its own (encode_gif), and the frames are joined here.
+// Animated GIFs put together from single ones. Each frame is compressed as a GIF of its own (encode_gif), in parallel and once for
+// all of the GIFs that it is part of, and the frames are joined here.
 #pragma once
 
 #include <span>

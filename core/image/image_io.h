@@ -1,5 +1,5 @@
-// Picture files, and text on pictures: everything that OpenImageIO does for the program. Files are encoded in memory, so the code
-// that writes them to the disk sees every failure.
+// Picture files, and text on pictures. Files are encoded in memory, so the code that writes them to the disk sees every failure. All
+// functions may be called from several threads at once.
 #pragma once
 
 #include "core/image/display.h"
@@ -15,7 +15,7 @@
 
 namespace neumann {
 
-// Loads what reads and writes pictures, as all of these do when first called. Throws RunError where it is not there.
+// Loads what writes pictures, as all of these do when first called. Throws RunError where it is not there.
 void expect_pictures();
 
 // What an EXR header says beside the picture: "neumann:bounce" and the like. Whole numbers beyond 32 bits, which OpenEXR does not
@@ -31,7 +31,7 @@ std::string encode_exr(const PixelEstimate& picture, const Attributes& attribute
 // A PNG file with 8 bits a channel.
 std::string encode_png(const DisplayImage& picture);
 
-// A GIF file of 256 colours of its own, dithered: a frame for join_gif_frames().
+// A GIF file of 256 colours of its own, dithered (indexed_image.h): a frame for join_gif_frames().
 std::string encode_gif(const DisplayImage& picture);
 
 // A picture (OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP, TGA), values as they are in the file (8-bit ones scaled to
@@ -50,7 +50,7 @@ std::optional<std::string> find_label_font();
 // How wide a text is, in pixels.
 int text_width(const std::string& text, int font_size, const std::string& font);
 
-// Draws ASCII text (OpenImageIO 2.4 draws no other) in a grey level, its baseline beginning at (x, y).
+// Draws ASCII text in a grey level, its baseline beginning at (x, y).
 void draw_text(DisplayImage& picture, int x, int y, const std::string& text, int font_size, const std::string& font,
                std::uint8_t grey = 255);
 

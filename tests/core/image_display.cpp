@@ -3,6 +3,7 @@
 #include "core/image/resize.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -48,6 +49,22 @@ TEST(ImageDisplay, TransferFunctionIsSrgb) {
     picture.pixels = {Rgb(0.0, 0.001, 0.0031308), Rgb(0.1, 0.214041, 0.5), Rgb(1.0, 7.0, -1.0), Rgb(0.0, std::nan(""), 0.0)};
     const std::vector<std::uint8_t> expected = {0, 3, 10, 89, 127, 188, 255, 255, 0, 255, 0, 255};
     EXPECT_EQ(to_display(picture, 1.0).bytes, expected);
+}
+
+// By a table, and yet each value has the byte of the formula.
+TEST(ImageDisplay, EveryValueHasTheByteOfTheFormula) {
+    constexpr int steps = 200'000;
+    Image picture(steps, 1);
+    for (int i = 0; i < steps; ++i) {
+        const double x = (i + 0.5) / steps;
+        picture.pixels[static_cast<std::size_t>(i)] = Rgb(x, 0.01 * x, std::pow(x, 8));
+    }
+    const DisplayImage shown = to_display(picture, 1.0);
+    for (std::size_t i = 0; i < shown.bytes.size(); ++i) {
+        const double x = picture.pixels[i / 3][static_cast<int>(i % 3)];
+        const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+        ASSERT_EQ(shown.bytes[i], std::lround(255.0 * encoded)) << x;
+    }
 }
 
 TEST(ImageDisplay, PastingOutsideIsRefused) {

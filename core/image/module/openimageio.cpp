@@ -1,5 +1,4 @@
-// All that knows OpenImageIO: the functions of core/image/image_io.h, as a module that is loaded when a picture is first read or
-// written.
+// All that knows OpenImageIO, which reads pictures for core/image/image_io.h: a module that is loaded when a picture is first read.
 #include "core/image/module/picture_codec.h"
 
 #include "core/base/error.h"
@@ -11,20 +10,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <stdexcept>
 #include <system_error>
 
 namespace neumann {
@@ -34,40 +28,6 @@ constexpr std::array<const char*, 3> mean_channels = {"R", "G", "B"};
 constexpr std::array<const char*, 3> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
 constexpr std::array<const char*, 3> spread_channels = {"spread.R", "spread.G", "spread.B"};
 constexpr std::array<const char*, 3> discretisation_channels = {"discretisation.R", "discretisation.G", "discretisation.B"};
-
-std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const auto output = OIIO::ImageOutput::create(format);
-    if (!output || output->supports("ioproxy") == 0)
-        throw RunError(fmt::format("this OpenImageIO cannot write {} to memory", format));
-    const std::string name = std::string("memory.") + format;
-    if (!output->set_ioproxy(&memory) || !output->open(name, spec) || !output->write_image(type, pixels) || !output->close()) {
-        throw RunError(fmt::format("OpenImageIO cannot write {}: {}", format, output->geterror()));
-    }
-    return {bytes.begin(), bytes.end()};
-}
-
-OIIO::ImageSpec display_spec(const DisplayImage& picture) { return {picture.width, picture.height, 3, OIIO::TypeDesc::UINT8}; }
-
-void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const Attribute& value) {
-    if (const auto* text = std::get_if<std::string>(&value)) {
-        spec.attribute(name, *text);
-    } else if (const auto* real = std::get_if<double>(&value)) {
-        spec.attribute(name, OIIO::TypeDesc::DOUBLE, real);
-    } else {
-        const std::int64_t whole = std::get<std::int64_t>(value);
-        constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
-        if (whole >= std::numeric_limits<int>::min() && whole <= std::numeric_limits<int>::max()) {
-            spec.attribute(name, static_cast<int>(whole));
-        } else if (std::abs(whole) <= exact_in_double) {
-            const auto rounded = static_cast<double>(whole);
-            spec.attribute(name, OIIO::TypeDesc::DOUBLE, &rounded);
-        } else {
-            spec.attribute(name, std::to_string(whole));
-        }
-    }
-}
 
 void get_attributes(const OIIO::ImageSpec& spec, Attributes& attributes) {
     for (const auto& entry : spec.extra_attribs) {
@@ -198,46 +158,6 @@ std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path)
 
 namespace openimageio {
 
-std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
-    struct Layer {
-        const Image* image;
-        const std::array<const char*, 3>* channels;
-    };
-    std::vector<Layer> layers{{&picture.mean, &mean_channels}};
-    const Image errors = picture.pixel_errors();
-    if (!errors.pixels.empty()) layers.push_back({&errors, &error_channels});
-    if (errors.pixels != picture.standard_error.pixels) layers.push_back({&picture.standard_error, &spread_channels});
-    if (!picture.discretisation.pixels.empty()) layers.push_back({&picture.discretisation, &discretisation_channels});
-    const int width = picture.mean.width, height = picture.mean.height;
-    OIIO::ImageSpec spec(width, height, 3 * static_cast<int>(layers.size()), OIIO::TypeDesc::FLOAT);
-    spec.channelnames.clear();
-    for (const Layer& layer : layers) {
-        if (layer.image->pixels.empty() || layer.image->width != width || layer.image->height != height)
-            throw std::invalid_argument("encode_exr: an empty picture, or errors of another size");
-        spec.channelnames.insert(spec.channelnames.end(), layer.channels->begin(), layer.channels->end());
-    }
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "");  // not the present time: the same pictures are the same bytes
-    for (const auto& [name, value] : attributes) set_attribute(spec, name, value);
-
-    std::vector<float> values;
-    values.reserve(picture.mean.pixels.size() * static_cast<std::size_t>(spec.nchannels));
-    for (std::size_t i = 0; i < picture.mean.pixels.size(); ++i)
-        for (const Layer& layer : layers)
-            for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(layer.image->pixels[i][c]));
-    return encode("exr", spec, OIIO::TypeDesc::FLOAT, values.data());
-}
-
-std::string encode_png(const DisplayImage& picture) {
-    OIIO::ImageSpec spec = display_spec(picture);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    return encode("png", spec, OIIO::TypeDesc::UINT8, picture.bytes.data());
-}
-
-std::string encode_gif(const DisplayImage& picture) {
-    return encode("gif", display_spec(picture), OIIO::TypeDesc::UINT8, picture.bytes.data());
-}
-
 PixelEstimate read_exr(const std::string& path, Attributes* attributes) {
     const auto input = open_picture(path);
     const OIIO::ImageSpec spec = input->spec();
@@ -279,41 +199,11 @@ Texels read_texels(const std::string& path) {
     return texels;
 }
 
-std::optional<std::string> find_label_font() {
-    // Debian and Ubuntu, Fedora, Arch, and wherever OpenImageIO looks.
-    const std::array<std::string, 4> fonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                              "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                              "/usr/share/fonts/TTF/DejaVuSans.ttf", "DejaVuSans"};
-    const auto found =
-        std::find_if(fonts.begin(), fonts.end(), [](const std::string& font) { return text_width("0", 16, font) > 0; });
-    OIIO::geterror();  // of the fonts that are not there; it would be printed at exit
-    return found != fonts.end() ? std::optional(*found) : std::nullopt;
-}
-
-int text_width(const std::string& text, int font_size, const std::string& font) {
-    const OIIO::ROI size = OIIO::ImageBufAlgo::text_size(text, font_size, font);
-    return size.defined() ? size.width() : 0;
-}
-
-void draw_text(DisplayImage& picture, int x, int y, const std::string& text, int font_size, const std::string& font,
-               std::uint8_t grey) {
-    if (text.empty()) return;
-    OIIO::ImageBuf buffer(display_spec(picture));
-    buffer.set_pixels(OIIO::ROI(), OIIO::TypeDesc::UINT8, picture.bytes.data());
-    const float level = static_cast<float>(grey) / 255.0F;
-    const std::array<float, 3> colour = {level, level, level};
-    if (!OIIO::ImageBufAlgo::render_text(buffer, x, y, text, font_size, font, colour) ||
-        !buffer.get_pixels(OIIO::ROI(), OIIO::TypeDesc::UINT8, picture.bytes.data())) {
-        throw RunError(fmt::format("OpenImageIO cannot draw text with {}: {}", font, buffer.geterror()));
-    }
-}
-
 }  // namespace openimageio
 }  // namespace neumann
 
-extern "C" const neumann::PictureCodec* neumann_picture_codec() {
+extern "C" const neumann::PictureReader* neumann_picture_reader() {
     using namespace neumann::openimageio;
-    static const neumann::PictureCodec codec{encode_exr,  encode_png,      encode_gif, read_exr,
-                                             read_texels, find_label_font, text_width, draw_text};
-    return &codec;
+    static const neumann::PictureReader reader{read_exr, read_texels};
+    return &reader;
 }

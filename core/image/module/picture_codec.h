@@ -1,16 +1,19 @@
-// What the module of pictures offers: the functions of image_io.h.
+// What the modules of pictures offer: the functions of image_io.h.
 #pragma once
 
 #include "core/image/image_io.h"
 
 namespace neumann {
 
-struct PictureCodec {
+struct PictureReader {
+    decltype(&neumann::read_exr) read_exr;
+    decltype(&neumann::read_texels) read_texels;
+};
+
+struct PictureWriter {
     decltype(&neumann::encode_exr) encode_exr;
     decltype(&neumann::encode_png) encode_png;
     decltype(&neumann::encode_gif) encode_gif;
-    decltype(&neumann::read_exr) read_exr;
-    decltype(&neumann::read_texels) read_texels;
     decltype(&neumann::find_label_font) find_label_font;
     decltype(&neumann::text_width) text_width;
     decltype(&neumann::draw_text) draw_text;
@@ -18,4 +21,5 @@ struct PictureCodec {
 
 }  // namespace neumann
 
-extern "C" const neumann::PictureCodec* neumann_picture_codec();
+extern "C" const neumann::PictureReader* neumann_picture_reader();
+extern "C" const neumann::PictureWriter* neumann_picture_writer();

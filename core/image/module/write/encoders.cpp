@@ -1,0 +1,9 @@
+#include "core/image/module/write/encoders.h"
+
+#include "core/image/module/picture_codec.h"
+
+extern "C" const neumann::PictureWriter* neumann_picture_writer() {
+    using namespace neumann::encoders;
+    static const neumann::PictureWriter writer{encode_exr, encode_png, encode_gif, find_label_font, text_width, draw_text};
+    return &writer;
+}

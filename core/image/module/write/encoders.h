@@ -1,0 +1,17 @@
+// Writes pictures and text on pictures: the functions of image_io.h, each by the library of its format. Unlike OpenImageIO, which
+// reads, they load in some milliseconds.
+#pragma once
+
+#include "core/image/image_io.h"
+
+namespace neumann::encoders {
+
+std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes);
+std::string encode_png(const DisplayImage& picture);
+std::string encode_gif(const DisplayImage& picture);
+std::optional<std::string> find_label_font();
+int text_width(const std::string& text, int font_size, const std::string& font);
+void draw_text(DisplayImage& picture, int x, int y, const std::string& text, int font_size, const std::string& font,
+               std::uint8_t grey);
+
+}  // namespace neumann::encoders

@@ -1,0 +1,128 @@
+// OpenEXR files, by OpenEXR.
+#include "core/image/module/write/encoders.h"
+
+#include "core/base/error.h"
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+namespace neumann::encoders {
+
+namespace {
+
+class Memory : public Imf::OStream {
+public:
+    Memory() : OStream("memory") {}
+
+    void write(const char* bytes, int count) override {
+        const auto size = static_cast<std::size_t>(count), over = std::min(size, bytes_.size() - place_);
+        bytes_.replace(place_, over, bytes, over);
+        bytes_.append(bytes + over, size - over);
+        place_ += size;
+    }
+    std::uint64_t tellp() override { return place_; }
+    void seekp(std::uint64_t place) override { place_ = place; }
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+    std::string take() { return std::move(bytes_); }
+
+private:
+    std::string bytes_;
+    std::size_t place_ = 0;
+};
+
+struct Layer {
+    const char* prefix;
+    const Image* image;
+};
+
+std::string channel(const Layer& layer, int component) { return layer.prefix + std::string(1, "RGB"[component]); }
+
+// Rows of all layers as floats, one channel after another.
+Imf::FrameBuffer floats(const std::vector<Layer>& layers, int y, int rows, float* to) {
+    Imf::FrameBuffer buffer;
+    for (const Layer& layer : layers) {
+        const int width = layer.image->width;
+        const auto first = static_cast<std::ptrdiff_t>(y) * width, count = static_cast<std::ptrdiff_t>(rows) * width;
+        for (int c = 0; c < 3; ++c, to += count) {
+            for (std::ptrdiff_t i = 0; i < count; ++i)
+                to[i] = static_cast<float>(layer.image->pixels[static_cast<std::size_t>(first + i)][c]);
+            buffer.insert(channel(layer, c), Imf::Slice::Make(Imf::FLOAT, to, Imath::V2i(0, y), width, rows));
+        }
+    }
+    return buffer;
+}
+
+void set_attribute(Imf::Header& header, const std::string& name, const Attribute& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        header.insert(name, Imf::StringAttribute(*text));
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        header.insert(name, Imf::DoubleAttribute(*real));
+    } else {
+        const std::int64_t whole = std::get<std::int64_t>(value);
+        constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
+        if (whole >= std::numeric_limits<int>::min() && whole <= std::numeric_limits<int>::max())
+            header.insert(name, Imf::IntAttribute(static_cast<int>(whole)));
+        else if (std::abs(whole) <= exact_in_double)
+            header.insert(name, Imf::DoubleAttribute(static_cast<double>(whole)));
+        else
+            header.insert(name, Imf::StringAttribute(std::to_string(whole)));
+    }
+}
+
+}  // namespace
+
+// By run lengths: most bits of a picture with errors are noise, so that zip makes 0.78 of it and run lengths 0.81, in a tenth of
+// the time.
+std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
+    std::vector<Layer> layers{{"", &picture.mean}};
+    const Image raised = picture.least_error.pixels.empty() ? Image() : picture.pixel_errors();
+    const bool is_raised = !raised.pixels.empty() && raised.pixels != picture.standard_error.pixels;
+    if (!picture.standard_error.pixels.empty()) layers.push_back({"stderr.", is_raised ? &raised : &picture.standard_error});
+    if (is_raised) layers.push_back({"spread.", &picture.standard_error});
+    if (!picture.discretisation.pixels.empty()) layers.push_back({"discretisation.", &picture.discretisation});
+    const int width = picture.mean.width, height = picture.mean.height;
+    Imf::Header header(std::max(1, width), std::max(1, height));
+    header.compression() = Imf::RLE_COMPRESSION;
+    for (const auto& [name, value] : attributes) set_attribute(header, name, value);
+
+    for (const Layer& layer : layers) {
+        if (layer.image->pixels.empty() || layer.image->width != width || layer.image->height != height)
+            throw std::invalid_argument("encode_exr: an empty picture, or errors of another size");
+        for (int c = 0; c < 3; ++c) header.channels().insert(channel(layer, c), Imf::Channel(Imf::FLOAT));
+    }
+    try {
+        Memory memory;
+        memory.reserve(3 * layers.size() * picture.mean.pixels.size() * sizeof(float) + 16 * static_cast<std::size_t>(height) +
+                       0x4000);
+        {
+            Imf::OutputFile file(memory, header, 0);
+            constexpr int rows_at_once = 16;  // as floats, they stay in the cache
+            std::vector<float> values(3 * layers.size() * rows_at_once * static_cast<std::size_t>(width));
+            for (int y = 0; y < height; y += rows_at_once) {
+                const int rows = std::min(rows_at_once, height - y);
+                file.setFrameBuffer(floats(layers, y, rows, values.data()));
+                file.writePixels(rows);
+            }
+        }
+        return memory.take();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw RunError(fmt::format("OpenEXR cannot write a picture of {}×{}: {}", width, height, error.what()));
+    }
+}
+
+}  // namespace neumann::encoders
