@@ -116,7 +116,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
         series.means_of_rest = pictures->means_of_rest();
         series.limit = [pictures] { return pictures->sum(pictures->bounces() + 1); };
     }
-    series.report = report_series(job.scene, *pictures);
+    series.report = report_series(job.scene, *pictures, run.discretisation);
     series.convergence = run.convergence;
     series.outcome = run.outcome;
     series.samples = pictures->samples;

@@ -49,11 +49,16 @@ FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::ve
     checkpoint.samples = run.pictures.samples;
     checkpoint.rays = std::accumulate(run.pictures.rays.begin(), run.pictures.rays.end(), std::uint64_t{0});
     checkpoint.seconds = seconds;
+    const auto judge = [&](const Estimate& picture) {
+        const PictureError error = picture_error(picture);
+        run.discretisation.push_back(report_discretisation(picture, error));
+        return error;
+    };
     for (std::size_t i = 0; i <= run.pictures.bounces(); ++i) {
-        run.term_errors.push_back(picture_error(run.pictures.term(i)));
+        run.term_errors.push_back(judge(run.pictures.term(i)));
         checkpoint.term_error.push_back(run.term_errors.back().all());
     }
-    checkpoint.sum_error = picture_error(run.pictures.sum(run.pictures.bounces())).all();
+    checkpoint.sum_error = judge(run.pictures.sum(run.pictures.bounces())).all();
     run.convergence.push_back(std::move(checkpoint));
     return run;
 }

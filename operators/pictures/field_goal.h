@@ -21,9 +21,10 @@ struct FieldGoal {
 
 struct FieldRun {
     FieldPictures pictures;
-    FieldSettings settings;                 // with which the pictures were made
-    std::vector<Checkpoint> convergence;    // one for each render
-    std::vector<PictureError> term_errors;  // of the pictures
+    FieldSettings settings;                                 // with which the pictures were made
+    std::vector<Checkpoint> convergence;                    // one for each render
+    std::vector<PictureError> term_errors;                  // of the pictures
+    std::vector<DiscretisationReport> discretisation = {};  // of the terms, and of their sum as the last
     Outcome outcome = Outcome::samples_reached;
     double seconds = 0.0;
     std::string why = {};  // why the search ended without reaching the error, in words

@@ -53,29 +53,33 @@ FieldPictures::FieldPictures(const Film& film, const FieldSettings& settings)
       means_(make_large_array<float>(3 * quantities_ * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_))) {}
 
 Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
-    const Image black(width_, height_);
-    Estimate result{black, black, replicates_ - 1.0, black, false};
+    const auto black = [&] { return Image(width_, height_); };
+    Estimate result{black(), black(), replicates_ - 1.0, black(), false};
+    const std::size_t pixels = result.mean.pixels.size();
     const auto n = static_cast<double>(replicates_);
-    oneapi::tbb::parallel_for(std::size_t{0}, black.pixels.size(), [&](std::size_t pixel) {
-        const auto value = [&](std::size_t replicate) {
-            const float* v = values_.get() + pixel * stride_ + 3 * quantities_ * replicate;
-            Rgb sum(0.0);
-            for (std::size_t q = first; q <= last; ++q) sum += Rgb(v[3 * q], v[3 * q + 1], v[3 * q + 2]);
-            return sum;
-        };
-        Rgb sum(0.0), squares(0.0);
-        for (std::uint32_t r = 0; r < replicates_; ++r) sum += value(r);
-        const Rgb mean = sum / n;
-        for (std::uint32_t r = 0; r < replicates_; ++r) squares += (value(r) - mean) * (value(r) - mean);
-        Rgb least(0.0);
-        for (std::size_t q = first; q <= last; ++q) {
-            const float* const m = means_.get() + 3 * (q * black.pixels.size() + pixel);
-            least += resolution_.in_pixel(q) * glm::abs(Rgb(m[0], m[1], m[2]));
+    const auto value = [&](std::size_t pixel, std::size_t replicate) {
+        const float* v = values_.get() + pixel * stride_ + 3 * quantities_ * replicate;
+        Rgb sum(0.0);
+        for (std::size_t q = first; q <= last; ++q) sum += Rgb(v[3 * q], v[3 * q + 1], v[3 * q + 2]);
+        return sum;
+    };
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
+        std::vector<Rgb> found(replicates_);
+        for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+            Rgb sum(0.0), squares(0.0);
+            for (std::uint32_t r = 0; r < replicates_; ++r) sum += found[r] = value(pixel, r);
+            const Rgb mean = sum / n;
+            for (const Rgb& x : found) squares += (x - mean) * (x - mean);
+            Rgb least(0.0);
+            for (std::size_t q = first; q <= last; ++q) {
+                const float* const m = means_.get() + 3 * (q * pixels + pixel);
+                least += resolution_.in_pixel(q) * glm::abs(Rgb(m[0], m[1], m[2]));
+            }
+            result.mean.pixels[pixel] = mean;
+            result.standard_error.pixels[pixel] = replicates_ > 1 ? glm::max(glm::sqrt(squares / (n * (n - 1.0))), least)
+                                                                  : Rgb(std::numeric_limits<double>::infinity());
+            result.discretisation.pixels[pixel] = glm::abs(value(pixel, replicates_));
         }
-        result.mean.pixels[pixel] = mean;
-        result.standard_error.pixels[pixel] =
-            replicates_ > 1 ? glm::max(glm::sqrt(squares / (n * (n - 1.0))), least) : Rgb(std::numeric_limits<double>::infinity());
-        result.discretisation.pixels[pixel] = glm::abs(value(replicates_));
     });
     return result;
 }
@@ -260,6 +264,20 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
 PictureError picture_error(const Estimate& picture) {
     const double sampling = relative_standard_error(picture), difference = relative_discretisation(picture);
     return {sampling, std::sqrt(std::max(difference * difference - sampling * sampling, 0.0))};
+}
+
+DiscretisationReport report_discretisation(const Estimate& picture, const PictureError& of_picture) {
+    DiscretisationReport report;
+    const Image& error = picture.discretisation;
+    for (std::size_t i = 0; i < error.pixels.size(); ++i) {
+        report.mean += mean_component(error.pixels[i]) / static_cast<double>(error.pixels.size());
+        if (max_component(error.pixels[i]) <= report.worst) continue;
+        report.worst = max_component(error.pixels[i]);
+        report.worst_x = static_cast<int>(i) % error.width;
+        report.worst_y = static_cast<int>(i) / error.width;
+    }
+    report.relative = of_picture.discretisation;
+    return report;
 }
 
 }  // namespace neumann

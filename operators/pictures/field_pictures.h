@@ -106,4 +106,12 @@ struct PictureError {
 };
 PictureError picture_error(const Estimate& picture);
 
+// The estimated discretisation error.
+struct DiscretisationReport {
+    double mean = 0.0, worst = 0.0;  // of the error, over pixels and channels, radiance
+    int worst_x = 0, worst_y = 0;    // where the worst is
+    double relative = 0.0;           // √(Σ error² / Σ mean²), with the part from noise subtracted
+};
+DiscretisationReport report_discretisation(const Estimate& picture, const PictureError& error);
+
 }  // namespace neumann

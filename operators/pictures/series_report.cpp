@@ -52,25 +52,8 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
     return report;
 }
 
-namespace {
-
-DiscretisationReport report_discretisation(const Estimate& picture) {
-    DiscretisationReport report;
-    const Image& error = picture.discretisation;
-    for (std::size_t i = 0; i < error.pixels.size(); ++i) {
-        report.mean += mean_component(error.pixels[i]) / static_cast<double>(error.pixels.size());
-        if (max_component(error.pixels[i]) <= report.worst) continue;
-        report.worst = max_component(error.pixels[i]);
-        report.worst_x = static_cast<int>(i) % error.width;
-        report.worst_y = static_cast<int>(i) / error.width;
-    }
-    report.relative = picture_error(picture).discretisation;
-    return report;
-}
-
-}  // namespace
-
-SeriesReport report_series(const Scene& scene, const FieldPictures& series) {
+SeriesReport report_series(const Scene& scene, const FieldPictures& series,
+                           const std::vector<DiscretisationReport>& discretisation) {
     SeriesReport report;
     report.importance = series.importance;
     const double seconds = series.field_seconds + series.picture_seconds;
@@ -84,11 +67,11 @@ SeriesReport report_series(const Scene& scene, const FieldPictures& series) {
                            : tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
         bounce.rays = series.rays[i];
         bounce.seconds = seconds * static_cast<double>(bounce.rays) / all_rays;
-        bounce.discretisation = report_discretisation(series.term(i));
+        bounce.discretisation = discretisation[i];
         report.bounces.push_back(bounce);
     }
     report.sum = series.mean_of_sum(series.bounces());
-    report.sum_discretisation = report_discretisation(series.sum(series.bounces()));
+    report.sum_discretisation = discretisation.back();
     report.rest = series.mean_of_rest();
     report.rest_verdict = series.rest_converges ? RestVerdict::measured : RestVerdict::not_converging;
     return report;

@@ -10,13 +10,6 @@
 
 namespace neumann {
 
-// The estimated discretisation error.
-struct DiscretisationReport {
-    double mean = 0.0, worst = 0.0;  // of the error, over pixels and channels, radiance
-    int worst_x = 0, worst_y = 0;    // where the worst is
-    double relative = 0.0;           // √(Σ error² / Σ mean²), with the part from noise subtracted
-};
-
 struct BounceReport {
     MeanWithError mean;              // radiance of K^i Le, over pixels and channels
     std::optional<double> ratio;     // mean divided by that of the previous bounce, an estimate; none if the previous mean is zero
@@ -55,6 +48,8 @@ struct SeriesReport {
 };
 
 SeriesReport report_series(const Scene& scene, const RenderedSeries& series, RestVerdict rest_verdict);
-SeriesReport report_series(const Scene& scene, const FieldPictures& series);
+// `discretisation`: of the terms, and of their sum as the last.
+SeriesReport report_series(const Scene& scene, const FieldPictures& series,
+                           const std::vector<DiscretisationReport>& discretisation);
 
 }  // namespace neumann

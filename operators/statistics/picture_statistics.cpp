@@ -43,6 +43,19 @@ MeanWithError mean_of(const Estimate& estimate, const Value& value) {
     return {mean, largest_error * std::sqrt(variance) / static_cast<double>(n), df * variance * variance / variance2};
 }
 
+// √(Σ error² / Σ mean²)
+double relative_size(const Image& errors_of, const Image& picture) {
+    const double scale = largest(picture);
+    if (scale == 0.0) return 0.0;
+    double errors = 0.0, means = 0.0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const Rgb mean = picture.pixels[i] / scale, error = errors_of.pixels[i] / scale;
+        errors += glm::dot(error, error);
+        means += glm::dot(mean, mean);
+    }
+    return root_of_ratio(errors, means);
+}
+
 }  // namespace
 
 double MeanWithError::interval() const {
@@ -65,20 +78,10 @@ MeanWithError difference(const MeanWithError& a, const MeanWithError& b) {
     return {a.mean - b.mean, error, 1.0 / (share_a / a.degrees_of_freedom + share_b / b.degrees_of_freedom)};
 }
 
-double relative_standard_error(const Estimate& estimate) {
-    const double scale = largest(estimate.mean);
-    if (scale == 0.0) return 0.0;
-    double errors = 0.0, means = 0.0;
-    for (std::size_t i = 0; i < estimate.mean.pixels.size(); ++i) {
-        const Rgb mean = estimate.mean.pixels[i] / scale, error = estimate.standard_error.pixels[i] / scale;
-        errors += glm::dot(error, error);
-        means += glm::dot(mean, mean);
-    }
-    return root_of_ratio(errors, means);
-}
+double relative_standard_error(const Estimate& estimate) { return relative_size(estimate.standard_error, estimate.mean); }
 
 double relative_discretisation(const Estimate& estimate) {
-    return estimate.discretisation.pixels.empty() ? 0.0 : relative_standard_error({estimate.mean, estimate.discretisation});
+    return estimate.discretisation.pixels.empty() ? 0.0 : relative_size(estimate.discretisation, estimate.mean);
 }
 
 double relative_error(const Image& test, const Image& reference) {
