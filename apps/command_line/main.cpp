@@ -4,11 +4,13 @@
 #include "core/base/error.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -42,9 +44,18 @@ const CLI::App& find(const CLI::App& app, const std::string& name) {
     throw neumann::InputError(fmt::format("no command is called '{}'; there are {}", name, names));
 }
 
+// Memory that was taken is kept for what is next: pictures come and go, and on virtual machines the first touch of a page takes
+// longer than filling it.
+void keep_memory() {
+    constexpr int largest_threshold = 32 << 20;  // glibc takes no larger one
+    mallopt(M_MMAP_THRESHOLD, largest_threshold);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
+    keep_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
     CLI::App app("makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors");
     app.name("neumann");

@@ -35,6 +35,10 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->add_option("--reference", request.reference,
                      "Folder of an earlier render; convergence.csv then also has the errors against it")
         ->type_name("DIR");
+    render->add_option("--files", request.files, "What is written beside run.json; default all of these")
+        ->type_name("pictures,tables,sheets,strips,page")
+        ->delimiter(',')
+        ->check(CLI::IsMember(file_groups()));
     add_seed(*render, request.goal.seed);
     add_threads(*render, request.threads);
     add_definitions(*render, request.definition_texts);

@@ -100,14 +100,15 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
     }
     BounceSeries series = render(*scene, make_method(request.method), goal, watch);
     if (reference) warn_of_reference(request.reference, series, series.warnings);
-    return std::make_shared<Rendering>(
-        Rendering{request.scene, request.command_line, request.definitions, std::move(scene), std::move(series), clock.seconds()});
+    return std::make_shared<Rendering>(Rendering{request.scene, request.command_line, request.definitions, std::move(scene),
+                                                 std::move(series), clock.seconds(), choose_files(request.files)});
 }
 
 int render_command(const RenderRequest& given) {
     RenderRequest request = given;
     request.definitions = parse_definitions(request.definition_texts);
     const bool fields = has_fields(make_method(request.method));  // refuses what does not go together, before the scene is read
+    const ChosenFiles files = choose_files(request.files);
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
     std::error_code missing;
@@ -126,7 +127,7 @@ int render_command(const RenderRequest& given) {
     watch.progress = [&](const RenderProgress& so_far) { line.show(so_far); };
     watch.chosen = [&](int bounces) {
         expect_pictures();  // before anything is sampled
-        folder->expect_space(estimated_bytes(scene->film, bounces, fields));
+        folder->expect_space(estimated_bytes(scene->film, bounces, fields, files));
     };
     watch.tell = [&](const std::string& text) {
         if (!request.quiet) fmt::print(stderr, "{}\n", text);

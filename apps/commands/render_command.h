@@ -14,9 +14,10 @@ struct RenderRequest {
     std::string output;                              // a folder; empty: out/NAME
     MethodText method;
     Goal goal;
-    std::optional<double> memory;  // GiB
-    std::string reference;         // a folder of an earlier render, or empty
-    int threads = 0;               // 0: all
+    std::optional<double> memory;                    // GiB
+    std::vector<std::string> files = file_groups();  // those that are written beside run.json
+    std::string reference;                           // a folder of an earlier render, or empty
+    int threads = 0;                                 // 0: all
     bool quiet = false;
     bool json = false;
     std::string command_line;  // as typed, for run.json

@@ -174,7 +174,10 @@ void OutputFolder::discard() noexcept {
 
 void OutputFolder::write(const std::string& name, std::string_view bytes) {
     if (!is_output_name(name)) throw std::invalid_argument("OutputFolder::write: " + name + " is not a name of an output file");
-    if (std::find(written_.begin(), written_.end(), name) == written_.end()) written_.push_back(name);
+    {
+        const std::scoped_lock lock(written_by_one_);
+        if (std::find(written_.begin(), written_.end(), name) == written_.end()) written_.push_back(name);
+    }
     const int error = write_file(partial(name), bytes);
     if (error == 0) return;
     ::unlink(partial(name).c_str());

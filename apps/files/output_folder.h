@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,9 @@ public:
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    // is_output_name(name) must be true; a second file of the same name replaces the first. Throws RunError if not all bytes can be
-    // written: "out/x/bounce_000.exr: cannot be written: No space left on device".
+    // is_output_name(name) must be true; a second file of the same name replaces the first. May be called from several threads, for
+    // several files. Throws RunError if not all bytes can be written: "out/x/bounce_000.exr: cannot be written: No space left on
+    // device".
     void write(const std::string& name, std::string_view bytes);
 
     // Throws InputError if fewer bytes are free, before time is spent on results that cannot be written.
@@ -49,6 +51,7 @@ private:
 
     std::filesystem::path path_;
     std::vector<std::filesystem::path> created_;  // folders that were missing, outermost first
+    std::mutex written_by_one_;
     std::vector<std::string> written_;
     int descriptor_ = -1;  // of the folder; it holds the lock
 };

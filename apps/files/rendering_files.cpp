@@ -26,16 +26,21 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     const Film& film = rendering.scene->film;
     Warnings warnings = rendering.warnings();
     PackedSeries packed(film.crop_width, film.crop_height, series.report.bounces.size() + (series.rest ? 1 : 0));
-    const WrittenPictures written = write_pictures(folder, series, packed);
+    const ChosenFiles& files = rendering.files;
+    const WrittenPictures written = write_pictures(folder, series, files, film, packed);
     if (!written.warning.empty()) warnings.add(written.warning);
-    if (packed.factor() > 1) warnings.add(packed.reduction());
-    if (series.ways) write_ways(folder, *series.ways);
-    folder.write("series.csv", series_table(series.report));
+    if (files.page && packed.factor() > 1) warnings.add(packed.reduction());
+    if (series.ways) write_ways(folder, *series.ways, files);
     const std::string convergence = convergence_table(series.convergence);
-    folder.write("convergence.csv", convergence);
+    if (files.tables) {
+        folder.write("series.csv", series_table(series.report));
+        folder.write("convergence.csv", convergence);
+    }
     const auto json = run_json(rendering, warnings, folder.path().string(), rendering.seconds + watch.seconds());
-    const ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
-    folder.write("index.html", explorer_page({&explored}));
+    if (files.page) {
+        const ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
+        folder.write("index.html", explorer_page({&explored}));
+    }
     folder.write("run.json", json.dump(2) + "\n");
     folder.commit();
     return {warnings, json};

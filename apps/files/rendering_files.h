@@ -1,6 +1,7 @@
 // A finished render, and the files that `neumann render` writes for it.
 #pragma once
 
+#include "apps/files/chosen_files.h"
 #include "apps/files/output_folder.h"
 #include "operators/methods/bounce_series.h"
 
@@ -19,6 +20,7 @@ struct Rendering {
     std::shared_ptr<const Scene> scene;
     BounceSeries series;
     double seconds = 0.0;  // total time before writing
+    ChosenFiles files = {};
 
     // Of the scene and of the render.
     Warnings warnings() const;
@@ -31,7 +33,7 @@ struct WrittenRendering {
     nlohmann::ordered_json run;
 };
 
-// Writes all files and commits them. Throws RunError if not everything can be written.
+// Writes the chosen files and commits them. Throws RunError if not everything can be written.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
 // For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room,

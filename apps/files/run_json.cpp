@@ -146,6 +146,7 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
                                          : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
     json["options"] = options_json(series);
+    json["files"] = names_of(rendering.files);
     json["plan"] = series.plan.parts.empty() ? Json("full") : plan_json(series.plan);
     json["paths"] = name(series.paths);
     json["samples"] = samples_json(series);

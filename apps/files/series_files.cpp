@@ -1,14 +1,13 @@
 #include "apps/files/series_files.h"
 
 #include "apps/files/rendered_picture.h"
-#include "apps/sheets/contact_sheet.h"
-#include "apps/sheets/flip_book.h"
-#include "apps/sheets/strips.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace neumann {
 
@@ -36,9 +35,17 @@ std::string power(const BounceSeries& series, const std::string& n) {
     return series.report.importance ? "K*^" + n + " We" : "K^" + n + " Le";
 }
 
+}  // namespace
+
 std::string term_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& term) {
     return encode_exr(term, attributes_of(series, power(series, "i"), i, term, series.means_of_term(i),
                                           series.report.bounces[i].infinite_variance));
+}
+
+std::string sum_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& sum) {
+    const auto infinite = [](const BounceReport& bounce) { return bounce.infinite_variance; };
+    return encode_exr(sum, attributes_of(series, "sum of " + power(series, "k") + " for k <= i", i, sum, series.means_of_sum(i),
+                                         std::ranges::any_of(std::span(series.report.bounces).first(i + 1), infinite)));
 }
 
 std::string rest_exr(const BounceSeries& series) {
@@ -47,13 +54,11 @@ std::string rest_exr(const BounceSeries& series) {
                                     *series.rest, *series.means_of_rest, series.report.rest_infinite_variance));
 }
 
-}  // namespace
-
-double estimated_bytes(const Film& film, int bounces, bool has_discretisation) {
+double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files) {
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height, pictures = 2.0 * bounces + 3.0;
     const double exr = pictures * pixels * sizeof(float) * (has_discretisation ? 9.0 : 6.0);
     // index.html holds half floats in base 64; the size of the slides and of the page's code does not depend on the film.
-    return 1.25 * exr + 0x1p20;
+    return ((files.pictures ? 1.0 : 0.0) + (files.page ? 0.25 : 0.0)) * exr + 0x1p20;
 }
 
 std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series) {
@@ -69,67 +74,6 @@ std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const Bounce
     if (series.rest) write("rest.exr", rest_exr(series));
     write("series.csv", series_table(series.report));
     return missing;
-}
-
-WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, PackedSeries& packed) {
-    const SeriesReport& report = series.report;
-    const std::size_t N = report.bounces.size() - 1;
-    std::vector<Image> terms, sums;
-    bool any_infinite = false;
-    for (std::size_t i = 0; i <= N; ++i) {
-        PixelEstimate term = series.term(i), sum = series.sum(i);
-        any_infinite = any_infinite || report.bounces[i].infinite_variance;
-        folder.write(bounce_file(i), term_exr(series, i, term));
-        folder.write(sum_file(i), encode_exr(sum, attributes_of(series, "sum of " + power(series, "k") + " for k <= i", i, sum,
-                                                                series.means_of_sum(i), any_infinite)));
-        packed.add(term, &sum);
-        terms.push_back(std::move(term.mean));
-        sums.push_back(std::move(sum.mean));
-    }
-    if (series.rest) {
-        folder.write("rest.exr", rest_exr(series));
-        packed.add(*series.rest, nullptr);
-        terms.push_back(series.rest->mean);
-    }
-    packed.pack();
-
-    const char* const kind = report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths";
-    std::vector<LabelledPicture> term_pictures, sum_pictures;
-    for (std::size_t i = 0; i < terms.size(); ++i)
-        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
-    // For importance all visible surfaces are "emitters", so the sum is used.
-    const Image& emission = report.importance ? sums.back() : terms.front();
-    const double exposure = exposure_for(sums.back(), emission);
-    const auto font = find_label_font();
-    folder.write("contact-sheet.png", contact_sheet(term_pictures, sum_pictures, exposure, font));
-
-    Image limit = sums.back();
-    for (std::size_t p = 0; series.rest && p < limit.pixels.size(); ++p) limit.pixels[p] += series.rest->mean.pixels[p];
-    const SeriesPictures pictures{std::span(terms).first(N + 1),
-                                  sums,
-                                  series.rest ? &terms.back() : nullptr,
-                                  series.rest ? &limit : nullptr,
-                                  report.importance ? "K*" : "K",
-                                  report.importance ? "We" : "Le",
-                                  series.paths == Paths::all ? "" : ", some paths"};
-    const FlipBook book(pictures.all(), exposure, font);
-    const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
-                doubling = strip_of_doubling(pictures);
-    folder.write("bounces.gif", book.gif());
-    folder.write("strip-terms.png", strip_png(of_terms, exposure, font));
-    folder.write("strip-terms.gif", strip_gif(of_terms, exposure, font));
-    folder.write("strip-sums.png", strip_png(of_sums, exposure, font));
-    folder.write("strip-sums.gif", book.gif(of_sums.front()));
-    if (!doubling.empty()) {
-        folder.write("strip-doubling.png", strip_png(doubling, exposure, font));
-        folder.write("strip-doubling.gif", book.gif(doubling.front()));
-    }
-    return {font ? ""
-                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
-                   "bounces.gif are unlabelled",
-            exposure};
 }
 
 std::string series_table(const SeriesReport& report) {

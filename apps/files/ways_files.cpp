@@ -20,7 +20,7 @@ std::string with_interval(const WayPicture& p) {
 
 }  // namespace
 
-void write_ways(OutputFolder& folder, const Ways& ways) {
+void write_ways(OutputFolder& folder, const Ways& ways, const ChosenFiles& files) {
     std::vector<LabelledPicture> weighted, unweighted;
     for (const Way& way : ways.ways)
         for (const bool is_weighted : {true, false}) {
@@ -34,9 +34,10 @@ void write_ways(OutputFolder& folder, const Ways& ways) {
                 {"neumann:variance", std::string(p.infinite_variance ? "infinite: stderr gives no interval" : "finite")},
                 {"neumann:pixels", std::string("correlated: their errors go together")}};
             attributes.merge(mean_attributes(p.means));
-            folder.write(file_of(way, is_weighted), encode_exr(p.picture, attributes));
+            if (files.pictures) folder.write(file_of(way, is_weighted), encode_exr(p.picture, attributes));
             (is_weighted ? weighted : unweighted).push_back({fmt::format("s = {}, t = {}", way.s, way.t), &p.picture.mean});
         }
+    if (!files.sheets) return;
     Image sum = ways.ways.front().weighted.picture.mean;
     for (std::size_t i = 1; i < ways.ways.size(); ++i)
         for (std::size_t k = 0; k < sum.pixels.size(); ++k) sum.pixels[k] += ways.ways[i].weighted.picture.mean.pixels[k];

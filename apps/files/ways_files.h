@@ -1,6 +1,7 @@
 // Writes the pictures and the table of all ways (s, t) to make a bounce.
 #pragma once
 
+#include "apps/files/chosen_files.h"
 #include "apps/files/output_folder.h"
 #include "operators/methods/ways.h"
 
@@ -10,8 +11,8 @@
 
 namespace neumann {
 
-// Writes way_s1_t3.exr …, way_s1_t3_unweighted.exr …, and ways.png with all of them.
-void write_ways(OutputFolder& folder, const Ways& ways);
+// Writes way_s1_t3.exr …, way_s1_t3_unweighted.exr …, and ways.png with all of them; what is chosen of these.
+void write_ways(OutputFolder& folder, const Ways& ways, const ChosenFiles& files);
 std::string ways_table(const Ways& ways);
 nlohmann::ordered_json as_json(const Ways& ways);
 

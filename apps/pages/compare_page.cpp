@@ -8,6 +8,7 @@
 #include "core/image/display.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -71,18 +72,19 @@ struct RenderedFolder {
 // Reads a run for the page; pictures are reduced so that `pictures` of them fit.
 ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
     ExploredRun out{folder.run, text_of(folder.path / "convergence.csv"), 1.0,
-                    PackedSeries(folder.size.width, folder.size.height, pictures), folder.has_rest()};
+                    PackedSeries(folder.size.width, folder.size.height, folder.pictures(), pictures), folder.has_rest()};
     const bool importance = folder.run["quantity"].value("name", "").starts_with("importance");
     Image emission;
     for (std::size_t i = 0; i < folder.bounces(); ++i) {
         PixelEstimate term = read_picture(folder.path / bounce_file(i), folder.size);
         const PixelEstimate sum = read_picture(folder.path / sum_file(i), folder.size);
-        out.pictures.add(term, &sum);
+        out.pictures.add_term(i, term);
+        out.pictures.add_sum(i, sum);
         if (i == 0) emission = std::move(term.mean);
         if (i + 1 == folder.bounces()) out.exposure = exposure_for(sum.mean, importance ? sum.mean : emission);
     }
-    if (out.has_rest) out.pictures.add(read_picture(folder.path / "rest.exr", folder.size), nullptr);
-    out.pictures.pack();
+    if (out.has_rest) out.pictures.add_term(folder.bounces(), read_picture(folder.path / "rest.exr", folder.size));
+    oneapi::tbb::parallel_for(std::size_t{0}, folder.pictures(), [&](std::size_t i) { out.pictures.pack(i); });
     return out;
 }
 

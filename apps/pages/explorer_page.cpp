@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <deque>
 
 namespace neumann {
 
@@ -29,13 +30,16 @@ Json decay(const Json& run) {
 
 std::string explorer_page(const std::vector<const ExploredRun*>& runs, const Json& comparison) {
     Json all = {{"runs", Json::array()}, {"comparison", comparison}};
-    std::string pictures;
+    std::deque<std::string> tags;
+    std::vector<std::string_view> pictures;
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ExploredRun& run = *runs[r];
         Json heads = Json::array();
         for (const PackedPicture& picture : run.pictures.pictures()) {
-            pictures +=
-                fmt::format("<script type=\"text/plain\" id=\"picture-{}-{}\">{}</script>\n", r, heads.size(), picture.bytes);
+            pictures.push_back(
+                tags.emplace_back(fmt::format("<script type=\"text/plain\" id=\"picture-{}-{}\">", r, heads.size())));
+            pictures.push_back(picture.bytes);
+            pictures.push_back("</script>\n");
             heads.push_back(picture.head);
         }
         Json packed = run.pictures.head();
@@ -45,8 +49,9 @@ std::string explorer_page(const std::vector<const ExploredRun*>& runs, const Jso
         all["runs"].push_back(
             {{"run", run.run}, {"convergence", run.convergence}, {"decay", decay(run.run)}, {"pictures", packed}});
     }
-    return page("explorer.html",
-                fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n{}", for_script(all), pictures));
+    const std::string data = fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n", for_script(all));
+    pictures.insert(pictures.begin(), data);
+    return page("explorer.html", pictures);
 }
 
 }  // namespace neumann

@@ -24,13 +24,16 @@ struct PackedPicture {
 
 class PackedSeries {
 public:
-    // Pictures of `width` × `height`. If `pictures` of them exceed the limit page_pixels, each is reduced by the same whole factor.
-    PackedSeries(int width, int height, std::size_t pictures);
+    // `pictures` of `width` × `height`. If those of the whole page, `on_page`, exceed the limit page_pixels, each is reduced by the
+    // same whole factor.
+    PackedSeries(int width, int height, std::size_t pictures, std::size_t on_page);
+    PackedSeries(int width, int height, std::size_t pictures) : PackedSeries(width, height, pictures, pictures) {}
 
-    // Adds the next bounce: its term, with the errors of its sum; or the rest, which has no sum.
-    void add(const PixelEstimate& term, const PixelEstimate* sum);
-    // Deflates what was added.
-    void pack();
+    // Picture i is a bounce's term, with the errors of its sum; or the rest, which has no sum. What is added is packed at the end.
+    // May be called for several i at once.
+    void add_term(std::size_t i, const PixelEstimate& term);
+    void add_sum(std::size_t i, const PixelEstimate& sum);
+    void pack(std::size_t i);
 
     // Metadata for the page: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95%
     // interval divided by its standard error; null: unknown), "independent" (pixels).
@@ -44,7 +47,7 @@ public:
 
 private:
     int full_width_, full_height_, factor_ = 1;
-    double degrees_of_freedom_ = 0.0;
+    double degrees_of_freedom_ = 0.0;  // of picture 0, and of all
     bool independent_ = true;
     std::vector<PackedPicture> pictures_;
 };

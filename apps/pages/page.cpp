@@ -2,11 +2,13 @@
 
 namespace neumann {
 
-std::string page(std::string_view name, std::string_view data) {
+std::string page(std::string_view name, const std::vector<std::string_view>& data) {
     constexpr std::string_view begin = "/*include ", end = "*/", data_mark = "/*data*/";
     const std::string_view text = embedded_file(name);
     std::string out;
-    out.reserve(data.size() + (std::size_t{1} << 19));
+    std::size_t size = std::size_t{1} << 19;
+    for (const std::string_view part : data) size += part.size();
+    out.reserve(size);
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t mark = text.find("/*", at);
         out += text.substr(at, mark - at);
@@ -17,7 +19,7 @@ std::string page(std::string_view name, std::string_view data) {
             out += embedded_file(rest.substr(begin.size(), length - begin.size()));
             at = mark + length + end.size();
         } else if (rest.starts_with(data_mark)) {
-            out += data;
+            for (const std::string_view part : data) out += part;
             at = mark + data_mark.size();
         } else {
             out += "/*";

@@ -4,6 +4,6 @@
 
 namespace neumann {
 
-std::string study_page(const nlohmann::ordered_json& study) { return page("study.html", for_script(study)); }
+std::string study_page(const nlohmann::ordered_json& study) { return page("study.html", {for_script(study)}); }
 
 }  // namespace neumann

@@ -31,11 +31,14 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
     });
 }
 
-std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std::string& path) {
-    return std::make_unique<Job>(0, [rendering, path](Job& job) -> Job::Finish {
+std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std::string& path,
+                          const std::vector<std::string>& files) {
+    return std::make_unique<Job>(0, [rendering, path, chosen = choose_files(files)](Job& job) -> Job::Finish {
         job.tell("writing " + path);
         OutputFolder folder(path, "render");
-        write_rendering(*rendering, folder);
+        Rendering saved = *rendering;
+        saved.files = chosen;
+        write_rendering(saved, folder);
         return [] { return py::none(); };
     });
 }
@@ -80,7 +83,7 @@ void bind_render(py::module_& m) {
              [](const Rendering& r, const std::string& folder) { return run_json(r, r.warnings(), folder, r.seconds).dump(); })
         .def_property_readonly("warnings", [](const Rendering& r) { return texts(r.series.warnings); })
         .def("complaints", &Rendering::complaints)
-        .def("save", &save);
+        .def("save", &save, py::arg("folder"), py::arg("files") = file_groups());
     m.def("render", &start, py::arg("scene"), py::arg("arguments"));
 }
 

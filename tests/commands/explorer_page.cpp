@@ -56,9 +56,10 @@ TEST(ExplorerPage, PackedPicturesKeepThreeDigits) {
     term.standard_error.pixels[3] = Rgb(0.0, std::numeric_limits<double>::infinity(), 1e-31);
 
     PackedSeries packed(width, height, 2);
-    packed.add(term, &sum);
-    packed.add(term, nullptr);
-    packed.pack();
+    packed.add_term(0, term);
+    packed.add_sum(0, sum);
+    packed.add_term(1, term);
+    for (const std::size_t i : {0, 1}) packed.pack(i);
     EXPECT_EQ(packed.factor(), 1);
     EXPECT_EQ(packed.head().at("width"), width);
     EXPECT_NEAR(packed.head().at("interval_factor").get<double>(), 2.1314, 1e-4);  // Student's t, 15 degrees of freedom, 0.975
@@ -121,12 +122,11 @@ TEST(ExplorerPage, SeventeenNoisyBouncesStayBelow15Megabytes) {
             }
         return picture;
     };
-    for (int i = 0; i <= 16; ++i) {
-        const PixelEstimate term = noisy(), sum = noisy();
-        packed.add(term, &sum);
+    for (std::size_t i = 0; i <= 17; ++i) {
+        packed.add_term(i, noisy());
+        if (i < 17) packed.add_sum(i, noisy());
+        packed.pack(i);
     }
-    packed.add(noisy(), nullptr);
-    packed.pack();
     EXPECT_EQ(packed.factor(), 1);
     const ExploredRun run{small_run(17), "", 1.0, std::move(packed), true};
     const std::string page = explorer_page({&run});
@@ -145,15 +145,15 @@ TEST(ExplorerPage, LargeFilmsAreReducedByAWholeFactor) {
         "open (above about 100 MB)");
     EXPECT_EQ(PackedSeries(1024, 1024, 8).factor(), 1);
     EXPECT_EQ(PackedSeries(1025, 1024, 8).factor(), 2);
-    EXPECT_EQ(PackedSeries(2, 1, 100'000'000).factor(), 2);  // one pixel is the least
+    EXPECT_EQ(PackedSeries(2, 1, 1, 100'000'000).factor(), 2);  // one pixel is the least
 
     PackedSeries two(2048, 1024, 9);
     ASSERT_EQ(two.factor(), 2);
     Estimate picture{Image(2048, 1024), Image(2048, 1024), 1.0};
     picture.mean.at(0, 0) = Rgb(4.0, 0.0, 0.0);
     picture.mean.at(1, 1) = Rgb(2.0, 0.0, 0.0);
-    two.add(picture, nullptr);
-    two.pack();
+    two.add_term(0, picture);
+    two.pack(0);
     const std::size_t n = 1024 * 512;
     const auto bytes = unpacked(two.pictures()[0], 9 * n);
     EXPECT_EQ(std::ldexp(half_value(bytes[0] << 8 | bytes[3 * n]), two.pictures()[0].head.at("exponent")), 1.5);
@@ -164,8 +164,8 @@ TEST(ExplorerPage, TextCannotEndItsScript) {
     nlohmann::ordered_json json = small_run(1);
     json["command"] = "</script><script>alert(1)</script><!--";
     PackedSeries packed(1, 1, 1);
-    packed.add(Estimate{Image(1, 1), Image(1, 1)}, nullptr);
-    packed.pack();
+    packed.add_term(0, Estimate{Image(1, 1), Image(1, 1)});
+    packed.pack(0);
     const ExploredRun run{json, "", 1.0, std::move(packed), false};
     const std::string page = explorer_page({&run});
     EXPECT_EQ(page.find("alert(1)</"), std::string::npos);

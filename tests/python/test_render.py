@@ -104,6 +104,10 @@ class Render(Case):
             if name.endswith((".exr", ".png", ".gif")):
                 self.assertTrue(filecmp.cmp(self.folder / "out" / name, self.folder / "saved" / name, shallow=False), name)
         self.expect_same(series, neumann.read(self.folder / "saved"))
+        series.save(self.folder / "saved", files=["tables"])
+        self.assertEqual({p.name for p in (self.folder / "saved").iterdir()}, {"run.json", "series.csv", "convergence.csv"})
+        with self.assertRaises(neumann.InputError):
+            series.save(self.folder / "saved", files=["table"])
 
     def test_furnace_is_exact(self):
         # K^i Le = albedo^i in every pixel: Le = 1 everywhere in a closed room of one albedo.

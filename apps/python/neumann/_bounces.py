@@ -3,7 +3,7 @@
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, List, NamedTuple, Optional, Protocol, Tuple, Union
+from typing import Any, List, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ class _Source(Protocol):
     def run(self) -> str: ...
     def warnings(self) -> List[str]: ...
     def ways(self) -> Any: ...
-    def save(self, folder: str) -> None: ...
+    def save(self, folder: str, files: Optional[Sequence[str]]) -> None: ...
 
 
 class Memory:
@@ -50,8 +50,8 @@ class Memory:
     def ways(self) -> Any:
         return self._rendering.ways()
 
-    def save(self, folder: str) -> None:
-        run_job(self._rendering.save(folder))
+    def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
+        run_job(self._rendering.save(folder) if files is None else self._rendering.save(folder, list(files)))
 
 
 class Folder:
@@ -91,7 +91,7 @@ class Folder:
             found.append((s, t, _neumann.read(str(self._folder / f"{name}.exr"))[0], _neumann.read(str(path))[0]))
         return sorted(found, key=lambda way: way[:2]) or None
 
-    def save(self, folder: str) -> None:
+    def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
         raise _neumann.InputError(f"{self._folder}: was read from there; copy the folder")
 
 
@@ -231,12 +231,13 @@ class BounceSeries:
         found = self._source.ways()
         return None if found is None else [Way(*way) for way in found]
 
-    def save(self, folder: Union[str, "PathLike[str]"]) -> None:
+    def save(self, folder: Union[str, "PathLike[str]"], files: Optional[Sequence[str]] = None) -> None:
         """Writes what ``neumann render -o folder`` writes: EXR files, tables, run.json, contact sheet, and the explorer, index.html.
+        files: those of the groups of ``--files`` that are written, such as ("pictures", "tables"); default all.
 
         Raises InputError where nothing can be written there, and RunError where a disk is full. Whole or not at all.
         """
-        self._source.save(fspath(folder))
+        self._source.save(fspath(folder), files)
 
     def __len__(self) -> int:
         return self.bounces + 1

@@ -1,0 +1,24 @@
+// Which files a render writes beside run.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct ChosenFiles {
+    bool pictures = true;  // bounce_000.exr …, sum_000.exr …, rest.exr, way_s1_t3.exr …
+    bool tables = true;    // series.csv, convergence.csv
+    bool sheets = true;    // contact-sheet.png, bounces.gif, ways.png
+    bool strips = true;    // strip-terms.png …
+    bool page = true;      // index.html
+};
+
+// "pictures", "tables", "sheets", "strips", "page".
+const std::vector<std::string>& file_groups();
+
+// Throws InputError for a name that is not one of them.
+ChosenFiles choose_files(const std::vector<std::string>& names);
+std::vector<std::string> names_of(const ChosenFiles& files);
+
+}  // namespace neumann

@@ -1,0 +1,14 @@
+// Work that is independent of one another, such as the files of a render.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace neumann {
+
+// Does the jobs in parallel, `at_once` at most (at least 1), and begins them in their order. If some throw, the exception of the
+// first of them in that order is thrown, which is the same one on any number of threads; those that follow it may be left out.
+void run_jobs(const std::vector<std::function<void()>>& jobs, std::size_t at_once);
+
+}  // namespace neumann

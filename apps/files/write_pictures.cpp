@@ -1,0 +1,124 @@
+#include "apps/files/jobs.h"
+#include "apps/files/rendered_picture.h"
+#include "apps/files/series_files.h"
+#include "apps/sheets/contact_sheet.h"
+#include "apps/sheets/flip_book.h"
+#include "apps/sheets/strips.h"
+#include "core/image/image_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+using Jobs = std::vector<std::function<void()>>;
+
+// What is in hand for a picture that is written: its estimates in double, their floats, the file.
+constexpr double bytes_a_pixel = 200.0, bytes_in_hand = 0x1p31;
+constexpr std::size_t most_in_hand = 64;
+
+std::size_t pictures_at_once(const Film& film) {
+    const double bytes = bytes_a_pixel * film.crop_width * film.crop_height;
+    return static_cast<std::size_t>(std::clamp(bytes_in_hand / bytes, 1.0, double{most_in_hand}));
+}
+
+// The means of all pictures: the terms, with the rest as the last, and the sums.
+struct Means {
+    std::vector<Image> terms, sums;
+};
+
+// Each picture is estimated once, for its file, for the page and for the sheets.
+Means write_estimates(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Film& film,
+                      PackedSeries& packed) {
+    const std::size_t bounces = series.report.bounces.size();
+    Means means{std::vector<Image>(bounces + (series.rest ? 1 : 0)), std::vector<Image>(bounces)};
+    Jobs jobs;
+    for (std::size_t i = 0; i < bounces; ++i)
+        jobs.emplace_back([&, i] {
+            {
+                PixelEstimate term = series.term(i);
+                if (files.pictures) folder.write(bounce_file(i), term_exr(series, i, term));
+                if (files.page) packed.add_term(i, term);
+                means.terms[i] = std::move(term.mean);
+            }
+            {
+                PixelEstimate sum = series.sum(i);
+                if (files.pictures) folder.write(sum_file(i), sum_exr(series, i, sum));
+                if (files.page) packed.add_sum(i, sum);
+                means.sums[i] = std::move(sum.mean);
+            }
+            if (files.page) packed.pack(i);
+        });
+    if (series.rest)
+        jobs.emplace_back([&] {
+            if (files.pictures) folder.write("rest.exr", rest_exr(series));
+            means.terms.back() = series.rest->mean;
+            if (!files.page) return;
+            packed.add_term(bounces, *series.rest);
+            packed.pack(bounces);
+        });
+    run_jobs(jobs, pictures_at_once(film));
+    return means;
+}
+
+}  // namespace
+
+WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Film& film,
+                               PackedSeries& packed) {
+    const SeriesReport& report = series.report;
+    const std::size_t N = report.bounces.size() - 1;
+    if (!files.pictures && !files.page && !files.sheets && !files.strips) return {};
+    const auto [terms, sums] = write_estimates(folder, series, files, film, packed);
+
+    const char* const kind = report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths";
+    std::vector<LabelledPicture> term_pictures, sum_pictures;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
+    // For importance all visible surfaces are "emitters", so the sum is used.
+    const Image& emission = report.importance ? sums.back() : terms.front();
+    const double exposure = exposure_for(sums.back(), emission);
+    if (!files.sheets && !files.strips) return {"", exposure};
+
+    Image limit = sums.back();
+    for (std::size_t p = 0; series.rest && p < limit.pixels.size(); ++p) limit.pixels[p] += series.rest->mean.pixels[p];
+    const SeriesPictures pictures{std::span(terms).first(N + 1),
+                                  sums,
+                                  series.rest ? &terms.back() : nullptr,
+                                  series.rest ? &limit : nullptr,
+                                  report.importance ? "K*" : "K",
+                                  report.importance ? "We" : "Le",
+                                  series.paths == Paths::all ? "" : ", some paths"};
+    const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
+                doubling = strip_of_doubling(pictures);
+    const auto font = find_label_font();
+    Jobs jobs;
+    const auto add = [&](const std::string& name, const std::function<std::string()>& make) {
+        jobs.emplace_back([&folder, name, make] { folder.write(name, make()); });
+    };
+    jobs.emplace_back([&] {
+        const FlipBook book(pictures.all(), exposure, font);
+        if (files.sheets) folder.write("bounces.gif", book.gif());
+        if (!files.strips) return;
+        folder.write("strip-sums.gif", book.gif(of_sums.front()));
+        if (!doubling.empty()) folder.write("strip-doubling.gif", book.gif(doubling.front()));
+    });
+    if (files.sheets) add("contact-sheet.png", [&] { return contact_sheet(term_pictures, sum_pictures, exposure, font); });
+    if (files.strips) {
+        add("strip-terms.gif", [&] { return strip_gif(of_terms, exposure, font); });
+        add("strip-terms.png", [&] { return strip_png(of_terms, exposure, font); });
+        add("strip-sums.png", [&] { return strip_png(of_sums, exposure, font); });
+        if (!doubling.empty()) add("strip-doubling.png", [&] { return strip_png(doubling, exposure, font); });
+    }
+    run_jobs(jobs, jobs.size());
+    return {font ? ""
+                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
+                   "bounces.gif are unlabelled",
+            exposure};
+}
+
+}  // namespace neumann
