@@ -52,6 +52,10 @@ public:
         const AreaLight& light = lights_.area[static_cast<std::size_t>(index)];
         return light.function ? light.function(shading_point((*shapes_)[p.shape], p), w) : light.largest;
     }
+    // Le of a shape that shines evenly.
+    const Rgb& even_radiance(std::uint32_t shape) const {
+        return lights_.area[static_cast<std::size_t>(lights_.of_shape[shape])].largest;
+    }
     bool is_emitter(std::uint32_t shape) const {
         return shape == SurfacePoint::infinity ? has_environment() : lights_.of_shape[shape] != none;
     }

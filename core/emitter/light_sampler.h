@@ -19,6 +19,13 @@ struct LightSample {
     double probability = 0.0;
 };
 
+// A point on a light, whatever it is a sample for. `density`: per area.
+struct EvenPoint {
+    SurfacePoint point;
+    const Rgb& radiance;
+    double density;
+};
+
 // How lights are chosen.
 enum class LightChoice {
     mixed,         // half by power, half uniformly; the environment with probability 1/2 at most if there are other lights
@@ -51,6 +58,17 @@ public:
         const LightTable::Choice chosen =
             choice_ == LightChoice::all ? table_.choose_of(table_.lights()[ask], uv.x) : table_.choose(uv.x);
         return sample_chosen(chosen, x, uv.y);
+    }
+    // Whether samples are points that do not depend on x, on surfaces that shine evenly; and such a point.
+    bool finds_even_points() const {
+        return !empty() && choice_ != LightChoice::all && choice_ != LightChoice::contribution && place_ == LightPlace::area &&
+               table_.size() == table_.parts().size() && emitters_->shapes_shine_evenly();
+    }
+    EvenPoint sample_even_point(const Vec2& uv) const {
+        const LightTable::Choice chosen = table_.choose(uv.x);
+        const Geometry::Place& place = places_[chosen.index];
+        return {geometry_->point(place, Vec2(chosen.left, uv.y)), emitters_->even_radiance(place.shape),
+                density_of_shape_[place.shape]};
     }
     // The pdf, per solid angle, with which a sample for x finds y, the hit of a ray from x along w; y may be infinitely far away.
     double pdf(const Vec3& x, const Vec3& w, const SurfacePoint& y) const {

@@ -38,6 +38,8 @@ public:
         side.bsdf = at(p.shape, front);
         return side;
     }
+    // Whether the shape's materials need the geometric normal only.
+    bool is_flat(std::uint32_t shape) const { return is_flat_[shape] != 0; }
     // The material on one side of a shape, or null if that side absorbs.
     const Bsdf* at(std::uint32_t shape, bool front) const {
         const Sides& sides = sides_of_shape_[shape];
@@ -56,7 +58,7 @@ private:
     std::vector<Bsdf> bsdfs_;
     std::vector<Sides> sides_of_shape_;
     std::shared_ptr<const std::vector<Shape>> shapes_;
-    std::vector<char> is_flat_;  // by shape: whether its materials need the geometric normal only
+    std::vector<char> is_flat_;  // by shape
 };
 
 }  // namespace neumann

@@ -41,11 +41,10 @@ inline double part_of_circle(double x, double y) {
 inline Vec2 uniform_disk(const Vec2& u) {
     const double a = 2.0 * u.x - 1.0, b = 2.0 * u.y - 1.0;
     const bool flat = std::abs(a) > std::abs(b);
-    const double radius = flat ? a : b, other = flat ? b : a;
-    if (radius == 0.0) return Vec2(0.0);
+    const double radius = flat ? a : b, other = flat ? b : a, divisor = radius == 0.0 ? 1.0 : radius;
     double sine, cosine;
-    sin_cos_quarter(other / radius * (pi / 4.0), sine, cosine);
-    return (flat ? Vec2(cosine, sine) : Vec2(sine, cosine)) * radius;
+    sin_cos_quarter(other / divisor * (pi / 4.0), sine, cosine);
+    return {(flat ? cosine : sine) * radius, (flat ? sine : cosine) * radius};
 }
 
 // The inverse of uniform_disk, for points of the unit disc.

@@ -16,6 +16,8 @@ DirectLightSampler::DirectLightSampler(const Scene& scene, const DirectLightSett
       questions_(scene.emitters.empty() || settings.direct == DirectLight::bsdf ? 0 : 1) {
     if (questions_ > 0 && (settings.direct == DirectLight::light || settings.direct == DirectLight::mis))
         questions_ = lights_.asks();
+    const bool by_power = settings.direct == DirectLight::mis && settings.heuristic == Heuristic::power;
+    asks_even_points_ = (by_power || settings.direct == DirectLight::light) && lights_.finds_even_points();
     if (settings.direct == DirectLight::surfaces) surfaces_.emplace(scene.geometry);
 }
 

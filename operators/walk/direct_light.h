@@ -43,6 +43,9 @@ public:
                 return lights_.sample(side.p.position, sampler.next2(), question);
         }
     }
+    // Whether ask() finds points that do not depend on the vertex, on surfaces that shine evenly; such a point.
+    bool asks_even_points() const { return asks_even_points_; }
+    EvenPoint ask_even_point(const Vec2& u) const { return lights_.sample_even_point(u); }
     // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material`: of that direction,
     // per solid angle.
     double weight_of_answer(double pdf, double pdf_of_material) const {
@@ -62,6 +65,7 @@ private:
     LightSampler lights_;
     std::optional<AreaSampler> surfaces_;
     std::size_t questions_;
+    bool asks_even_points_;
 };
 
 }  // namespace neumann

@@ -12,6 +12,7 @@
 #include "core/base/hot.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
+#include "operators/walk/diffuse_packet.h"
 #include "operators/walk/first_vertices.h"
 #include "operators/walk/observer.h"
 #include "operators/walk/walk_settings.h"
@@ -49,6 +50,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
     // Le, where T finds the first vertices.
     find_first_vertices(scene, T, rays, walkers, out.rays[0], observer, [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
 
+    DiffusePacket packet;
     const Split& split = settings.split;
     Places<Continuation> places(rays.size());
     if constexpr (Continuation::joins_points) walkers.next.resize(rays.size());
@@ -67,7 +69,7 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
 
             // R: sample the lights and, along with the last light sample, the next direction; T: are the light samples seen?
             for (std::size_t question = 1; question <= std::max<std::size_t>(questions, 1); ++question) {
-                walkers.keep_if([&](Walker& w, std::uint32_t i) {
+                const auto reflect = [&](Walker& w, std::uint32_t i) {
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
                     if (!side.bsdf) return false;
                     const Vec3 wo = side.p.frame.to_local(w.wo);
@@ -87,7 +89,19 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
                     w.w = side.p.frame.to_world(sampled.wi);
                     w.from = w.x.position;
                     return true;
-                });
+                };
+                if (std::is_same_v<Continuation, MaterialContinuation> && questions == 1 && DiffusePacket::fits(direct)) {
+                    walkers.keep_if([&](Walker& w, std::uint32_t i) {
+                        const Diffuse* const material = DiffusePacket::material(scene.materials, w);
+                        if (!material) return reflect(w, i);
+                        packet.add(w, *material, direct, samplers[i]);
+                        if (packet.is_full()) packet.reflect(direct, directions_per_question);
+                        return true;
+                    });
+                    packet.reflect(direct, directions_per_question);
+                } else {
+                    walkers.keep_if(reflect);
+                }
                 if (questions > 0)
                     out.rays[q] += answer(scene, T, direct, left_out, bounce, walkers, observer,
                                           [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
