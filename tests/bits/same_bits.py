@@ -70,7 +70,7 @@ def render(scene, method, options):
     with tempfile.TemporaryDirectory() as folder:
         bounces = [] if "--tail" in options else ["-n", "3"]
         done = subprocess.run([NEUMANN, "render", SCENES / scene / f"{scene}.xml", "-D", f"res={SIZE}", "--method", method, *METHODS[method],
-                               *options.split(), *bounces, "--seed", "7", "-t", "1", "-o", "a", "--quiet"],
+                               *options.split(), *bounces, "--seed", "7", "-t", "1", "--files", "pictures", "-o", "a", "--quiet"],
                               cwd=folder, capture_output=True, text=True)
         if done.returncode == 2:
             return done.stderr.strip()
