@@ -10,8 +10,6 @@
 
 namespace neumann {
 
-inline double to_unit_interval(std::uint32_t bits) { return bits * 0x1p-32 + 0x1p-33; }  // in (0, 1): the centres of 2^32 cells
-
 class CounterBased {
 public:
     CounterBased(std::uint64_t seed, std::uint32_t pixel) : key_{{seed}}, pixel_(pixel) {}

@@ -1,6 +1,6 @@
 #include "core/scene/measured_laws.h"
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -14,7 +14,7 @@ constexpr std::uint32_t points_on_shape = 16, pairs_at_point = 64;
 
 double mean_defect(const Geometry& geometry, std::uint32_t shape, bool front, const Bsdf& bsdf) {
     const SobolPoints sobol(points_on_shape);
-    SobolSampler sampler(sobol, 0, shape);
+    Sampler sampler(sobol, 0, shape);
     double sum = 0.0;
     for (std::uint32_t i = 0; i < points_on_shape; ++i) {
         sampler.start(i);
@@ -32,7 +32,7 @@ double mean_defect(const Geometry& geometry, std::uint32_t shape, bool front, co
 // has the density ½ (cosθo/π pdf(ωo → ωi) + cosθi/π pdf(ωi → ωo)), which is large wherever fs or its reverse is large.
 double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, std::uint32_t count) {
     const SobolPoints sobol(count);
-    SobolSampler sampler(sobol, 1, 0);
+    Sampler sampler(sobol, 1, 0);
     double difference = 0.0, reflected = 0.0;
     for (std::uint32_t i = 0; i < count; ++i) {
         sampler.start(i);

@@ -6,6 +6,7 @@
 #include "core/emitter/emitters.h"
 #include "core/geometry/geometry.h"
 #include "core/material/materials.h"
+#include "core/sampling/sampler.h"
 #include "core/sensor/sensor.h"
 
 #include <memory>
@@ -14,8 +15,6 @@
 #include <vector>
 
 namespace neumann {
-
-enum class SamplerKind { independent, sobol };
 
 // Where a shape and its material come from, for messages: "shape 'cube'" and "bsdf 'diffuse'".
 struct Origin {

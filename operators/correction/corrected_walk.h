@@ -50,7 +50,6 @@ struct CorrectedWalker : Walker {
     Rgb point_weight{0.0};
 };
 
-template <class Sampler>
 struct CorrectedWalkers : Together<CorrectedWalker> {
     std::vector<Sampler> samplers;      // one for each walker
     std::vector<std::uint32_t> asking;  // walkers whose light sample, or shared point, needs a ray
@@ -77,9 +76,9 @@ public:
     // Samples the terms 1 … N and the rest from walkers that stand at their first vertices (x and wo are set, β is 1), and adds
     // them to the quantities of their paths. light_sampler(path, l) and sampler_of(path, g) give the samplers of the l-th light
     // sample and of the g-th walk from the first diffuse vertex.
-    template <class Sampler, class LightSamplers, class Samplers, class Observer = NoObserver>
-    void operator()(CorrectedWalkers<Sampler>& walkers, const LightSamplers& light_sampler, const Samplers& sampler_of,
-                    TermSamples& out, const Observer& observer = {}) const;
+    template <class LightSamplers, class Samplers, class Observer = NoObserver>
+    void operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler, const Samplers& sampler_of, TermSamples& out,
+                    const Observer& observer = {}) const;
 
 private:
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
@@ -92,7 +91,6 @@ private:
         return a * b * inv_pi / (d2 * d2);
     }
     // R: the next direction, and the shared point that is asked along with it.
-    template <class Sampler>
     bool choose_direction(CorrectedWalker& w, Sampler& sampler) const {
         const SurfaceSide side = scene_.materials.side(w.x, w.wo);
         if (!side.bsdf) return false;
@@ -114,7 +112,7 @@ private:
         return true;
     }
     // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.
-    template <class Sampler, class Found>
+    template <class Found>
     bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
         if (!w.reads || !fields_->covers(w.x, front)) return true;
@@ -141,8 +139,8 @@ private:
     double of_area_;
 };
 
-template <class Sampler, class LightSamplers, class Samplers, class Observer>
-NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers<Sampler>& walkers, const LightSamplers& light_sampler,
+template <class LightSamplers, class Samplers, class Observer>
+NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
                                            const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
     const Geometry& T = scene_.geometry;
     const Emitters& emitters = scene_.emitters;

@@ -2,7 +2,7 @@
 
 #include "core/base/hot.h"
 #include "core/emitter/light_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -96,7 +96,7 @@ namespace {
 
 // K Le at a point with normal n on the lit side, without the reflectance.
 NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& lights, const SurfacePoint& p, const Vec3& n,
-                              SobolSampler& sampler, std::uint64_t& rays) {
+                              Sampler& sampler, std::uint64_t& rays) {
     std::array<LightSample, RayCaster::packet_size> waiting;
     std::array<double, RayCaster::packet_size> cosine;
     std::size_t count = 0;
@@ -146,7 +146,7 @@ void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed) {
             for (std::uint32_t column = 0; column < grid.columns; ++column) {
                 const SurfacePoint p = node(chart, grid, column, row);
                 const Vec3 n = front ? p.normal : -p.normal;
-                SobolSampler sampler(points, seed ^ direct_light_stream, static_cast<std::uint32_t>(first + column));
+                Sampler sampler(points, seed ^ direct_light_stream, static_cast<std::uint32_t>(first + column));
                 const SurfaceSide side = scene.materials.side(p, n);
                 const Rgb light =
                     std::get<Diffuse>(*side.bsdf).reflectance(side.p) * light_at_node(scene.geometry, lights, p, n, sampler, cast);

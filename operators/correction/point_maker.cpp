@@ -1,7 +1,6 @@
 #include "operators/correction/point_maker.h"
 
-#include "core/sampling/independent_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -19,19 +18,10 @@ constexpr std::size_t most_sets = 8;
 constexpr double survival_in_last_set = 1.0 / 8.0;
 constexpr std::uint32_t points_at_once = 4;
 
-template <class Sampler>
-Sampler sampler_of(const SobolPoints& net, std::uint64_t seed, std::uint32_t number) {
-    if constexpr (std::same_as<Sampler, SobolSampler>)
-        return SobolSampler(net, seed, number);
-    else
-        return IndependentSampler(seed, number);
-}
-
 }  // namespace
 
-template <class Sampler>
 struct PointMaker::Workspace {
-    CorrectedWalkers<Sampler> walkers;
+    CorrectedWalkers walkers;
     std::vector<Sampler> light, walk;  // of the points
     std::vector<Rgb> terms;
     std::vector<float> fields;  // at a point
@@ -55,7 +45,6 @@ PointMaker::PointMaker(const Scene& scene, const DirectLightSampler& direct, con
     if (walk_.rest_probability > 0.0) walk_.rest_probability = 1.0;
 }
 
-template <class Sampler>
 SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, const SharedPoints* next, std::uint64_t& rays,
                                   std::uint64_t& given_up) const {
     WalkSettings walk = walk_;
@@ -69,10 +58,10 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
     SharedPoints made;
     made.points.resize(points_);
     made.errors.resize(points_ * (quantities - 1));
-    oneapi::tbb::enumerable_thread_specific<Workspace<Sampler>> workspaces;
+    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     std::atomic<std::uint64_t> cast = 0, lost = 0;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, points_ / points_at_once, 1), [&](const auto& range) {
-        Workspace<Sampler>& work = workspaces.local();
+        Workspace& work = workspaces.local();
         work.rays.assign(quantities, 0);
         work.fields.resize(3 * fields.size());
         TermSamples out{{}, work.rays};
@@ -86,13 +75,13 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
             work.walk.clear();
             for (std::uint32_t i = 0; i < points_at_once; ++i) {
                 const std::uint32_t number = first + i, name = static_cast<std::uint32_t>(set) * points_ + number;
-                IndependentSampler place(seed_ ^ place_stream, name);
+                Sampler place(seed_ ^ place_stream, name);
                 place.start(replicate);
                 const double choice = (number + place.next()) / points_;
                 const Approximation::Draw draw = fields_.draw(choice, place.next2());
                 made.points[number] = {draw.point, draw.normal, draw.inverse_density};
-                work.light.push_back(sampler_of<Sampler>(light_net_, seed_ ^ light_stream, name));
-                work.walk.push_back(sampler_of<Sampler>(direction_net_, seed_ ^ walk_stream, name));
+                work.light.push_back(Sampler(sampler_, light_net_, seed_ ^ light_stream, name));
+                work.walk.push_back(Sampler(sampler_, direction_net_, seed_ ^ walk_stream, name));
                 work.walk.back().start(replicate * samples_.directions);
                 work.walkers.samplers.push_back(work.walk.back());
                 CorrectedWalker& w = work.walkers.walker[i];
@@ -135,8 +124,7 @@ std::optional<SharedPoints> PointMaker::make(std::uint64_t replicate, std::uint6
     std::optional<SharedPoints> next;
     for (std::size_t set = sets_; set-- > 0;) {
         const SharedPoints* const behind = next ? &*next : nullptr;
-        SharedPoints made = sampler_ == SamplerKind::sobol ? make_set<SobolSampler>(replicate, set, behind, rays, given_up)
-                                                           : make_set<IndependentSampler>(replicate, set, behind, rays, given_up);
+        SharedPoints made = make_set(replicate, set, behind, rays, given_up);
         next = std::move(made);
         if (watch.stop()) return std::nullopt;
     }

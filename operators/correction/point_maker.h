@@ -2,7 +2,7 @@
 // Set j needs one bounce less than set j − 1, so that it has the terms 1 … N − 1 − j by themselves and the later ones as a sum.
 #pragma once
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/correction/approximation.h"
 #include "operators/correction/corrected_walk.h"
 #include "operators/watch.h"
@@ -25,9 +25,7 @@ public:
     std::size_t sets() const { return sets_; }
 
 private:
-    template <class Sampler>
     struct Workspace;
-    template <class Sampler>
     SharedPoints make_set(std::uint64_t replicate, std::size_t set, const SharedPoints* next, std::uint64_t& rays,
                           std::uint64_t& given_up) const;
 

@@ -1,8 +1,7 @@
 #include "operators/known/probe.h"
 
 #include "core/geometry/area_sampler.h"
-#include "core/sampling/independent_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/surface_reflection.h"
@@ -57,7 +56,6 @@ struct TransportFrom {
     }
 };
 
-template <class Sampler>
 struct FromSampler : Random {
     explicit FromSampler(Sampler& s) : sampler(s) {}
     double next() override { return sampler.next(); }
@@ -100,7 +98,6 @@ struct Batch {
 constexpr std::uint32_t together = 64;  // walks
 
 // Adds the samples from `begin` to before `end`, a multiple of `together` or fewer than that.
-template <class Sampler>
 void run_batch(const Scene& scene, const StartPicker& pick, Technique technique, const ProbeSettings& settings,
                const Series& series, const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
     const auto quantities = static_cast<std::size_t>(settings.bounces) + 2;
@@ -126,7 +123,7 @@ void run_batch(const Scene& scene, const StartPicker& pick, Technique technique,
         std::fill(samples.begin(), samples.end(), Rgb(0.0));
         for (std::uint32_t i = 0; i < packet; ++i) {
             samplers[i].start(first + i);
-            FromSampler<Sampler> random(samplers[i]);
+            FromSampler random(samplers[i]);
             starts[i] = pick(random);
             rays[i].origin = starts[i].point.position + starts[i].wo;
             rays[i].direction = -starts[i].wo;
@@ -176,13 +173,8 @@ public:
     // More than before, or the first ones.
     void sample_to(std::uint32_t samples) {
         oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
-            const auto run = [&](const auto& sampler) {
-                run_batch(scene_, start_, technique_, settings_, series_, sampler, samples_, samples, batches_[b]);
-            };
-            if (points_)
-                run(SobolSampler(*points_, settings_.seed, b));
-            else
-                run(IndependentSampler(settings_.seed, b));
+            run_batch(scene_, start_, technique_, settings_, series_,
+                      points_ ? Sampler(*points_, settings_.seed, b) : Sampler(settings_.seed, b), samples_, samples, batches_[b]);
         });
         samples_ = samples;
     }

@@ -1,6 +1,6 @@
 #include "operators/matrix/camera_vector.h"
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/scene/camera_sample.h"
 #include "core/scene/pass_lights.h"
 
@@ -31,7 +31,7 @@ void look_through(const Scene& scene, const PatchSpace& space, std::uint32_t sam
         std::array<SurfacePoint, packet> hit;
         for (std::uint32_t i = 0; i < n; ++i) {
             const std::uint32_t x = (begin + i) / samples;
-            SobolSampler sampler(points, seed ^ camera_stream, y * width + x);
+            Sampler sampler(points, seed ^ camera_stream, y * width + x);
             sampler.start((begin + i) % samples);
             const CameraSample sample =
                 sample_camera(scene, film.crop_x + static_cast<int>(x), film.crop_y + static_cast<int>(y), sampler);

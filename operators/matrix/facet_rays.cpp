@@ -22,7 +22,7 @@ std::uint32_t place_on_curve(const Vec2& u) {
 NEUMANN_HOT std::vector<FacetRay> facet_rays(const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number) {
     constexpr std::uint32_t places = 1u << (2 * log2_cells);
     const std::uint32_t n = sobol.size();
-    SobolSampler sampler(sobol, seed, number);
+    Sampler sampler(sobol, seed, number);
     std::vector<FacetRay> drawn(n), sorted(n);
     std::vector<std::uint8_t> place(n);
     std::array<std::uint32_t, places + 1> begin{};

@@ -1,7 +1,7 @@
 // The rays of a facet: their origins are stratified over its area, and their directions by projected solid angle.
 #pragma once
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/patches/patch_space.h"
 
 #include <algorithm>

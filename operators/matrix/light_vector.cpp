@@ -2,7 +2,7 @@
 
 #include "core/base/hot.h"
 #include "core/emitter/light_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <array>
@@ -31,7 +31,7 @@ template <int C>
 NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space, const SobolPoints& points, std::uint64_t seed,
                              std::uint32_t number, IncidentVector<C>& means) {
     const Facet& facet = space.facets()[number];
-    SobolSampler sampler(points, seed ^ direct_stream, number);
+    Sampler sampler(points, seed ^ direct_stream, number);
     constexpr std::uint32_t packet = RayCaster::packet_size;
     std::array<Segment, packet> segments;
     std::array<Rgb, packet> light;
@@ -71,7 +71,7 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
     for_facets(space, [&](std::uint32_t f) {
         const Facet& facet = space.facets()[f];
         if (!facet.front) return;
-        SobolSampler sampler(points, emitted_stream, f);
+        Sampler sampler(points, emitted_stream, f);
         for (std::uint32_t cell = 0; cell < facet.cells.size(); ++cell) {
             Rgb sum(0.0);
             for (std::uint32_t i = 0; i < points.size(); ++i) {

@@ -1,6 +1,6 @@
 #include "operators/matrix/reflection_block.h"
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <Eigen/Cholesky>
@@ -66,7 +66,7 @@ std::vector<std::vector<Rgb>> ReflectionBlock::sampled_rows(std::span<const Side
         const Side &here = i < sides.back().first ? sides.front() : sides.back(),
                    &there = &here == &sides.front() ? sides.back() : sides.front();
         const double basic = there.index * there.index / (here.index * here.index);
-        SobolSampler sampler(points, 0, i);
+        Sampler sampler(points, 0, i);
         for (std::uint32_t sample = 0; sample < points.size(); ++sample) {
             sampler.start(sample);
             const Vec3 wo = here.cells.direction(i - here.first, sampler.next2());

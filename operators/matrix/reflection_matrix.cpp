@@ -1,6 +1,6 @@
 #include "operators/matrix/reflection_matrix.h"
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr std::uint32_t unknowns_at_once = 1 << 14;
 Rgb mean_reflectance(const Bsdf& bsdf, const PatchSpace& space, const Facet& facet, const SobolPoints& points,
                      std::uint32_t number) {
     Rgb sum(0.0);
-    SobolSampler sampler(points, 0, number);
+    Sampler sampler(points, 0, number);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
         const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/emitter/emission_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/scene/camera_sample.h"
 #include "operators/matrix/sides.h"
 
@@ -37,7 +37,7 @@ PatchSpace scene_patches(const Scene& scene, const Patching& patching) {
     if (scene.emitters.empty() || !has_glass(space)) return space;
     const EmissionSampler lights(scene.geometry, scene.emitters);
     const SobolPoints points(rays);
-    SobolSampler sampler(points, 0, 0);
+    Sampler sampler(points, 0, 0);
     for (std::uint32_t i = 0; i < rays && !lights.empty(); ++i) {
         sampler.start(i);
         const Vec2 place = sampler.next2();
@@ -54,7 +54,7 @@ PatchSpace scene_patches(const Scene& scene, const Patching& patching) {
 void check_camera(const Scene& scene, const PatchSpace& space) {
     if (!has_glass(space)) return;
     const SobolPoints points(rays);
-    SobolSampler sampler(points, 0, 0);
+    Sampler sampler(points, 0, 0);
     for (std::uint32_t i = 0; i < rays; ++i) {
         sampler.start(i);
         const Vec2 u = sampler.next2();

@@ -1,8 +1,8 @@
 // A group of camera samples of CorrectedSampler, which advance together.
 #pragma once
 
+#include "core/sampling/sampler.h"
 #include "operators/correction/point_maker.h"
-#include "operators/pictures/any_sampler.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/pixel_average.h"
@@ -12,20 +12,19 @@ namespace neumann {
 // Of each camera sample.
 inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0, .survival = 0.25};
 
-template <class Sampler>
 struct CorrectedSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
-    CorrectedWalkers<Sampler> walkers;
+    CorrectedWalkers walkers;
     std::vector<Sampler> camera, directions;  // of the group's samples, and of its pixels
     PixelAverage average;
     Tally tally;
 };
 
 // Samples all terms of samples first … first + samples − 1 of the replicate into work.group.
-template <class Sampler, class Observer>
+template <class Observer>
 void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
-                                   Workspace<Sampler>& work, const Observer& observer) const {
+                                   Workspace& work, const Observer& observer) const {
     const std::uint32_t size = settings_.replicate_size, first_pixel = first / size;
     const std::size_t Q = settings_.quantities();
     PathGroup& group = work.group;
@@ -37,9 +36,8 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first,
         const std::uint32_t number = (first + i) / size;
         const Pixel pixel = pixel_of(scene_->film, number);
         if ((first + i) % size == 0) {
-            work.camera.push_back(make_sampler<Sampler>(settings_.sampler, camera_net_, settings_.seed, number));
-            work.directions.push_back(
-                make_sampler<Sampler>(settings_.sampler, direction_net_, settings_.seed ^ direction_stream, number));
+            work.camera.push_back(Sampler(settings_.sampler, camera_net_, settings_.seed, number));
+            work.directions.push_back(Sampler(settings_.sampler, direction_net_, settings_.seed ^ direction_stream, number));
         } else {
             work.camera.push_back(work.camera.back());
         }

@@ -41,7 +41,6 @@ CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& s
                                                  settings_.seed, choose_points(pixels_, settings_), at_point);
 }
 
-template <class Sampler>
 bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                       const Watch& watch) const {
     const std::size_t Q = settings_.quantities();
@@ -53,8 +52,8 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
         if (!points) return false;
     }
     tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
-    oneapi::tbb::enumerable_thread_specific<Workspace<Sampler>> workspaces([&] {
-        Workspace<Sampler> work(Q);
+    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
+        Workspace work(Q);
         for (std::size_t q = 0; q < Q; ++q) work.tally.largest[q].outdo(tally.largest[q]);
         return work;
     });
@@ -63,7 +62,7 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
     std::atomic<std::uint32_t> done = 0;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
         if (dropped) return;
-        Workspace<Sampler>& work = workspaces.local();
+        Workspace& work = workspaces.local();
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
             const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels_);
             trace_group(replicate, begin * size, (end - begin) * size, points ? &*points : nullptr, work);
@@ -79,7 +78,7 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
         if (watch.stop()) dropped = true;
     });
     if (dropped) return false;
-    for (const Workspace<Sampler>& work : workspaces) tally.merge(work.tally);
+    for (const Workspace& work : workspaces) tally.merge(work.tally);
     return true;
 }
 
@@ -90,13 +89,10 @@ std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint6
     ranges.of.resize(pixels_ * Q);
     Tally new_tally(Q);
     for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
-    auto node =
-        run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
-                           [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
-                               return settings_.sampler == SamplerKind::sobol
-                                          ? sample_picture<SobolSampler>(replicate, picture, ranges, new_tally, of_picture)
-                                          : sample_picture<IndependentSampler>(replicate, picture, ranges, new_tally, of_picture);
-                           });
+    auto node = run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
+                                   [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
+                                       return sample_picture(replicate, picture, ranges, new_tally, of_picture);
+                                   });
     if (!node) return std::nullopt;
     tally.merge(new_tally);
     node->ranges = std::move(ranges);

@@ -2,7 +2,7 @@
 // replicate is a whole picture.
 #pragma once
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/pictures/path_observer.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/pictures/tally.h"
@@ -32,14 +32,12 @@ public:
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
 private:
-    template <class Sampler>
     struct Workspace;
     // Independent random numbers for the walks from first diffuse vertices.
     static constexpr std::uint64_t direction_stream = 0x676174686572ull;
-    template <class Sampler, class Observer = NoObserver>
+    template <class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
-                     Workspace<Sampler>& work, const Observer& observer = {}) const;
-    template <class Sampler>
+                     Workspace& work, const Observer& observer = {}) const;
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const;
 

@@ -9,7 +9,7 @@
 // if the mean weight stays the same.) Delta lobes have no value of fs; their sampled weight is used.
 #pragma once
 
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/pictures/path_observer.h"
 #include "operators/statistics/picture_statistics.h"
@@ -59,7 +59,7 @@ private:
     const Scene* scene_;
     bool from_light_;
     double share_;
-    IndependentSampler random_;
+    Sampler random_;
     std::vector<PathStep> first_;  // the first ray of each path, kept until no hidden light in front lets a further one pass
     std::vector<char> waiting_;
     std::vector<EnergyShares> entries_;

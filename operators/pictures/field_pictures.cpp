@@ -23,7 +23,7 @@ constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x67
 constexpr std::uint32_t samples_at_once = 64;
 
 struct Workspace {
-    std::vector<SobolSampler> samplers, gather_samplers;  // one for each sample; one for each pixel
+    std::vector<Sampler> samplers, gather_samplers;  // one for each sample; one for each pixel
     std::vector<PixelSample> samples;
     std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
     std::array<std::uint64_t, 3> rays{};
@@ -207,14 +207,13 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
         work.gather_samplers.clear();
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
             work.gather_samplers.emplace_back(gather_sobol, settings.seed ^ gather_stream, pixel);
-            work.samplers.resize(work.samplers.size() + settings.samples,
-                                 SobolSampler(sobol, settings.seed ^ picture_stream, pixel));
+            work.samplers.resize(work.samplers.size() + settings.samples, Sampler(sobol, settings.seed ^ picture_stream, pixel));
         }
         for (std::uint32_t r = 0; r < settings.replicates; ++r) {
             work.samples.clear();
             for (std::size_t i = 0; i < count; ++i) {
                 const auto offset = static_cast<std::uint32_t>(i / settings.samples), pixel = begin + offset;
-                SobolSampler& sampler = work.samplers[i];
+                Sampler& sampler = work.samplers[i];
                 const std::uint64_t sample_number = std::uint64_t{r} * settings.samples + i % settings.samples;
                 sampler.start(sample_number);
                 const CameraSample sample = sample_camera(scene, scene.film.crop_x + static_cast<int>(pixel) % width,

@@ -75,7 +75,7 @@ struct FieldReader::Look {
     bool goes_on;
 
     // Samples wi from the BSDF, with its pdf and the weight for basic radiance; false if nothing is reflected.
-    bool choose_direction(const Materials& materials, SobolSampler& sampler) {
+    bool choose_direction(const Materials& materials, Sampler& sampler) {
         const SurfaceSide side = materials.side(x, wo);
         const BsdfSample sampled = neumann::sample(*side.bsdf, side.p, side.p.frame.to_local(wo), sampler.next2());
         wi = side.p.frame.to_world(sampled.wi);
@@ -100,7 +100,7 @@ FieldReader::FieldReader(const Scene& scene, FieldReading reading, int bounces, 
         return;
     }
     const SobolPoints points(256);
-    SobolSampler sampler(points, 0, 0);
+    Sampler sampler(points, 0, 0);
     Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);

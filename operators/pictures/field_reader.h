@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/emitter/light_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
 
@@ -39,8 +39,8 @@ struct PixelSample {
     float* values;
     float* difference;
     float difference_weight;
-    SobolSampler* sampler;
-    SobolSampler* gather_sampler;
+    Sampler* sampler;
+    Sampler* gather_sampler;
     std::uint64_t first_gather_ray;
 };
 

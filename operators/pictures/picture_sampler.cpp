@@ -84,13 +84,12 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
     // Samples a group of consecutive pixels, starting with `begin`.
-    const auto run_pixels = [&](const auto& estimate, const auto& sampler_of, std::uint32_t begin, std::uint32_t end,
-                                Workspace& work) {
+    const auto run_pixels = [&](const auto& estimate, std::uint32_t begin, std::uint32_t end, Workspace& work) {
         std::vector<Pixel> some;
-        std::vector<std::decay_t<decltype(sampler_of(begin))>> samplers;
+        std::vector<Sampler> samplers;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
             some.push_back(pixel_of(scene_.film, pixel));
-            samplers.resize(samplers.size() + size, sampler_of(pixel));
+            samplers.resize(samplers.size() + size, Sampler(settings_.sampler, sobol_, settings_.seed, pixel));
         }
         for (std::uint64_t r = 0; r < count; ++r) {
             work.tally.given_up += trace(scene_, estimate, std::span(samplers), std::span<const Pixel>(some), first + r, work.group,
@@ -114,18 +113,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
         std::uint32_t done = 0;
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
             const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
-            std::visit(
-                [&](const auto& estimate) {
-                    if (settings_.sampler == SamplerKind::sobol)
-                        run_pixels(
-                            estimate, [&](std::uint32_t pixel) { return SobolSampler(sobol_, settings_.seed, pixel); }, begin, end,
-                            work);
-                    else
-                        run_pixels(
-                            estimate, [&](std::uint32_t pixel) { return IndependentSampler(settings_.seed, pixel); }, begin, end,
-                            work);
-                },
-                estimator);
+            std::visit([&](const auto& estimate) { run_pixels(estimate, begin, end, work); }, estimator);
             done += end - begin;
         }
         pixels_done += done;

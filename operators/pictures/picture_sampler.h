@@ -1,8 +1,7 @@
 // Samples the terms over a whole picture, replicate by replicate, and keeps the moments of every term and sum.
 #pragma once
 
-#include "core/sampling/independent_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/splat_sampler.h"

@@ -1,7 +1,7 @@
 #include "operators/pictures/pilot.h"
 
 #include "core/base/stopwatch.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/walk/walk.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -58,10 +58,10 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
         std::vector<Batch> round(together);
         oneapi::tbb::parallel_for(std::uint64_t{0}, together, [&](std::uint64_t b) {
             std::vector<CameraRay> camera_rays;
-            std::vector<IndependentSampler> samplers;
+            std::vector<Sampler> samplers;
             const Film& film = scene.film;
             for (std::uint64_t i = 0; i < batch; ++i) {
-                IndependentSampler& sampler =
+                Sampler& sampler =
                     samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
                 sampler.start(0);
                 const Vec2 u = sampler.next2();

@@ -1,7 +1,7 @@
 #include "operators/pictures/reachable_light.h"
 
 #include "core/emitter/emission_sampler.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/scene/camera_sample.h"
 #include "core/scene/pass_lights.h"
 #include "operators/pictures/path_group.h"
@@ -27,7 +27,7 @@ Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint
     oneapi::tbb::parallel_for(std::size_t{0}, seen.pixels.size(), [&](std::size_t number) {
         if (!wanted[number]) return;
         const Pixel pixel = pixel_of(scene.film, static_cast<std::uint32_t>(number));
-        IndependentSampler sampler(seed ^ albedo_stream, static_cast<std::uint32_t>(number));
+        Sampler sampler(seed ^ albedo_stream, static_cast<std::uint32_t>(number));
         for (std::uint64_t i = 0; i < rays_of_pixel; ++i) {
             sampler.start(i);
             const CameraRay ray = sample_camera(scene, pixel.x, pixel.y, sampler).ray;
@@ -49,7 +49,7 @@ Image seen_lights(const Scene& scene, std::uint64_t seed) {
     if (emission.empty() || scene.hide_emitters) return seen;
     const Film& film = scene.film;
     const double radius = neumann::radius(film.filter);
-    IndependentSampler sampler(seed ^ light_stream, 0);
+    Sampler sampler(seed ^ light_stream, 0);
     for (std::uint64_t i = 0; i < points_on_lights; ++i) {
         sampler.start(i);
         const Vec2 place = sampler.next2(), direction = sampler.next2(), lens = sampler.next2();

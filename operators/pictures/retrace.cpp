@@ -1,5 +1,5 @@
-// Traces paths again for an observer: the same walks with AnySampler, which keeps the code small but is slower.
-#include "operators/pictures/any_sampler.h"
+// Traces paths again for an observer: the same walks, compiled for size.
+#include "core/sampling/sampler.h"
 #include "operators/pictures/corrected_group.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/picture_sampler.h"
@@ -19,10 +19,10 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
                         pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()), begin = first / size,
                         end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
     std::vector<Pixel> some;
-    std::vector<AnySampler> samplers;
+    std::vector<Sampler> samplers;
     for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
         some.push_back(pixel_of(scene_.film, pixel));
-        samplers.resize(samplers.size() + size, AnySampler(settings_.sampler, sobol_, settings_.seed, pixel));
+        samplers.resize(samplers.size() + size, Sampler(settings_.sampler, sobol_, settings_.seed, pixel));
     }
     PathGroup group;
     std::vector<std::uint64_t> rays(quantities());
@@ -49,7 +49,7 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     const auto tell = [&](std::uint32_t i, std::size_t q, const Rgb& value, const Vec2* position) {
         if (observer.watches(i)) observer.found(i, q, value, position);
     };
-    trace_group<AnySampler>(
+    trace_group(
         replicate, first, samples,
         [&](std::uint32_t i, std::size_t q, const Rgb& value) {
             group.samples[i * Q + q] += value;
@@ -87,7 +87,7 @@ std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_
                         end = std::min(first / size + pixels_at_once, pixels_) * size;
     std::uint64_t rays = 0, given_up = 0;
     const auto points = points_->make(replicate, rays, given_up, {});
-    Workspace<AnySampler> work(settings_.quantities());
+    Workspace work(settings_.quantities());
     SplitPaths split(observer, work.walkers.walker);
     trace_group(replicate, first, end - first, points ? &*points : nullptr, work, WatchedPaths(split));
     return std::move(work.group.samples);

@@ -2,7 +2,7 @@
 // of SplatSampler.
 #pragma once
 
-#include "operators/pictures/any_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/splat_sampler.h"
 
@@ -26,7 +26,7 @@ struct SplatSampler::Workspace {
     Tally tally;
 };
 
-template <class Sampler, class OnFound, class OnSplat, class Observer>
+template <class OnFound, class OnSplat, class Observer>
 void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
                                const OnSplat& splatted, Workspace& work, const Observer& observer) const {
     const Geometry& T = scene_->geometry;
@@ -34,7 +34,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     const std::uint32_t size = settings_.replicate_size;
     const Film& film = scene_->film;
     const auto sampler_of = [&](const SobolPoints& points, std::uint32_t pixel) {
-        return make_sampler<Sampler>(settings_.sampler, points, settings_.seed, pixel);
+        return Sampler(settings_.sampler, points, settings_.seed, pixel);
     };
     // Each replicate starts a new (t, m, s)-net.
     const std::uint64_t paths = (std::uint64_t{pixels_} * size + light_net - 1) / light_net * light_net;

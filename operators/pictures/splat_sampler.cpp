@@ -79,12 +79,11 @@ std::uint32_t SplatSampler::pixel_at(const Vec2& position) const {
     return static_cast<std::uint32_t>(y * film.crop_width + x);
 }
 
-template <class Sampler>
 void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk,
                                 std::span<Rgb> own, SampleRanges& ranges, Workspace& work) const {
     const std::size_t Q = settings_.quantities();
     const auto name = [&](std::uint32_t i) { return name_in_group(replicate, first, i, settings_.replicate_size); };
-    trace_group<Sampler>(
+    trace_group(
         replicate, first, samples,
         [&](std::uint32_t i, std::size_t q, const Rgb& value) { work.group.samples[i * Q + q] += value; },
         [&](std::uint32_t i, const Vec2& position, std::size_t q, const Rgb& value) {
@@ -123,10 +122,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         chunk.shares.clear();
         for (std::uint32_t first = chunk.first; first < chunk.end; first += paths_at_once) {
             const std::uint32_t n = std::min(paths_at_once, chunk.end - first);
-            if (settings_.sampler == SamplerKind::sobol)
-                sample_group<SobolSampler>(replicate, first, n, chunk, picture, ranges.own, work);
-            else
-                sample_group<IndependentSampler>(replicate, first, n, chunk, picture, ranges.own, work);
+            sample_group(replicate, first, n, chunk, picture, ranges.own, work);
         }
     };
     // Chunks are computed in any order and added in a fixed one: the same bits on any number of threads.

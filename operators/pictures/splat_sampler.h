@@ -2,7 +2,7 @@
 // as many paths as camera samples, and each is added to the pixels whose filter covers its position on the film.
 #pragma once
 
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/bidirectional/bidirectional.h"
 #include "operators/bidirectional/light_tracing.h"
 #include "operators/pictures/path_observer.h"
@@ -37,10 +37,9 @@ private:
     // Traces paths first … first + samples − 1 of the replicate. `found(path, quantity, value)`: a contribution to the path's own
     // pixel, before the filter's weight. `splatted(path, position, quantity, value)`: a contribution at a position on the film, as
     // radiance times the number of pixels.
-    template <class Sampler, class OnFound, class OnSplat, class Observer = NoObserver>
+    template <class OnFound, class OnSplat, class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
                      const OnSplat& splatted, Workspace& work, const Observer& observer = {}) const;
-    template <class Sampler>
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
                       SampleRanges& ranges, Workspace& work) const;
     void spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,

@@ -201,7 +201,7 @@ double bare_rays_per_second(const Scene& scene) {
     const RecordingTransport recorder(scene.geometry);
     const SobolPoints points(rays);
     for (std::uint32_t f = 0; f < space.facets().size(); ++f) {
-        SobolSampler sampler(points, 1, f);
+        Sampler sampler(points, 1, f);
         for (std::uint32_t begin = 0; begin < rays; begin += packet) {
             std::array<std::pair<SurfacePoint, Vec3>, packet> from;
             std::array<SurfacePoint, packet> hits;

@@ -31,19 +31,15 @@ struct Setup {
         settings.sampler = kind;
         settings.walk.bounces = 8;
         settings.walk.rest_probability = 0.0;
-        if (kind == SamplerKind::sobol)
-            record([this](std::uint32_t pixel) { return SobolSampler(points, 0, pixel); });
-        else
-            record([](std::uint32_t pixel) { return IndependentSampler(0, pixel); });
+        record(kind);
     }
 
     SobolPoints points{8};
 
     // What PictureSampler does for one replicate, with the rays taken down.
-    template <class MakeSampler>
-    void record(const MakeSampler& make) {
+    void record(SamplerKind kind) {
         struct Counting {
-            decltype(make(0u)) sampler;
+            Sampler sampler;
             std::uint64_t* count;
             double next() { return ++*count, sampler.next(); }
             Vec2 next2() { return *count += 2, sampler.next2(); }
@@ -60,7 +56,7 @@ struct Setup {
             std::vector<Counting> samplers;
             std::vector<CameraRay> camera_rays;
             for (std::uint32_t pixel = first; pixel < first + pixels_at_once; ++pixel) {
-                samplers.resize(samplers.size() + size, Counting{make(pixel), &numbers});
+                samplers.resize(samplers.size() + size, Counting{Sampler(kind, points, 0, pixel), &numbers});
                 for (std::size_t i = 0; i < size; ++i) {
                     Counting& sampler = samplers[camera_rays.size()];
                     sampler.sampler.start(i);
@@ -127,7 +123,6 @@ void geometry(benchmark::State& state, const Setup& setup) {
     finish(state, setup);
 }
 
-template <class Sampler>
 void draw(Sampler sampler, std::uint32_t samples, std::uint64_t numbers) {
     for (std::uint32_t i = 0; i < samples; ++i) {
         sampler.start(i);
@@ -141,10 +136,7 @@ void numbers(benchmark::State& state, const Setup& setup) {
     const std::uint64_t each = setup.numbers / (pixels * setup.settings.replicate_size);
     for (auto _ : state)
         oneapi::tbb::parallel_for(0u, pixels, [&](std::uint32_t pixel) {
-            if (setup.sampler == SamplerKind::sobol)
-                draw(SobolSampler(setup.points, 0, pixel), setup.settings.replicate_size, each);
-            else
-                draw(IndependentSampler(0, pixel), setup.settings.replicate_size, each);
+            draw(Sampler(setup.sampler, setup.points, 0, pixel), setup.settings.replicate_size, each);
         });
     finish(state, setup);
 }

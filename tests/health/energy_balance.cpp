@@ -41,7 +41,7 @@ EnergyBalance balance_of_walks(const Scene& scene, const WrongWeight& continuati
             explicit Keeper(BalanceSheet s) : sheet(std::move(s)) {}
             void step(std::uint32_t path, const PathStep& step) override { sheet.add(path, step); }
         } keeper(BalanceSheet(scene, false, bounces, 1, ~seed, group));
-        std::vector<IndependentSampler> samplers;
+        std::vector<Sampler> samplers;
         std::vector<CameraRay> rays;
         for (std::uint32_t i = 0; i < together; ++i) {
             samplers.emplace_back(seed, group * together + i);

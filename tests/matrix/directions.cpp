@@ -1,5 +1,5 @@
 // Surfaces that are not diffuse: R between cells of directions.
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/enclosures.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
@@ -54,7 +54,7 @@ TEST(ReflectionBlock, IsSymmetricAndItsRowsSumToTheAlbedo) {
             const SobolPoints points(4096);
             for (std::uint32_t i = 0; i < cells.size(); i += std::max(1u, cells.size() / 16)) {
                 double albedo = 0.0;  // by other samples
-                SobolSampler sampler(points, 7, i);
+                Sampler sampler(points, 7, i);
                 for (std::uint32_t n = 0; n < points.size(); ++n) {
                     sampler.start(n);
                     const Vec3 wo = cells.direction(i, sampler.next2());

@@ -1,5 +1,5 @@
 // Light in narrow gaps, where it goes to and fro: how fast it leaks out, which decides the deep bounces.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/matrix/traced_system.h"
 #include "tests/physics/scene_maker.h"
 
@@ -24,7 +24,7 @@ TEST(Gaps, LeakAsFastAsTheyShould) {
     const Scene scene = maker.make();
     constexpr int bounces = 32, walkers = 1'000'000;
     std::vector<double> walked(bounces + 1);
-    IndependentSampler random(7, 0);
+    Sampler random(7, 0);
     random.start(0);
     for (int k = 0; k < walkers; ++k) {
         Vec2 p = low + random.next2() * (high - low);

@@ -1,5 +1,5 @@
 // What holds by construction, to rounding: rows of T, the furnace, norms, adjoints, and L = Le + K L.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/enclosures.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
@@ -35,7 +35,7 @@ struct System {
 
 template <int C>
 ExitantVector<C> random_field(const PatchSpace& space, std::uint32_t stream) {
-    IndependentSampler random(11, stream);
+    Sampler random(11, stream);
     random.start(0);
     ExitantVector<C> f = ExitantVector<C>::zero(space.size());
     for (std::uint32_t u = 0; u < space.size(); ++u)

@@ -2,7 +2,7 @@
 #include "operators/patches/patch_space.h"
 
 #include "core/base/error.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/enclosures.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Patches, EndAtTheOutlinesOfWhatStandsOnThem) {
         border = std::abs(within) < 0.005;  // a sixteenth of a patch's width
         return within > 0.0;
     };
-    IndependentSampler random(3, 0);
+    Sampler random(3, 0);
     random.start(0);
     std::uint64_t divided = 0;
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -91,7 +91,7 @@ TEST(Patches, NarrowTowardsTheMouthOfAGap) {
     const Scene scene = furnished_room();
     const Patches patches(scene.geometry, {1500, 0.3});
     constexpr double deepest = 0.0319;
-    IndependentSampler random(5, 0);
+    Sampler random(5, 0);
     random.start(0);
     int at_the_mouth = 0;
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(Patches, AreFoundFromTheirPoints) {
     for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         const Patches patches(scene.geometry, {700, 0.6});
-        IndependentSampler random(1, 0);
+        Sampler random(1, 0);
         random.start(0);
         for (std::uint32_t i = 0; i < patches.size(); ++i)
             for (int k = 0; k < 8; ++k) {
@@ -154,7 +154,7 @@ TEST(Patches, PointsAreUniformByArea) {
         const Scene scene = e.maker.make();
         const Patches coarse(scene.geometry, {40, 0.3}), fine(scene.geometry, {2000, 0.0});
         std::vector<double> share(fine.size());
-        IndependentSampler random(7, 0);
+        Sampler random(7, 0);
         random.start(0);
         constexpr int samples = 4000;
         // Points of all coarse patches, weighted by area, against the area of the fine patches, eight groups of them.
@@ -181,7 +181,7 @@ TEST(Patches, InterpolationIsExactForLinearFunctions) {
     maker.add(parallelogram({1, 2, 3}, {2, 0, 1}, {0.5, 1.5, 0}), matte(0.5));
     const Scene scene = maker.make();
     const Patches patches(scene.geometry, {300, 0.7});
-    IndependentSampler random(3, 0);
+    Sampler random(3, 0);
     random.start(0);
     for (int k = 0; k < 1000; ++k) {
         const SurfacePoint p =
@@ -201,7 +201,7 @@ TEST(Patches, InterpolationStaysWithinAChartAndAddsUpToOne) {
     for (const ClosedScene& e : surfaces()) {
         const Scene scene = e.maker.make();
         const Patches patches(scene.geometry, {500, 0.7});
-        IndependentSampler random(3, 0);
+        Sampler random(3, 0);
         random.start(0);
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
             const Patches::Reading r = patches.interpolate(patches.point(i, random.next2()));
@@ -256,7 +256,7 @@ TEST(PatchSpace, LeavesOutSidesThatFaceNothing) {
 }
 
 TEST(DirectionCells, HoldTheirDirections) {
-    IndependentSampler random(5, 0);
+    Sampler random(5, 0);
     random.start(0);
     for (const std::uint32_t k : {1u, 2u, 8u, 16u}) {
         const DirectionCells cells{k};

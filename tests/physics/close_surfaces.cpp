@@ -2,7 +2,7 @@
 #include "core/geometry/geometry.h"
 #include "core/geometry/giants.h"
 #include "core/geometry/transformed.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ private:
     std::vector<Plane> planes_;
 };
 
-Vec3 random_direction(IndependentSampler& random, const Vec3& normal) {
+Vec3 random_direction(Sampler& random, const Vec3& normal) {
     const Vec3 w = uniform_sphere(random.next2());
     return glm::dot(w, normal) < 0.0 ? -w : w;
 }
@@ -82,11 +82,10 @@ struct Counts {
 // Paths of random directions from points on all surfaces and near their edges, and shadow rays between them. By the edge of
 // something either answer is right: what a ray a millionth of a radian beside it meets is accepted, too, and what triangles meet
 // that are larger by Embree's rounding. No ray that passes through a surface or between two that touch is right by this.
-Counts compare(const Geometry& geometry, int paths, std::uint64_t seed,
-               const std::function<SurfacePoint(IndependentSampler&)>& start) {
+Counts compare(const Geometry& geometry, int paths, std::uint64_t seed, const std::function<SurfacePoint(Sampler&)>& start) {
     const Brute brute(geometry);
     const double rounding = 2e-7 * geometry.radius();
-    IndependentSampler random(seed, 0);
+    Sampler random(seed, 0);
     random.start(0);
     Counts counts;
     for (int i = 0; i < paths; ++i) {
@@ -144,14 +143,14 @@ Counts compare(const Geometry& geometry, int paths, std::uint64_t seed,
     return counts;
 }
 
-SurfacePoint anywhere(const Geometry& geometry, IndependentSampler& random) {
+SurfacePoint anywhere(const Geometry& geometry, Sampler& random) {
     const auto shape = static_cast<std::uint32_t>(random.next() * static_cast<double>(geometry.shapes().size()));
     const auto primitive = static_cast<std::uint32_t>(random.next() * geometry.primitive_count(shape));
     return geometry.point(shape, primitive, random.next2());
 }
 
 // A point whose distance from the edges of its triangle is logarithmic.
-SurfacePoint near_edges(const Geometry& geometry, IndependentSampler& random) {
+SurfacePoint near_edges(const Geometry& geometry, Sampler& random) {
     const auto shape = static_cast<std::uint32_t>(random.next() * static_cast<double>(geometry.shapes().size()));
     const auto primitive = static_cast<std::uint32_t>(random.next() * geometry.primitive_count(shape));
     const auto& mesh = std::get<TriangleMesh>(geometry.shapes()[shape]);
@@ -193,7 +192,7 @@ TEST(CloseSurfaces, AreMetInLongGrooves) {
                 const Geometry geometry = placed(
                     {quad(corner, along, {0, std::cos(angle), std::sin(angle)}), quad(corner, along, {0, 1, 0})}, place.to_world);
                 // Far from the ends, at distances from 1 down to 1e-6 from the crease.
-                const auto start = [&](IndependentSampler& random) {
+                const auto start = [&](Sampler& random) {
                     const auto shape = static_cast<std::uint32_t>(2.0 * random.next());
                     const double up = std::pow(10.0, -6.0 * random.next()), x = 0.5 * random.next();
                     const Vec3 p(x, up * (shape == 0 ? std::cos(angle) : 1.0), up * (shape == 0 ? std::sin(angle) : 0.0));
@@ -218,7 +217,7 @@ TEST(CloseSurfaces, AreMetInThinGapsAboveWideGround) {
                     placed({quad({-half_width, -half_width, 0}, {2 * half_width, 0, 0}, {0, 2 * half_width, 0}),
                             box({0, 0, gap}, {1, 1, 1 + gap})},
                            place.to_world);
-                const auto start = [&](IndependentSampler& random) {
+                const auto start = [&](Sampler& random) {
                     const Vec2 u = 1.5 * random.next2() - 0.25;
                     if (random.next() < 0.5)
                         return near_edges(geometry, random).shape == 1
@@ -241,8 +240,7 @@ TEST(CloseSurfaces, AreMetWhereBoxesTouchAndOverlap) {
                                               box({gap, -0.4, 0}, {0.3, 0.1, 0.3}), box({-0.1, -0.1, -0.1}, {0.2, 0.2, 0.2}),
                                               box({-0.5, -0.5, 0.5 + 2 * gap}, {0, 0, 0.7})},
                                              place.to_world);
-            const Counts counts =
-                compare(geometry, 10000, 3, [&](IndependentSampler& random) { return near_edges(geometry, random); });
+            const Counts counts = compare(geometry, 10000, 3, [&](Sampler& random) { return near_edges(geometry, random); });
             EXPECT_EQ(counts.wrong, 0) << place.name << ", gap " << gap << ", of " << counts.rays << ", close " << counts.close;
         }
 }
@@ -256,7 +254,7 @@ TEST(CloseSurfaces, AreMetInOrderAlongTheEdgesOfBoxes) {
         const Geometry geometry = placed({outer, inner}, place.to_world);
         const auto& vertices = std::get<TriangleMesh>(geometry.shapes()[1]).vertices;
         const Vec3 center = place.to_world * glm::dvec4(-0.5, -0.5, -0.5, 1.0);
-        IndependentSampler random(7, 0);
+        Sampler random(7, 0);
         random.start(0);
         int behind = 0, missed = 0, met = 0;
         for (int k = 0; k < 200000; ++k) {
@@ -284,7 +282,7 @@ TEST(CloseSurfaces, AreMetInOrderAlongTheEdgesOfBoxes) {
 TEST(CloseSurfaces, AreNotMetWhereRaysStartBesideAnEdge) {
     const Mat4 to_world = glm::scale(glm::rotate(Mat4(1.0), 1.1, glm::normalize(Vec3(1, 2, 3))), Vec3(1e6));
     const Geometry geometry({transformed(make_cube(glm::scale(glm::translate(Mat4(1.0), Vec3(0.5)), Vec3(0.5)), true), to_world)});
-    IndependentSampler sampler(20240229, 0);
+    Sampler sampler(20240229, 0);
     for (std::uint64_t i = 0; i < 400'000; ++i) {
         sampler.start(i);
         // Beside the edge x = y = 0, by 1e-6 to 1e-5 of the room, on the wall x = 0.

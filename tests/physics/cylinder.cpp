@@ -1,6 +1,6 @@
 // Cylinders: where rays hit, and the tube whose light is known.
 #include "core/base/error.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -51,7 +51,7 @@ TEST(Cylinder, HasItsAreaAndIsCoveredEvenly) {
 TEST(Cylinder, IsHitWhereTheQuadraticSays) {
     const Cylinder c = skew();
     const Geometry geometry({c});
-    IndependentSampler sampler(fixed_seed, 0);
+    Sampler sampler(fixed_seed, 0);
     int hits = 0, from_inside = 0;
     for (std::uint64_t i = 0; i < 20000; ++i) {
         sampler.start(i);
@@ -96,7 +96,7 @@ TEST(Cylinder, IsOpenAtItsEnds) {
 TEST(Cylinder, PointsInsideSeeEachOther) {
     const Cylinder c = skew(true);
     const Geometry geometry({c});
-    IndependentSampler sampler(fixed_seed, 1);
+    Sampler sampler(fixed_seed, 1);
     for (std::uint64_t i = 0; i < 20000; ++i) {
         sampler.start(i);
         const SurfacePoint x = geometry.point(0, 0, sampler.next2()), y = geometry.point(0, 0, sampler.next2());

@@ -1,7 +1,7 @@
 // Walks at diffuse surfaces are reflected eight at a time (operators/walk/diffuse_packet.h). Every sample must have the bits that
 // it has where each walk is reflected by itself.
 #define NEUMANN_SMALL
-#include "operators/pictures/any_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/walk/walk.h"
 #include "tests/physics/scene_maker.h"
 
@@ -47,7 +47,7 @@ Samples walked(const Scene& scene, const WalkSettings& settings, SamplerKind kin
     found.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
     for (std::uint32_t group = 0; group < 40; ++group) {
         std::vector<CameraRay> rays;
-        std::vector<AnySampler> samplers(paths, AnySampler(kind, points, 5, group));
+        std::vector<Sampler> samplers(paths, Sampler(kind, points, 5, group));
         for (std::uint32_t i = 0; i < paths; ++i) {
             samplers[i].start(i);
             const Vec2 u = samplers[i].next2();

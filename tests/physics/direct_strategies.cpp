@@ -1,6 +1,6 @@
 // Every way to find the light of a reflection, and every choice of light, gives the same answer.
 #include "core/emitter/light_sampler.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/sampling/spherical_rectangle.h"
 #include "core/sampling/spherical_triangle.h"
 #include "core/sampling/warp.h"
@@ -120,7 +120,7 @@ TEST(DirectStrategies, DensitiesAreThoseOfSamples) {
     for (const LightChoice choice : choices)
         for (const LightPlace place : {LightPlace::area, LightPlace::solid_angle}) {
             const LightSampler lights(scene.geometry, scene.emitters, choice, place);
-            IndependentSampler sampler(fixed_seed, 0);
+            Sampler sampler(fixed_seed, 0);
             for (std::uint64_t i = 0; i < 4000; ++i) {
                 sampler.start(i);
                 const Vec3 x(4.0 * sampler.next() - 2.0, 4.0 * sampler.next() - 2.0, 0.5 * sampler.next());
@@ -151,7 +151,7 @@ TEST(DirectStrategies, SphericalTrianglesAreSampledUniformly) {
         const Vec3 exact = (side(a, b) + side(b, c) + side(c, a)) * (0.5 / angle);
         Vec3 mean(0.0), squares(0.0);
         constexpr int n = 1 << 16;
-        IndependentSampler sampler(fixed_seed, 1);
+        Sampler sampler(fixed_seed, 1);
         for (int i = 0; i < n; ++i) {
             sampler.start(static_cast<std::uint64_t>(i));
             const Vec3 w = sample_spherical_triangle(a, b, c, angle, sampler.next2());
@@ -170,7 +170,7 @@ TEST(DirectStrategies, SphericalTrianglesAreSampledUniformly) {
 TEST(DirectStrategies, SolidAnglesOfRectangles) {
     EXPECT_NEAR(SphericalRectangle({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}).solid_angle(), 4.0 * pi / 6.0, 1e-14);
     EXPECT_EQ(SphericalRectangle({1, -1, 0}, {2, 0, 0}, {0, 2, 0}).solid_angle(), 0.0);
-    IndependentSampler sampler(fixed_seed, 2);
+    Sampler sampler(fixed_seed, 2);
     sampler.start(0);
     const auto number = [&] { return 4.0 * sampler.next() - 2.0; };
     for (int i = 0; i < 1000; ++i) {
@@ -197,7 +197,7 @@ TEST(DirectStrategies, SphericalRectanglesAreSampledUniformly) {
                                        std::array{Vec3(-1, -1, 1e-3), Vec3(2, 0, 0), Vec3(0, 2, 0)}}) {
         const SphericalRectangle rectangle(corner, a, b);
         std::vector<double> found(cells * cells);
-        IndependentSampler sampler(fixed_seed, 3);
+        Sampler sampler(fixed_seed, 3);
         for (int i = 0; i < n; ++i) {
             sampler.start(static_cast<std::uint64_t>(i));
             const Vec3 d = rectangle.sample(sampler.next2()) - corner;

@@ -1,7 +1,7 @@
 // Light by a picture of all directions: where its pixels are, its density, and what it lights.
 #include "core/emitter/environment_map.h"
 #include "core/image/display.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
@@ -17,7 +17,7 @@ namespace {
 // Numbers without any pattern; some pixels are black, and one is 100 times as bright as the others.
 Image picture(int width, int height) {
     Image image(width, height);
-    IndependentSampler sampler(5, static_cast<std::uint32_t>(width));
+    Sampler sampler(5, static_cast<std::uint32_t>(width));
     sampler.start(0);
     for (Rgb& c : image.pixels) c = sampler.next() < 0.3 ? Rgb(0.0) : Rgb(sampler.next(), sampler.next(), sampler.next());
     image.at(width - 1, height / 2) = {90.0, 100.0, 80.0};
@@ -88,7 +88,7 @@ TEST(EnvironmentMap, ToWorldTurnsIt) {
     const Image image = picture(8, 5);
     const Mat4 mirrored = glm::scale(skew, Vec3(-1, 1, 1));
     const EnvironmentMap map(image, 1.0, upright);
-    IndependentSampler sampler(fixed_seed, 0);
+    Sampler sampler(fixed_seed, 0);
     for (const Mat4& to_world : {skew, mirrored}) {
         const EnvironmentMap turned(image, 1.0, to_world);
         for (std::uint64_t i = 0; i < 100; ++i) {
@@ -124,7 +124,7 @@ TEST(EnvironmentMap, TheDensityFollowsTheLuminance) {
     for (const auto& [name, image] : cases()) {
         const EnvironmentMap map(image, 3.0, upright);
         const double spacing = pi / (image.height - 1), total = 4.0 * pi * map.brightness();
-        IndependentSampler sampler(fixed_seed, 1);
+        Sampler sampler(fixed_seed, 1);
         for (std::uint64_t i = 0; i < 1000; ++i) {
             sampler.start(i);
             const Vec3 w = i == 0 ? Vec3(0, 1, 0) : i == 1 ? Vec3(0, -1, 0) : uniform_sphere(sampler.next2());
@@ -146,7 +146,7 @@ TEST(EnvironmentMap, DirectionsAreDrawnWithTheirDensity) {
     for (const auto& [name, image] : cases()) {
         const EnvironmentMap map(image, 1.0, upright);
         std::vector<double> found(rings * sectors);
-        IndependentSampler sampler(fixed_seed, stream++);
+        Sampler sampler(fixed_seed, stream++);
         for (int i = 0; i < count; ++i) {
             sampler.start(static_cast<std::uint64_t>(i));
             const Vec3 w = map.sample(sampler.next2());

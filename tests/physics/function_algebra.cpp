@@ -1,6 +1,6 @@
 // The algebra of operators on functions: the same expressions, exact in furnaces; adjoints; and sums that keep their digits.
 #include "core/geometry/area_sampler.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
@@ -23,7 +23,7 @@ using namespace physics;
 struct Numbers : Random {
     Numbers(std::uint64_t seed, std::uint32_t stream) : sampler(seed, stream) { sampler.start(0); }
     double next() override { return sampler.next(); }
-    IndependentSampler sampler;
+    Sampler sampler;
 };
 
 Scene furnace(double rho) {

@@ -1,7 +1,7 @@
 // What every material promises: samples that follow their density, and reciprocity; and integrals over the whole sphere.
 #pragma once
 
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/quadrature.h"
 #include "tests/physics/seed.h"
 
@@ -43,7 +43,7 @@ inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const 
     constexpr int rings = 12, sectors = 24;
     std::vector<double> found(rings * sectors);
     double others = 0.0;
-    IndependentSampler sampler(seed, stream);
+    Sampler sampler(seed, stream);
     for (int i = 0; i < count; ++i) {
         sampler.start(static_cast<std::uint64_t>(i));
         const BsdfSample s = sample(bsdf, p, wo, sampler.next2());
@@ -94,7 +94,7 @@ inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const 
 
 // weight · pdf = fs |cosθ|, and pdf() is the density that sample() says.
 inline void expect_consistent_samples(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, double tolerance = 1e-9) {
-    IndependentSampler sampler(fixed_seed, 1);
+    Sampler sampler(fixed_seed, 1);
     for (std::uint64_t i = 0; i < 1000; ++i) {
         sampler.start(i);
         const BsdfSample found = sample(bsdf, p, wo, sampler.next2());
@@ -109,7 +109,7 @@ inline void expect_consistent_samples(const Bsdf& bsdf, const ShadingPoint& p, c
 // The largest |fs(a → b)/fs(b → a) − 1|, relative to the larger one, over `count` pairs on the same side.
 inline double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, int count = 1000) {
     double worst = 0.0;
-    IndependentSampler sampler(fixed_seed, 2);
+    Sampler sampler(fixed_seed, 2);
     for (int i = 0; i < count; ++i) {
         sampler.start(static_cast<std::uint64_t>(i));
         const Vec3 a = uniform_hemisphere(sampler.next2()), b = uniform_hemisphere(sampler.next2());

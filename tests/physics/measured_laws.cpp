@@ -3,7 +3,7 @@
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Bsdf tilted(const Bsdf& nested, double angle) {
 // by their cosine the variance would be infinite. The standard error from 64 batches.
 std::pair<double, double> defect_by_chance(const Bsdf& bsdf) {
     constexpr int batches = 64, count = 1 << 14;
-    IndependentSampler sampler(fixed_seed, 0);
+    Sampler sampler(fixed_seed, 0);
     double mean = 0.0, squares = 0.0;
     for (int batch = 0; batch < batches; ++batch) {
         double difference = 0.0, sum = 0.0;

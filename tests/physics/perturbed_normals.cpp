@@ -1,5 +1,5 @@
 // Normal and bump maps: the nested material around another normal.
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
@@ -97,7 +97,7 @@ TEST(PerturbedNormals, SamplesAreWhatEvalAndPdfSay) {
         for (const PerturbedNormal::Options& options : {plain, PerturbedNormal::Options{}}) {
             const Bsdf bsdf = perturbed(nested, {0.5, 0.2, 1.0}, options);
             const Vec3 wo = direction(0.9, 2.5);
-            SobolSampler sampler(points, 1, 0);
+            Sampler sampler(points, 1, 0);
             int reflected = 0;
             for (std::uint32_t i = 0; i < points.size(); ++i) {
                 sampler.start(i);

@@ -154,7 +154,7 @@ TEST(Principled, IsReciprocal) {
     auto v = parameters(orange, 0.6);
     v->spec_trans = Rgb(0.7);
     const Bsdf outside = Principled(v, Side::outside), inside = Principled(v, Side::inside);
-    IndependentSampler sampler(fixed_seed, 3);
+    Sampler sampler(fixed_seed, 3);
     const auto flipped = [](const Vec3& w) { return Vec3(w.x, w.y, -w.z); };  // to the frame of the other side
     for (std::uint64_t i = 0; i < 1000; ++i) {
         sampler.start(i);
@@ -167,7 +167,7 @@ TEST(Principled, IsReciprocal) {
 // The thin one is not, where the sheet lets through at grazing angles: light counts from a to b and not from b to a.
 TEST(PrincipledThin, IsNotReciprocalThrough) {
     const Bsdf film = thin().back().bsdf;
-    IndependentSampler sampler(fixed_seed, 4);
+    Sampler sampler(fixed_seed, 4);
     int differing = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
         sampler.start(i);

@@ -1,5 +1,5 @@
 // Rough metals: the laws of a material, by quadrature and χ².
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
 
@@ -73,7 +73,7 @@ TEST(RoughConductor, DirectionsAreDrawnWithTheirDensity) {
             const Vec3 wo = at_cosine(mu);
             const double alpha = lobe(bsdf).alpha;
             std::vector<double> found(rings * sectors);
-            IndependentSampler sampler(fixed_seed, stream++);
+            Sampler sampler(fixed_seed, stream++);
             for (int i = 0; i < count; ++i) {
                 sampler.start(static_cast<std::uint64_t>(i));
                 const Vec3 m = glm::normalize(wo + sample(bsdf, {}, wo, sampler.next2()).wi);
@@ -117,7 +117,7 @@ TEST(RoughConductor, TheWeightTimesTheDensityIsTheScatteringFunction) {
     for (const auto& [name, bsdf] : metals())
         for (const double mu : {1.0, 0.8, 0.5, 0.2, 0.05, 1e-4}) {
             const Vec3 wo = at_cosine(mu);
-            IndependentSampler sampler(fixed_seed, 1);
+            Sampler sampler(fixed_seed, 1);
             for (std::uint64_t i = 0; i < 1000; ++i) {
                 sampler.start(i);
                 const BsdfSample found = sample(bsdf, {}, wo, sampler.next2());
@@ -131,7 +131,7 @@ TEST(RoughConductor, TheWeightTimesTheDensityIsTheScatteringFunction) {
 
 TEST(RoughConductor, IsReciprocal) {
     for (const auto& [name, bsdf] : metals()) {
-        IndependentSampler sampler(fixed_seed, 2);
+        Sampler sampler(fixed_seed, 2);
         for (std::uint64_t i = 0; i < 1000; ++i) {
             sampler.start(i);
             const Vec3 a = uniform_hemisphere(sampler.next2()), b = uniform_hemisphere(sampler.next2());

@@ -1,5 +1,5 @@
 // Rough boundaries that let light through: the laws of a material over the whole sphere.
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 #include "tests/physics/material_laws.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
@@ -51,7 +51,7 @@ TEST(RoughDielectric, TheWeightTimesTheDensityIsTheScatteringFunction) {
 TEST(RoughDielectric, IsReciprocalButForTheSquaredIndex) {
     for (const Named& g : glasses()) {
         EXPECT_LE(reciprocity_defect(g.bsdf, {}), 1e-10) << g.name;
-        IndependentSampler sampler(fixed_seed, 3);
+        Sampler sampler(fixed_seed, 3);
         int let_through = 0;
         for (std::uint64_t i = 0; i < 2000; ++i) {
             sampler.start(i);
@@ -84,7 +84,7 @@ TEST(RoughDielectric, IsThatOfWalterAndOthers) {
             const double gg = std::sqrt(q), s = (gg - c) / (gg + c), t = (c * (gg + c) - 1.0) / (c * (gg - c) + 1.0);
             return 0.5 * s * s * (1.0 + t * t);
         };
-        IndependentSampler sampler(fixed_seed, 4);
+        Sampler sampler(fixed_seed, 4);
         for (std::uint64_t i = 0; i < 1000; ++i) {
             sampler.start(i);
             const Vec3 o = uniform_hemisphere(sampler.next2()), in = uniform_sphere(sampler.next2());
@@ -119,7 +119,7 @@ TEST(RoughDielectric, LosesOnlyWhatFacetsHide) {
                 const Vec3 wo = at_cosine(mu);
                 constexpr int samples = 1 << 14;
                 SobolPoints points(samples);
-                SobolSampler sampler(points, fixed_seed, 0);
+                Sampler sampler(points, fixed_seed, 0);
                 double reflected = 0.0, let_through = 0.0;
                 for (int i = 0; i < samples; ++i) {
                     sampler.start(static_cast<std::uint64_t>(i));

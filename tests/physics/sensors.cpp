@@ -1,5 +1,5 @@
 // Rays of the sensors, against the optics that they stand for.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/sensor/sensor.h"
 #include "tests/physics/probe.h"
 
@@ -57,7 +57,7 @@ TEST(Sensors, TheLensIsFilledEvenly) {
     constexpr int n = 1 << 16;
     const Sensor sensor(lens(0.3, 4.0), film);
     int inside = 0;
-    IndependentSampler sampler(fixed_seed, 0);
+    Sampler sampler(fixed_seed, 0);
     for (int i = 0; i < n; ++i) {
         sampler.start(static_cast<std::uint64_t>(i));
         inside += glm::distance(at_depth(sensor.sample_ray({3, 4}, sampler), 0.0), origin) < 0.3 * std::sqrt(0.5);

@@ -1,5 +1,5 @@
 // Lights that no ray meets, or that surround the scene alike on all sides: what they bring is known exactly.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/texture/bitmap.h"
 #include "operators/methods/render.h"
 #include "tests/physics/probe.h"
@@ -118,7 +118,7 @@ TEST(SmallLights, ChoiceIsByPower) {
     const auto expect_power = [](const auto& light) {
         constexpr int n = 1 << 16;
         double sum = 0.0, squares = 0.0;
-        IndependentSampler sampler(fixed_seed, 0);
+        Sampler sampler(fixed_seed, 0);
         for (int i = 0; i < n; ++i) {
             sampler.start(static_cast<std::uint64_t>(i));
             const double x = 4.0 * mean_component(light.beam(uniform_sphere(sampler.next2()), nowhere).irradiance);

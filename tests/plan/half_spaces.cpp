@@ -2,7 +2,7 @@
 #include "operators/plan/half_spaces.h"
 
 #include "core/geometry/area_sampler.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/walk/left_out.h"
 #include "tests/physics/scene_maker.h"
 
@@ -35,7 +35,7 @@ ConvexBody body(std::vector<Shape> shapes) { return HalfSpaces(geometry(std::mov
 // Points of a body that is found see each other as rays tell it, too, wherever the walk will not ask.
 std::size_t unseen(const Geometry& g) {
     const AreaSampler surfaces(g);
-    IndependentSampler random(1, 0);
+    Sampler random(1, 0);
     random.start(0);
     std::size_t count = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -107,7 +107,7 @@ TEST(HalfSpaces, NoConvexBodies) {
 
 // By rays in all directions above the horizon of points everywhere on the side.
 std::size_t surfaces_seen(const Geometry& g, std::uint32_t shape, bool front) {
-    IndependentSampler random(2, shape);
+    Sampler random(2, shape);
     random.start(0);
     std::size_t count = 0;
     for (int i = 0; i < 5000; ++i) {

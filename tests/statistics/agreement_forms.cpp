@@ -1,7 +1,7 @@
 // One K, four ways to write it (Dutré): exitant or incident radiance, R as an integral over directions or over surfaces; and the
 // walk as a fifth. All have to say the same of the same places in the Cornell box.
 #include "core/reader/read_scene.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/pictures/picture_sampler.h"
 #include "operators/pointwise/surface_reflection.h"
 
@@ -78,7 +78,7 @@ Mean mean_of(const std::vector<Rgb>& values) {
 struct Independent : Random {
     Independent(std::uint64_t seed, std::uint32_t batch) : sampler(seed, batch) {}
     double next() override { return sampler.next(); }
-    IndependentSampler sampler;
+    Sampler sampler;
 };
 
 // K^0 Le … K^N Le, as `ask` answers, from `samples` samples a batch.

@@ -65,7 +65,7 @@ TEST(CellDistribution, SamplesFollowTheDensity) {
     constexpr std::uint32_t n = 2 * CellDistribution::k;
     constexpr int count = 1 << 18;
     std::vector<double> found(n * n);
-    IndependentSampler sampler(fixed_seed, 0);
+    Sampler sampler(fixed_seed, 0);
     for (std::uint64_t i = 0; i < count; ++i) {
         sampler.start(i);
         const auto place = cells.sample(sampler.next2());
@@ -97,7 +97,7 @@ TEST(GuidedDirections, WeighWhatTheyMissInAnyFrame) {
         const auto vertex = guided.at(side, guided.place(side.p, side.p.frame.n, 3));
         constexpr std::uint32_t n = 4, replicates = 4096, size = 256;
         std::vector<double> sum(n * n), squares(n * n);
-        IndependentSampler sampler(fixed_seed, 1);
+        Sampler sampler(fixed_seed, 1);
         double least = 1.0, most = 1.0;
         for (std::uint64_t r = 0; r < replicates; ++r) {
             std::vector<double> found(n * n);
@@ -135,7 +135,7 @@ TEST(FacetRaster, FindsTheFacetOrANeighbour) {
     const Patches& patches = space.patches();
     const FacetRaster raster(space);
     const AreaSampler surfaces(scene.geometry);
-    IndependentSampler sampler(fixed_seed, 2);
+    Sampler sampler(fixed_seed, 2);
     constexpr int count = 20000;
     int same = 0;
     for (int i = 0; i < count; ++i) {
@@ -159,12 +159,12 @@ TEST(GuidedDirections, ThereIsNoTableWhereNoFurtherBounceIsWantedNorForMetals) {
     const GuidedContinuation guided(tables(box));
     const Vec3 wo(0.0, 0.0, 1.0);
     const auto weight = [&](const GuidedContinuation& continuation, const SurfaceSide& side, int wanted) {
-        IndependentSampler sampler(fixed_seed, 1);
+        Sampler sampler(fixed_seed, 1);
         sampler.start(0);
         return continuation.at(side, continuation.place(side.p, side.p.frame.n, wanted)).sample(side, wo, sampler).weight;
     };
     const auto weight_of_material = [&](const SurfaceSide& side) {
-        IndependentSampler sampler(fixed_seed, 1);
+        Sampler sampler(fixed_seed, 1);
         sampler.start(0);
         return MaterialContinuation().sample(side, wo, sampler).weight;
     };

@@ -1,7 +1,7 @@
 // Where paths from the light begin and where they end: emission, the camera as seen from a point, filters, and R*.
 #include "core/emitter/emission_sampler.h"
 #include "core/reader/read_scene.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/bidirectional/adjoint_reflection.h"
 #include "tests/physics/seed.h"
 
@@ -23,7 +23,7 @@ Scene scene_with(const char* light, const char* camera, const char* things) {
 TEST(Cameras, SeePointsWhereTheirRaysPass) {
     for (const char* name : {"pinhole", "lens", "parallel"}) {
         const Scene scene = scene_with("area", name, "rough");
-        IndependentSampler sampler(fixed_seed, 0);
+        Sampler sampler(fixed_seed, 0);
         for (int i = 0; i < 200; ++i) {
             sampler.start(static_cast<std::uint64_t>(i));
             const Vec2 at = sampler.next2() * Vec2(scene.film.width, scene.film.height), lens = sampler.next2();
@@ -90,7 +90,7 @@ TEST(EmissionSlow, CarriesThePowerOfTheLights) {
         const EmissionSampler emission(scene.geometry, scene.emitters);
         constexpr int n = 200000;
         Rgb sum(0.0), square(0.0);
-        IndependentSampler sampler(fixed_seed, 0);
+        Sampler sampler(fixed_seed, 0);
         for (int i = 0; i < n; ++i) {
             sampler.start(static_cast<std::uint64_t>(i));
             const Vec2 place = sampler.next2();
@@ -111,7 +111,7 @@ TEST(EmissionSlow, CarriesThePowerOfTheLights) {
 TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
     for (const char* things : {"rough", "shaded"}) {
         const Scene scene = scene_with("area", "pinhole", things);
-        IndependentSampler sampler(fixed_seed, 1);
+        Sampler sampler(fixed_seed, 1);
         for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
             for (int side_number = 0; side_number < 6; ++side_number) {
                 sampler.start(shape * 64 + static_cast<std::uint64_t>(side_number));
@@ -123,7 +123,7 @@ TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
                 const auto g = [](const Vec3& w) { return 0.25 * (1.0 + w.x + 2.0 * w.z * w.z); };
                 constexpr int n = 60000;
                 double drawn = 0.0, drawn2 = 0.0, uniform = 0.0, uniform2 = 0.0, share = 0.0, share2 = 0.0;
-                IndependentSampler random(fixed_seed, 2 + shape * 64 + static_cast<std::uint32_t>(side_number));
+                Sampler random(fixed_seed, 2 + shape * 64 + static_cast<std::uint32_t>(side_number));
                 for (int i = 0; i < n; ++i) {
                     random.start(static_cast<std::uint64_t>(i));
                     const AdjointReflection::Sample s = AdjointReflection::sample(scene.materials, side, wi, random.next2());

@@ -3,8 +3,7 @@
 //
 // Hypotheses are tested by p-values against 1e-5, two-sided where too good a fit is suspicious as well. There are about 250 of them
 // in this file: for a new seed one false alarm in 200 runs.
-#include "core/sampling/independent_sampler.h"
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sampler.h"
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -65,11 +64,11 @@ private:
 // The samplers behind one face: number `dimension` of a sample.
 struct Independent {
     static constexpr std::uint32_t replicate_size = 1;
-    static IndependentSampler make(std::uint64_t s, std::uint32_t pixel) { return {s, pixel}; }
+    static Sampler make(std::uint64_t s, std::uint32_t pixel) { return {s, pixel}; }
 };
 struct Sobol {
     static constexpr std::uint32_t replicate_size = 8;
-    static SobolSampler make(std::uint64_t s, std::uint32_t pixel) {
+    static Sampler make(std::uint64_t s, std::uint32_t pixel) {
         static const SobolPoints points(replicate_size);
         return {points, s, pixel};
     }
@@ -85,13 +84,13 @@ std::vector<double> numbers(std::uint64_t s, std::uint32_t pixel, std::uint64_t 
 }
 
 template <class Kind>
-class Sampler : public testing::Test {};
+class SamplerNumbers : public testing::Test {};
 using Kinds = testing::Types<Independent, Sobol>;
-TYPED_TEST_SUITE(Sampler, Kinds);
+TYPED_TEST_SUITE(SamplerNumbers, Kinds);
 
 // Dimensions around those where tables begin and end; of Sobol's replicates one point each, which is uniform by itself, at every
 // index.
-TYPED_TEST(Sampler, NumbersAreUniformInEveryDimension) {
+TYPED_TEST(SamplerNumbers, NumbersAreUniformInEveryDimension) {
     constexpr std::size_t bins = 256;
     std::vector<std::vector<double>> counts(136, std::vector<double>(bins));
     constexpr std::uint64_t size = TypeParam::replicate_size;
@@ -113,7 +112,7 @@ TYPED_TEST(Sampler, NumbersAreUniformInEveryDimension) {
     std::printf("smallest p-value of %zu: %.2g\n", counts.size(), smallest);
 }
 
-TYPED_TEST(Sampler, NeighboursAreIndependent) {
+TYPED_TEST(SamplerNumbers, NeighboursAreIndependent) {
     constexpr std::uint64_t size = TypeParam::replicate_size;
     const std::size_t dimensions[] = {0, 1, 2, 5, 127, 128};
     for (const std::size_t d : dimensions) {
@@ -146,7 +145,7 @@ TYPED_TEST(Sampler, NeighboursAreIndependent) {
 }
 
 // Every sample has the numbers it has, whichever others were asked for.
-TYPED_TEST(Sampler, NumbersDependOnTheirPlaceOnly) {
+TYPED_TEST(SamplerNumbers, NumbersDependOnTheirPlaceOnly) {
     auto sampler = TypeParam::make(7, 3);
     for (const std::uint64_t sample : {0, 1, 8, 3, 1000, 1, 999, 0})
         for (const std::size_t count : {1u, 130u, 6u}) {
@@ -164,10 +163,10 @@ TYPED_TEST(Sampler, NumbersDependOnTheirPlaceOnly) {
 
 // Copies of a pixel's sampler share what they know, wherever each of them is: in other replicates, far apart in a large net, some
 // dimensions ahead.
-TEST(SobolSampler, CopiesDoNotDisturbEachOther) {
+TEST(SobolNumbers, CopiesDoNotDisturbEachOther) {
     const SobolPoints points(256);
-    const SobolSampler pixel(points, 7, 3);
-    std::vector<SobolSampler> together, alone;
+    const Sampler pixel(points, 7, 3);
+    std::vector<Sampler> together, alone;
     for (const std::uint64_t sample : {0, 1, 63, 64, 200, 255, 256, 320, 5000}) {
         together.push_back(pixel);
         alone.emplace_back(points, 7, 3);
@@ -208,7 +207,7 @@ double cut(double x, double y, double z) { return x + y + z < 1.0 ? 1.0 : 0.0; }
 double rare(double x, double y, double) { return x * x + y * y < 0.01 ? 1.0 : 0.0; }
 
 // 3 functions at 3 dimensions, |z| ≤ 4.5: 9 comparisons a sampler.
-TYPED_TEST(Sampler, MeansOfReplicatesAreUnbiased) {
+TYPED_TEST(SamplerNumbers, MeansOfReplicatesAreUnbiased) {
     double largest = 0.0;
     for (const std::size_t dimension : {0u, 2u, 126u}) {
         const auto check = [&](const auto& f, double exact, const char* name) {
@@ -227,7 +226,7 @@ TYPED_TEST(Sampler, MeansOfReplicatesAreUnbiased) {
 
 // And their variance is that of 8 independent samples, or less where the points are spread evenly: within each group of four
 // dimensions. For independent samples it is known: 5/36 / 8 for the cut.
-TEST(SobolSampler, PointsHaveLessVarianceThanIndependentOnes) {
+TEST(SobolNumbers, PointsHaveLessVarianceThanIndependentOnes) {
     for (const std::size_t dimension : {0u, 4u, 20u}) {
         const double by_independent = ReplicateMeans<Independent>(smooth, dimension).variance,
                      by_sobol = ReplicateMeans<Sobol>(smooth, dimension).variance;
@@ -243,12 +242,12 @@ TEST(SobolSampler, PointsHaveLessVarianceThanIndependentOnes) {
 
 // Of the points of a replicate, one lies in each of its equal parts, in every scrambled dimension; and one in each box of the same
 // area, of any shape, in the first two dimensions of each group of four together.
-TEST(SobolSampler, EveryReplicateIsStratified) {
+TEST(SobolNumbers, EveryReplicateIsStratified) {
     constexpr std::size_t dimensions = 128, group = SobolPoints::dimensions;
     for (const std::uint32_t size : {1u, 2u, 4u, 8u, 16u, 64u}) {
         const SobolPoints points(size);
         for (std::uint32_t pixel = 0; pixel < 4; ++pixel) {
-            SobolSampler sampler(points, seed, pixel);
+            Sampler sampler(points, seed, pixel);
             for (std::uint64_t replicate = 0; replicate < 4; ++replicate) {
                 std::vector<std::set<std::uint32_t>> strata(dimensions);
                 std::vector<std::set<std::array<std::uint32_t, 3>>> boxes;
@@ -273,7 +272,7 @@ TEST(SobolSampler, EveryReplicateIsStratified) {
 
 // The groups' points come in orders of their own: between dimensions of different groups there is no correlation, and none of
 // ranks. 65,536 replicates of 8 points, 6 pairs.
-TEST(SobolSampler, GroupsOfDimensionsAreIndependent) {
+TEST(SobolNumbers, GroupsOfDimensionsAreIndependent) {
     constexpr std::uint32_t size = 8;
     const std::vector<std::pair<std::size_t, std::size_t>> pairs{{0, 4}, {1, 5}, {3, 7}, {0, 8}, {4, 8}, {2, 125}};
     std::vector<std::vector<double>> counts(pairs.size(), std::vector<double>(size * size));
@@ -292,7 +291,7 @@ TEST(SobolSampler, GroupsOfDimensionsAreIndependent) {
 // Owen's scrambling: of two points that differ first in their k-th digit, the digits above are alike, the k-th differ, and all else
 // is independent and uniform. 65,536 replicates, for each pair with the first point in two dimensions; which digit it is depends on
 // the order of the points.
-TEST(SobolSampler, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
+TEST(SobolNumbers, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
     double smallest = 1.0;
     int tests = 0;
     for (const std::size_t dimension : {0u, 5u})

@@ -1,5 +1,5 @@
 // Surfaces that are nearer to each other than floats of the scene's size can tell: creases, thin gaps, boxes that touch.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/scene_maker.h"
@@ -141,7 +141,7 @@ StartPicker beside_edges(const Scene& scene, const std::vector<Box>& boxes, cons
 // overlap, and leave gaps of a millionth of the room.
 void boxes_at_random(Figures& figures, std::uint64_t seed, const Mat4& to_world) {
     constexpr double beside[] = {0.0, 0.0, 1e-6, -1e-6, 1e-9, -1e-9};
-    IndependentSampler random(seed, 0);
+    Sampler random(seed, 0);
     const auto one_of = [&](int n) { return static_cast<int>(random.next() * n); };
     int wrong = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {

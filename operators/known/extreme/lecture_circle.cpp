@@ -1,6 +1,6 @@
 // The circle of a lecture on path tracing (CS184, lecture 13) at (1930.420, 1973.505), radius 1: in single precision a ray from the
 // origin to its centre misses the surface by so much that shadows become noisy.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
 #include "operators/known/scene_maker.h"
@@ -31,7 +31,7 @@ void lecture_circle(Figures& figures, std::uint64_t seed) {
         figures.near(fmt::format("x of the intersection, {}", name), p.position.x, exact.x, 4 * eps * distance);
         figures.near(fmt::format("y of the intersection, {}", name), p.position.y, exact.y, 4 * eps * distance);
         // Other rays: how far from the surface they end, and whether the light is seen from there, as it has to be on this side.
-        IndependentSampler random(seed, 0);
+        Sampler random(seed, 0);
         random.start(0);
         double worst = 0.0, worst_light = 0.0;
         int hidden = 0, missed = 0;

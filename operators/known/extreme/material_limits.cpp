@@ -1,6 +1,6 @@
 // Roughness, refractive index and albedo at the ends of their ranges.
 #include "core/material/fresnel.h"
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
 #include "operators/known/extreme/extremes.h"
 #include "operators/known/probe.h"
@@ -30,7 +30,7 @@ Cases extreme_material_cases() {
                  const double known = alpha == 0.05 ? 0.9972958684886749 : alpha == 1.0 ? 0.30685281944005405 : 1.0 - alpha * alpha;
                  figures.sampled("K Le, cosine 1", found.terms[1], known, alpha < 0.05 ? alpha * alpha : 0.0);
                  // At each sampled direction: weight = fs cosθ/pdf.
-                 IndependentSampler random(seed, 0);
+                 Sampler random(seed, 0);
                  random.start(0);
                  double worst = 0.0;
                  int bad = 0;

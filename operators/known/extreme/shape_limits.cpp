@@ -1,5 +1,5 @@
 // Needles, and shapes that coincide.
-#include "core/sampling/independent_sampler.h"
+#include "core/sampling/sampler.h"
 #include "operators/known/extreme/extremes.h"
 #include "operators/known/extreme/rectangle_overhead.h"
 #include "operators/known/extreme/unit_cube.h"
@@ -67,7 +67,7 @@ Cases extreme_shape_cases() {
                                             "part of a light lies in the same place as another shape: which one is seen is "
                                             "chance, and its light may count twice") > 0);
              int found = 0;
-             IndependentSampler random(seed, 0);
+             Sampler random(seed, 0);
              random.start(0);
              for (int k = 0; k < 20000; ++k) {
                  const Vec3 from(random.next(), random.next(), 0.2 + 0.7 * random.next()), to(random.next(), random.next(), 0.0);

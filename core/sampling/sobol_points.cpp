@@ -1,4 +1,4 @@
-#include "core/sampling/sobol_sampler.h"
+#include "core/sampling/sobol_points.h"
 
 #include "core/base/hot.h"
 
