@@ -21,7 +21,7 @@ struct OneByOne : MaterialContinuation {};
 Scene mixed_room() {
     SceneMaker maker;
     const auto walls = room({-1, -1, -1}, {1, 1, 1});
-    for (const Face face : {left, right, back, floor, ceiling})
+    for (const auto face : {left, right, back, floor, ceiling})
         maker.add(walls[face], {SurfaceFunction(Rgb(0.2 + 0.15 * face, 0.7, 0.5 - 0.1 * face)), std::nullopt});
     maker.add(parallelogram({-0.9, 0.2, -0.9}, {0.8, 0, 0}, {0, 0.3, 0.9}), {SurfaceFunction(grey(0.6)), std::nullopt, true});
     maker.add(parallelogram({0.3, 0.5, -0.9}, {0.6, 0.1, 0}, {0, 0, 1.2}),
