@@ -52,7 +52,7 @@ struct Sampling {
 std::vector<Sampling> samplings() {
     return {{method::Walk{}, 16, 8, 0.9},
             {method::Guided{{}, 100, 2048}, 32, 8, 0.9},
-            {method::Corrected{{}, 100, 32}, 16},
+            {method::Corrected{{}, 100, 32}, 16, 4},
             {method::Surface{}, 16},
             {method::Light{}, 2048, 2},
             {method::Bidirectional{}, 32, 4},

@@ -31,10 +31,10 @@ protected:
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
     EXPECT_EQ(options(help),
-              (std::set<std::string>{"-h,--help", "-o",           "-n",          "--tail",     "--spp",   "--time", "--error",
-                                     "--method",  "--direct",     "--lights",    "--roulette", "--split", "--ways", "--sampler",
-                                     "--patches", "--directions", "--reference", "--seed",     "-t",      "-D",     "--quiet",
-                                     "--json",    "--importance", "--plan",      "--memory"}));
+              (std::set<std::string>{"-h,--help", "-o",           "-n",           "--tail",     "--spp",   "--time", "--error",
+                                     "--method",  "--direct",     "--lights",     "--roulette", "--split", "--ways", "--sampler",
+                                     "--patches", "--directions", "--reference",  "--seed",     "-t",      "-D",     "--quiet",
+                                     "--json",    "--files",      "--importance", "--plan",     "--memory"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.

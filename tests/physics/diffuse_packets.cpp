@@ -21,8 +21,11 @@ struct OneByOne : MaterialContinuation {};
 Scene mixed_room() {
     SceneMaker maker;
     const auto walls = room({-1, -1, -1}, {1, 1, 1});
-    for (const auto face : {left, right, back, floor, ceiling})
-        maker.add(walls[face], {SurfaceFunction(Rgb(0.2 + 0.15 * face, 0.7, 0.5 - 0.1 * face)), std::nullopt});
+    double colour = 0.0;
+    for (const auto face : {left, right, back, floor, ceiling}) {
+        maker.add(walls[face], {SurfaceFunction(Rgb(0.2 + 0.15 * colour, 0.7, 0.5 - 0.1 * colour)), std::nullopt});
+        colour += 1.0;
+    }
     maker.add(parallelogram({-0.9, 0.2, -0.9}, {0.8, 0, 0}, {0, 0.3, 0.9}), {SurfaceFunction(grey(0.6)), std::nullopt, true});
     maker.add(parallelogram({0.3, 0.5, -0.9}, {0.6, 0.1, 0}, {0, 0, 1.2}),
               made_of(RoughConductor<Ggx>(Ggx(0.3), ConductorFresnel{}, grey(0.8))));
@@ -72,7 +75,7 @@ TEST(DiffusePackets, HaveTheBitsOfSingleWalks) {
                           single = walked<OneByOne>(scene, settings, kind);
             EXPECT_EQ(together.rays, single.rays) << what;
             EXPECT_TRUE(together.bits == single.bits) << what;
-            EXPECT_GT(std::accumulate(single.rays.begin(), single.rays.end(), std::uint64_t{0}), 20'000u) << what;
+            EXPECT_GT(std::accumulate(single.rays.begin(), single.rays.end(), std::uint64_t{0}), 10'000u) << what;
         }
     };
     expect_same({}, true, "as by default");
