@@ -21,7 +21,8 @@
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
 #include "operators/walk/observer.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/term_samples.h"
+#include "operators/walk/walk_settings.h"
 
 #include <algorithm>
 #include <span>

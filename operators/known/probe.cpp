@@ -7,7 +7,7 @@
 #include "operators/pointwise/surface_reflection.h"
 #include "operators/pointwise/transport.h"
 #include "operators/series/neumann_series.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walks.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -32,28 +32,6 @@ struct Welford {
     }
     Rgb variance() const { return m2 / (n - 1.0); }
     Statistic statistic() const { return {mean, glm::sqrt(variance() / n)}; }
-};
-
-// T of walks whose first points are given instead of looked for: the k-th ray hits starts[k].
-struct TransportFrom {
-    const Geometry* geometry;
-    std::span<const CameraRay> rays;
-    std::span<const Start> starts;
-
-    template <class HitAt>
-    std::uint32_t first_hits(std::span<const CameraRay> some, const HitAt& hit) const {
-        const auto first = static_cast<std::size_t>(some.data() - rays.data());
-        for (std::size_t i = 0; i < some.size(); ++i) hit(i) = starts[first + i].point;
-        return (1u << some.size()) - 1u;
-    }
-    template <class FromAt, class HitAt>
-    std::uint32_t first_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
-        return geometry->first_hits(n, from, hit);
-    }
-    template <class PairAt>
-    std::uint32_t visible(std::size_t n, const PairAt& pair, RayCaster::Rays kind) const {
-        return geometry->visible(n, pair, kind);
-    }
 };
 
 struct FromSampler : Random {
@@ -111,13 +89,22 @@ void run_batch(const Scene& scene, const StartPicker& pick, Technique technique,
     const std::uint32_t packet = std::min(end - begin, together);
     std::vector<Sampler> samplers(packet, sampler);
     std::vector<Start> starts(packet);
-    std::vector<CameraRay> rays(packet);
     std::vector<Rgb> samples(packet * quantities);
     Walkers walkers;
     TermSamples result{samples, batch.rays};
-    const auto walk_on = [&](const auto& continuation) {
-        walk(scene, TransportFrom{&scene.geometry, rays, starts}, direct, of_walk, std::span<const CameraRay>(rays),
-             std::span<Sampler>(samplers), walkers, result, continuation);
+    // From first vertices that are given instead of looked for.
+    const auto walk_from_starts = [&](const auto& continuation) {
+        walkers.begin(packet);
+        result.rays[0] += packet;
+        for (std::uint32_t i = 0; i < packet; ++i) {
+            Walker& w = walkers.walker[i];
+            w.x = starts[i].point;
+            w.wo = starts[i].wo;
+            w.pdf = 0.0;
+            w.beta = Rgb(1.0);
+            samples[i * quantities] += scene.emitters.emitted(w.x, w.wo);
+        }
+        walk_on(scene, direct, of_walk, samplers, walkers, result, continuation);
     };
     for (std::uint32_t first = begin; first < end; first += packet) {
         std::fill(samples.begin(), samples.end(), Rgb(0.0));
@@ -125,15 +112,13 @@ void run_batch(const Scene& scene, const StartPicker& pick, Technique technique,
             samplers[i].start(first + i);
             FromSampler random(samplers[i]);
             starts[i] = pick(random);
-            rays[i].origin = starts[i].point.position + starts[i].wo;
-            rays[i].direction = -starts[i].wo;
             for (std::size_t k = 0; k < series.terms.size(); ++k)
                 samples[i * quantities + k] = series.terms[k](starts[i].point, starts[i].wo, random);
         }
         if (series.terms.empty()) {
-            if (settings.going_on == GoingOn::material) walk_on(MaterialContinuation());
-            if (settings.going_on == GoingOn::surfaces) walk_on(SurfaceContinuation(scene.geometry));
-            if (settings.going_on == GoingOn::specular) walk_on(SpecularContinuation());
+            if (settings.going_on == GoingOn::material) walk_from_starts(MaterialContinuation());
+            if (settings.going_on == GoingOn::surfaces) walk_from_starts(SurfaceContinuation(scene.geometry));
+            if (settings.going_on == GoingOn::specular) walk_from_starts(SpecularContinuation());
         }
         for (std::uint32_t i = 0; i < packet; ++i) {
             Rgb reflected(0.0);

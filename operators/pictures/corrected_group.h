@@ -6,6 +6,7 @@
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/pixel_average.h"
+#include "operators/walk/first_vertices.h"
 
 namespace neumann {
 

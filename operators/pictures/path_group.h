@@ -3,7 +3,8 @@
 
 #include "core/scene/camera_sample.h"
 #include "operators/statistics/sample_place.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/term_samples.h"
+#include "operators/walk/walker.h"
 
 #include <cstdint>
 #include <optional>

@@ -20,8 +20,8 @@ namespace {
 
 // One thread's work space for some pixels at once: the walks' samples, and one node of the tree of replicates for each level and
 // pixel.
-struct Workspace {
-    Workspace(std::size_t pixels, std::size_t quantities, std::size_t levels)
+struct PixelWork {
+    PixelWork(std::size_t pixels, std::size_t quantities, std::size_t levels)
         : average(quantities),
           carry(quantities * PixelMoments::doubles_per_quantity),
           waiting(pixels, std::vector(levels, carry)),
@@ -34,7 +34,7 @@ struct Workspace {
 };
 
 // Appends the means as the r-th replicate: nodes of equal size are merged, like carries when 1 is added to a binary number.
-void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, Workspace& work) {
+void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWork& work) {
     PixelMoments::set(work.carry, work.average.mean);
     std::size_t level = 0;
     for (; r >> level & 1; ++level) {
@@ -75,8 +75,8 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     resize_large(node.data, pixels * stride);
     resize_large(node.ranges.of, pixels * quantities());
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
-    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
-        Workspace work(pixels_at_once, quantities(), levels);
+    oneapi::tbb::enumerable_thread_specific<PixelWork> workspaces([&] {
+        PixelWork work(pixels_at_once, quantities(), levels);
         for (std::size_t q = 0; q < quantities(); ++q) work.tally.largest[q].outdo(tally.largest[q]);
         return work;
     });
@@ -84,7 +84,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
     // Samples a group of consecutive pixels, starting with `begin`.
-    const auto run_pixels = [&](const auto& estimate, std::uint32_t begin, std::uint32_t end, Workspace& work) {
+    const auto run_pixels = [&](const auto& estimate, std::uint32_t begin, std::uint32_t end, PixelWork& work) {
         std::vector<Pixel> some;
         std::vector<Sampler> samplers;
         for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
@@ -109,7 +109,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
     const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
         if (dropped) return;
-        Workspace& work = workspaces.local();
+        PixelWork& work = workspaces.local();
         std::uint32_t done = 0;
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
             const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
@@ -121,7 +121,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
         if (watch.stop()) dropped = true;
     });
     if (dropped) return std::nullopt;
-    for (const Workspace& work : workspaces) tally.merge(work.tally);
+    for (const PixelWork& work : workspaces) tally.merge(work.tally);
     return node;
 }
 

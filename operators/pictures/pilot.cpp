@@ -2,7 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "core/sampling/sampler.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walks.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -71,8 +71,7 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
             std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
             TermSamples result{sampled, round[b].rays};
             Walkers walkers;
-            walk(scene, scene.geometry, direct_light, settings, std::span<const CameraRay>(camera_rays), std::span(samplers),
-                 walkers, result);
+            walk(scene, direct_light, settings, camera_rays, samplers, walkers, result, MaterialContinuation());
             for (std::uint64_t i = 0; i < batch; ++i) {
                 const Rgb* terms = sampled.data() + i * quantities;
                 double sum = 0.0;

@@ -5,11 +5,20 @@
 #include "operators/pictures/picture_sampler.h"
 #include "operators/pictures/splat_group.h"
 #include "operators/pictures/watched_paths.h"
+#include "operators/walk/walk.h"
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace neumann {
+
+template <class Continuation>
+void WalkEstimator<Continuation>::trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers,
+                                        Walkers& walkers, TermSamples& result) const {
+    WalkSettings settings = settings_;
+    settings.left_out = {};
+    walk(*scene_, scene_->geometry, direct_, settings, rays, samplers, walkers, result, continuation_, WatchedPaths(observer));
+}
 
 std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
@@ -32,7 +41,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
                 throw std::logic_error("PictureSampler: the pointwise method has no paths");
             } else {
                 const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
-                    estimator.trace(WatchedPaths(observer), camera_rays, random, walkers, result);
+                    estimator.trace(observer, camera_rays, random, walkers, result);
                 };
                 trace(scene_, watched, std::span(samplers), std::span<const Pixel>(some), replicate, group, std::span(rays));
             }

@@ -1,14 +1,16 @@
 // Estimators of all terms along camera rays with one interface: estimator(rays, samplers, workspace, result). Walks can report to
-// an observer (operators/walk/observer.h).
+// an observer (path_observer.h; retrace.cpp).
 #pragma once
 
+#include "core/scene/pass_lights.h"
+#include "operators/pictures/path_observer.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
 #include "operators/series/neumann_series.h"
 #include "operators/walk/guided_continuation.h"
-#include "operators/walk/walk.h"
+#include "operators/walk/walks.h"
 
 #include <memory>
 #include <variant>
@@ -22,18 +24,12 @@ public:
     WalkEstimator(const Scene& scene, const WalkSettings& settings, const Continuation& continuation)
         : scene_(&scene), settings_(settings), direct_(scene, asked(settings)), continuation_(continuation) {}
 
-    template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& result) const {
-        walk(*scene_, scene_->geometry, direct_, settings_, rays, samplers, walkers, result, continuation_);
+        walk(*scene_, direct_, settings_, rays, samplers, walkers, result, continuation_);
     }
     // With an observer: leaves nothing out, so it also reports rays whose results were known without casting them.
-    template <class Observer, class Sampler>
-    void trace(const Observer& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
-               TermSamples& result) const {
-        WalkSettings settings = settings_;
-        settings.left_out = {};
-        walk(*scene_, scene_->geometry, direct_, settings, rays, samplers, walkers, result, continuation_, observer);
-    }
+    void trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
+               TermSamples& result) const;
 
 private:
     // If BSDF sampling alone is enough (LeftOut::questions), the lights are not sampled.
@@ -60,7 +56,6 @@ public:
         for (terms_.push_back(series.term()); series.bounce() < bounces; terms_.push_back(series.term())) series.advance();
     }
 
-    template <class Sampler>
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
         struct FromSampler : Random {
             explicit FromSampler(Sampler& s) : sampler(s) {}

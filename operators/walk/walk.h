@@ -15,6 +15,7 @@
 #include "operators/walk/diffuse_packet.h"
 #include "operators/walk/first_vertices.h"
 #include "operators/walk/observer.h"
+#include "operators/walk/term_samples.h"
 #include "operators/walk/walk_settings.h"
 
 #include <algorithm>
@@ -23,19 +24,12 @@
 
 namespace neumann {
 
-// Samples of every term, for several walks. `quantities` has N + 2 entries for each walk: the terms 0 … N and the rest.
-struct TermSamples {
-    std::span<Rgb> quantities;      // added to
-    std::span<std::uint64_t> rays;  // N + 2 entries: rays cast for each, by all walks; added to
-    std::uint64_t given_up = 0;     // number of walks; added to
-};
-
-// Samples all terms along some camera rays. `T` has first_hits() and visible() like Geometry; samplers[i] gives the random numbers
-// of walk i. `observer`: see observer.h.
+// Samples the terms from 1 on of walks that stand at their first vertices. `T` has first_hits() and visible() like Geometry;
+// samplers[i] gives the random numbers of walk i. `observer`: see observer.h.
 template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
-NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
-                      std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
-                      const Continuation& continuation = {}, const Observer& observer = {}) {
+NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
+                         std::span<Sampler> samplers, Walkers& walkers, TermSamples& out, const Continuation& continuation = {},
+                         const Observer& observer = {}) {
     const Emitters& emitters = scene.emitters;
     const LeftOut& left_out = settings.left_out;
     const Ending ending = settings.ending();
@@ -47,13 +41,10 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
         observer.finds(i, q, x * share);
     };
 
-    // Le, where T finds the first vertices.
-    find_first_vertices(scene, T, rays, walkers, out.rays[0], observer, [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
-
     DiffusePacket packet;
     const Split& split = settings.split;
-    Places<Continuation> places(rays.size());
-    if constexpr (Continuation::joins_points) walkers.next.resize(rays.size());
+    Places<Continuation> places(walkers.walker.size());
+    if constexpr (Continuation::joins_points) walkers.next.resize(walkers.walker.size());
     if (split.walks > 1) walkers.remember_first();
     share = 1.0 / split.walks;
     for (int copy = 0; copy < split.walks; ++copy) {
@@ -136,6 +127,19 @@ NEUMANN_HOT void walk(const Scene& scene, const Transport& T, const DirectLightS
             });
         }
     }
+}
+
+// Samples all terms along some camera rays: Le, where T finds the first vertices, and then as above.
+template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
+void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
+          std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,
+          const Continuation& continuation = {}, const Observer& observer = {}) {
+    const std::size_t quantities = static_cast<std::size_t>(settings.bounces) + 2;
+    find_first_vertices(scene, T, rays, walkers, out.rays[0], observer, [&](std::uint32_t i, const Rgb& Le) {
+        out.quantities[i * quantities] += Le;
+        observer.finds(i, 0, Le);
+    });
+    walk_on(scene, T, direct, settings, samplers, walkers, out, continuation, observer);
 }
 
 }  // namespace neumann

@@ -4,6 +4,7 @@
 #include "bench_scenes.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/pictures/picture_sampler.h"
+#include "operators/walk/walk.h"
 #include "recorded_rays.h"
 
 #include <benchmark/benchmark.h>

@@ -2,6 +2,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/pictures/checkup.h"
 #include "operators/pictures/watched_paths.h"
+#include "operators/walk/walk.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 
