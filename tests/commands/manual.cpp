@@ -179,8 +179,9 @@ TEST_F(Manual, OptionsThatAreNamedExist) {
 TEST_F(Manual, ReadmeLeadsToAllPages) {
     const std::string readme = text_of(repository / "README.md");
     for (const std::filesystem::path& file : manual())
-        if (file.extension() == ".md")
+        if (file.extension() == ".md") {
             EXPECT_NE(readme.find("](apps/manual/" + file.filename().string() + ")"), std::string::npos) << file;
+        }
 }
 
 // What README.md, CONTRIBUTING.md and the manual link to is there.

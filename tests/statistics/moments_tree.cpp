@@ -88,7 +88,9 @@ TEST(Moments, AResultStaysWhenReplicatesAreAdded) {
         const auto expected = moments_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(r) + 1}).result();
         for (std::size_t q = 0; q < quantities; ++q) {
             EXPECT_EQ(results[r].term(q).mean.pixels, expected.term(q).mean.pixels) << r;
-            if (r > 0) EXPECT_EQ(results[r].sum(q).standard_error.pixels, expected.sum(q).standard_error.pixels) << r;
+            if (r > 0) {
+                EXPECT_EQ(results[r].sum(q).standard_error.pixels, expected.sum(q).standard_error.pixels) << r;
+            }
         }
     }
 }
