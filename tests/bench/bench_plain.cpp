@@ -26,7 +26,7 @@ using namespace neumann;
 
 constexpr int bounces = 8, samples = 64;
 // As apps/manual/speed.md has them.
-constexpr double recorded_walk = 1.75, recorded_render = 2.55, tolerance = 1.1;
+constexpr double recorded_walk = 1.65, recorded_render = 2.03, tolerance = 1.1;
 
 // Of this process, for other programs may have the processor in between.
 double processor_seconds() {
