@@ -6,8 +6,7 @@
 #include "core/reader/read_scene.h"
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::bad_input_full_disk_test {
 
 class BadInputFullDisk : public RenderTest {
 protected:
@@ -96,5 +95,4 @@ TEST_F(BadInputFullDisk, StandardOutput) {
     EXPECT_NE(done.err.find("No space left on device"), std::string::npos) << done.err;
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::bad_input_full_disk_test

@@ -2,8 +2,7 @@
 // most of these messages are CLI11's and differ between its versions; what is compared whole is the program's own.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::bad_input_options_test {
 
 class BadInputOptions : public RenderTest {
 protected:
@@ -105,5 +104,4 @@ TEST_F(BadInputOptions, ManyPicturesForTheMemory) {
     EXPECT_EQ(names(), Names{"scene.xml"});
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::bad_input_options_test

@@ -1,8 +1,7 @@
 // Scenes that are wrong: the whole message on stderr, exit code 2, and nothing left behind.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::bad_input_scene_test {
 
 class BadInputScene : public RenderTest {
 protected:
@@ -134,5 +133,4 @@ TEST_F(BadInputScene, Definitions) {
     EXPECT_EQ(refusal("scene.xml", {"-D", "height=3", "-D", "height=4"}), "-D height=4: 'height' is given twice\n");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::bad_input_scene_test

@@ -13,8 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace neumann {
-namespace {
+namespace neumann::compare_pictures_test {
 
 namespace fs = std::filesystem;
 
@@ -238,5 +237,4 @@ TEST_F(CompareCommand, WhatCannotBeComparedIsRefused) {
     EXPECT_EQ(refusal(full, other), full + " and " + other + ": no picture that both have");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::compare_pictures_test

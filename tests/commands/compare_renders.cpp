@@ -3,8 +3,7 @@
 #include "operators/statistics/student_t.h"
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::compare_renders_test {
 
 class CompareRenders : public RenderTest {
 protected:
@@ -72,5 +71,4 @@ TEST_F(CompareRenders, IntervalsHoldTheTruthAndAreNarrow) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::compare_renders_test

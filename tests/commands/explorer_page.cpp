@@ -6,8 +6,7 @@
 #include <zlib.h>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::explorer_page_test {
 
 // The bytes of a packed picture, by zlib and a table of digits.
 std::vector<std::uint8_t> unpacked(const PackedPicture& picture, std::size_t size) {
@@ -208,5 +207,4 @@ TEST_F(ExplorerCompare, RefusalsLoseNothing) {
     EXPECT_FALSE(std::filesystem::exists(path("c")));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::explorer_page_test

@@ -3,8 +3,7 @@
 #include "operators/matrix/traced_system.h"
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::export_command_test {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
@@ -184,5 +183,4 @@ TEST_F(ExportCommand, Refusals) {
     EXPECT_EQ(names(), Names{"file"});
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::export_command_test

@@ -1,8 +1,7 @@
 // What fields take where it is not said, what is said of it, and what coarse patches keep of the light.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::field_defaults_test {
 
 class FieldDefaults : public RenderTest {
 protected:
@@ -62,5 +61,4 @@ TEST_F(FieldDefaults, GatherKeepsTheLightOfCoarsePatches) {
     EXPECT_LE(std::abs(mean - truth), 0.016 * truth);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::field_defaults_test

@@ -4,8 +4,7 @@
 // all that leaves the inner one at the outer one. With r² just below 1/4 every facet's rays count as if it were 1/4.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::field_resolution_test {
 
 class FieldResolution : public RenderTest {
 protected:
@@ -78,5 +77,4 @@ TEST_F(FieldResolution, AProvenFurnaceStaysExact) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::field_resolution_test

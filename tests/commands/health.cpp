@@ -1,8 +1,7 @@
 // run.json's health part, what the terminal says of it, and `neumann replay`.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::health_test {
 
 class Health : public RenderTest {
 protected:
@@ -222,5 +221,4 @@ TEST_F(Health, WhatCannotBeReplayed) {
               "scene.xml: the scene of a is not there; the name is relative to where the render was started\n");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::health_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <thread>
 
-namespace neumann {
-namespace {
+namespace neumann::jobs_test {
 
 TEST(Jobs, AllAreDoneAndNoMoreAtOnceThanMayBe) {
     std::atomic<int> done = 0, under_way = 0, most = 0;
@@ -46,5 +45,4 @@ TEST(Jobs, TheFirstFailureInOrderIsThrown) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::jobs_test

@@ -3,8 +3,7 @@
 
 #include <regex>
 
-namespace neumann {
-namespace {
+namespace neumann::manual_test {
 
 class Manual : public RenderTest {
 protected:
@@ -213,5 +212,4 @@ TEST_F(Manual, SourceFilesThatAreNamedExist) {
     EXPECT_GT(named, 30u);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::manual_test

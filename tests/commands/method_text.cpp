@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann {
-namespace {
+namespace neumann::method_text_test {
 
 // For each option, a value that is not the usual one.
 const std::map<std::string, std::string> values{
@@ -48,5 +47,4 @@ TEST(MethodText, AWordIsTheSameAsOptions) {
     EXPECT_TRUE(read_method("matrix") == Method(method::Matrix{}));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::method_text_test

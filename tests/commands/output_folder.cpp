@@ -11,8 +11,7 @@
 #include <set>
 #include <sstream>
 
-namespace neumann {
-namespace {
+namespace neumann::output_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -188,5 +187,4 @@ TEST_F(OutputFolderTest, AFileCutOffInTheMiddleIsSaidAndRemoved) {
     EXPECT_EQ(names_in(base_), Names{});
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::output_folder_test

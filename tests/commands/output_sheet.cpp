@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-namespace neumann {
-namespace {
+namespace neumann::output_sheet_test {
 
 int little_endian(const std::string& bytes, std::size_t at) {
     return static_cast<unsigned char>(bytes.at(at)) + 256 * static_cast<unsigned char>(bytes.at(at + 1));
@@ -187,5 +186,4 @@ TEST_F(Strips, SevenPicturesFillAWideSlide) {
     EXPECT_LE(png_width(strip_png({{{"a", &large}, {"b", &large}, {"c", &large}}}, 1.0, std::nullopt)), 1920);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::output_sheet_test

@@ -2,8 +2,7 @@
 #include "apps/files/rendered_picture.h"
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::plan_command_test {
 
 class PlanCommand : public CommandTest {
 protected:
@@ -88,5 +87,4 @@ TEST_F(PlanCommand, OfMethods) {
     EXPECT_NE(refused({"render", furnace_, "--plan", "half"}).find("half"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::plan_command_test

@@ -1,8 +1,7 @@
 // Odd scenes that are rendered: one counted warning each in run.json, and finite numbers everywhere.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_accepted_test {
 
 class RenderAccepted : public RenderTest {
 protected:
@@ -111,5 +110,4 @@ TEST_F(RenderAccepted, ACameraInsideAClosedSurface) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_accepted_test

@@ -3,8 +3,7 @@
 #include "core/sensor/sensor_options.h"
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_chosen_test {
 
 class RenderChosen : public RenderTest {
 protected:
@@ -74,5 +73,4 @@ TEST_F(RenderChosen, OnlyTheSpaceOfWhatIsChosenIsNeeded) {
     EXPECT_EQ(estimated_bytes(film, 1, true, choose_files({"sheets", "strips"})), rest);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_chosen_test

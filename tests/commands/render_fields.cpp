@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::render_fields_test {
 
 class RenderFields : public RenderTest {
 protected:
@@ -179,7 +178,8 @@ TEST_F(RenderFields, Refusals) {
                    "--lights belongs to --method walk and bidirectional, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
                    "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
-    expect_refused({"--patches", "100"}, "--patches belongs to --method guided, corrected, matrix, gather and patches, not to walk");
+    expect_refused({"--patches", "100"},
+                   "--patches belongs to --method guided, corrected, matrix, gather and patches, not to walk");
     expect_refused(
         {"--method", "matrix", "--error", "0.1", "--spp", "4"},
         "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
@@ -201,5 +201,4 @@ TEST_F(RenderFields, MorePatchesThanMemoryHoldsAreRefused) {
     EXPECT_FALSE(std::filesystem::exists(path("refused")));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_fields_test

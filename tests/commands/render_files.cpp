@@ -3,8 +3,7 @@
 
 #include <cstring>
 
-namespace neumann {
-namespace {
+namespace neumann::render_files_test {
 
 class RenderFiles : public RenderTest {};
 
@@ -187,5 +186,4 @@ TEST_F(RenderFiles, JsonPrintsRunJson) {
     EXPECT_TRUE(std::isinf(picture("a", "bounce_000.exr").standard_error.at(0, 0).r));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_files_test

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace neumann {
-namespace {
+namespace neumann::render_goals_test {
 
 class RenderGoals : public RenderTest {};
 class RenderGoalsSlow : public RenderTest {};
@@ -105,5 +104,4 @@ TEST_F(RenderGoalsSlow, WithoutOptionsAGoodPictureInWellUnderAMinute) {
     expect_complete("out/scene");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_goals_test

@@ -1,8 +1,7 @@
 // render --method guided: the files of a walk, and what its tables cost.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_guided_test {
 
 class RenderGuided : public RenderTest {};
 
@@ -61,5 +60,4 @@ TEST_F(RenderGuided, MorePatchesThanMemoryHoldsAreRefused) {
     EXPECT_NE(done.err.find("1000000000000 patches of 2048 rays need about "), std::string::npos) << done.err;
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_guided_test

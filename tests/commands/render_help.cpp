@@ -3,8 +3,7 @@
 
 #include <regex>
 
-namespace neumann {
-namespace {
+namespace neumann::render_help_test {
 
 class RenderHelp : public CommandTest {
 protected:
@@ -106,5 +105,4 @@ TEST_F(RenderHelp, UnknownCommands) {
     EXPECT_NE(done.err, "");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_help_test

@@ -1,8 +1,7 @@
 // Ctrl-C and SIGTERM: a complete set of what was sampled so far, or nothing.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_interrupt_test {
 
 using std::chrono::milliseconds;
 
@@ -112,5 +111,4 @@ TEST_F(RenderInterrupt, TwiceLeavesAnEarlierRunAlone) {
     EXPECT_EQ(contents("a"), before);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_interrupt_test

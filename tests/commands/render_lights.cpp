@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann {
-namespace {
+namespace neumann::render_lights_test {
 
 class RenderLights : public RenderTest {
 protected:
@@ -82,5 +81,4 @@ TEST_F(RenderLights, WhatCannotFindALightIsRefused) {
               "has some; take --direct mis or light\n");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_lights_test

@@ -1,8 +1,7 @@
 // Several ways to the same pictures.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_methods_test {
 
 class RenderMethods : public RenderTest {
 protected:
@@ -50,5 +49,4 @@ TEST_F(RenderMethods, LightBsdfAndMis) {
     expect_agreement("bsdf", "light", 0.04);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_methods_test

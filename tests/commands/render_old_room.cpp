@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann {
-namespace {
+namespace neumann::render_old_room_test {
 
 class RenderOldRoomSlow : public RenderTest {
 protected:
@@ -95,5 +94,4 @@ TEST_F(RenderOldRoomSlow, RendersWithAllItsMaterialsAndLights) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_old_room_test

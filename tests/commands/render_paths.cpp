@@ -1,8 +1,7 @@
 // --method light and bidirectional, and --ways.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_paths_test {
 
 class RenderPaths : public RenderTest {
 protected:
@@ -77,5 +76,4 @@ TEST_F(RenderPaths, EmittersAreNotHidden) {
         << result.err;
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_paths_test

@@ -1,8 +1,7 @@
 // --reference: true errors beside the estimated ones.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_reference_test {
 
 class RenderReference : public RenderTest {
 protected:
@@ -64,5 +63,4 @@ TEST_F(RenderReference, Refused) {
               "BMP or TGA\n");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_reference_test

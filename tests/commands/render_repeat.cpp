@@ -1,8 +1,7 @@
 // The same seed and the same samples are the same bits: on any number of threads, and when a run is repeated from its run.json.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_repeat_test {
 
 class RenderRepeat : public RenderTest {
 protected:
@@ -91,5 +90,4 @@ TEST_F(RenderRepeat, Pointwise) {
     expect_repeatable("a");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_repeat_test

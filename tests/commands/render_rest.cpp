@@ -1,8 +1,7 @@
 // What is left out: measured where it ends, bounded where there is a bound, and called not converging where it does not end.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_rest_test {
 
 class RenderRest : public RenderTest {};
 
@@ -103,5 +102,4 @@ TEST_F(RenderRest, AlbedoAboveOneInTheOpenConverges) {
     expect_finite("a");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_rest_test

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::render_scenes_test {
 
 class RenderScenes : public RenderTest {
 protected:
@@ -140,5 +139,4 @@ TEST_F(RenderScenes, NoneIsForgotten) {
     for (const std::string& name : found) EXPECT_TRUE(std::filesystem::exists(scene_file(name))) << name;
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_scenes_test

@@ -1,8 +1,7 @@
 // What no sample met has an upper bound, in the files and in what is printed; what is known to be dark is 0 ± 0.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::render_unmet_test {
 
 class RenderUnmet : public RenderTest {
 protected:
@@ -114,5 +113,4 @@ TEST_F(RenderUnmet, InAllMethods) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::render_unmet_test

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::solve_command_test {
 
 class SolveCommand : public CommandTest {
 protected:
@@ -134,5 +133,4 @@ TEST_F(SolveCommand, Refusals) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::solve_command_test

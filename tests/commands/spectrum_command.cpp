@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::spectrum_command_test {
 
 class SpectrumCommand : public CommandTest {
 protected:
@@ -184,5 +183,4 @@ TEST_F(SpectrumCommand, Refusals) {
     EXPECT_EQ(refusal({"lone.xml"}), "lone.xml: no surface faces another or shines: K is 0 and has no unknowns\n");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::spectrum_command_test

@@ -1,8 +1,7 @@
 // `neumann stress` as a user runs it; that its cases pass is in tests/known.
 #include "tests/commands/render_output.h"
 
-namespace neumann {
-namespace {
+namespace neumann::stress_command_test {
 
 class StressCommand : public CommandTest {};
 
@@ -61,5 +60,4 @@ TEST_F(StressCommand, RefusesAPatternThatFitsNothing) {
               "names\n");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::stress_command_test

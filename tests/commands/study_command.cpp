@@ -3,8 +3,7 @@
 
 #include <cstdlib>
 
-namespace neumann {
-namespace {
+namespace neumann::study_command_test {
 
 using Strings = std::vector<std::string>;
 
@@ -256,8 +255,9 @@ TEST_F(StudyCommand, Refused) {
               std::string::npos);
     EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
               "--methods matrix:direct=light: --direct belongs to --method walk and bidirectional, not to matrix\n");
-    EXPECT_EQ(refusal({"--methods", "walk:patches=100", "--samples", "4"}),
-              "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
+    EXPECT_EQ(
+        refusal({"--methods", "walk:patches=100", "--samples", "4"}),
+        "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
     EXPECT_EQ(
         refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
         "--methods matrix:sampler=sobol: --sampler belongs to --method walk, guided, corrected, surface, light, bidirectional, "
@@ -395,5 +395,4 @@ TEST_F(StudyCommandSlow, SlopesAndBias) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::study_command_test

@@ -7,8 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace neumann {
-namespace {
+namespace neumann::image_display_test {
 
 Image filled(int width, int height, const Rgb& value) {
     Image image(width, height);
@@ -94,5 +93,4 @@ TEST(ImageResize, AreasAreSharedByFractions) {
     EXPECT_THROW(resized(picture, 0, 1), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::image_display_test

@@ -11,8 +11,7 @@
 #include <limits>
 #include <thread>
 
-namespace neumann {
-namespace {
+namespace neumann::image_exr_test {
 
 namespace fs = std::filesystem;
 
@@ -194,5 +193,4 @@ TEST_F(ImageExr, PicturesOfDifferentSizesDoNotMakeAnEstimate) {
     EXPECT_THROW(encode_exr(Estimate{}), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::image_exr_test

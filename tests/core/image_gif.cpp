@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace neumann {
-namespace {
+namespace neumann::image_gif_test {
 
 std::string joined(const std::vector<DisplayImage>& frames, int delay) {
     std::vector<std::string> gifs;
@@ -51,5 +50,4 @@ TEST(ImageGif, WhatIsNotAGifIsRefused) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::image_gif_test

@@ -9,8 +9,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace neumann {
-namespace {
+namespace neumann::image_indexed_test {
 
 DisplayImage drawn(int width, int height, const std::function<Colour(int, int)>& colour) {
     DisplayImage picture(width, height, 0);
@@ -98,5 +97,4 @@ TEST(ImageIndexed, NoPixelHasAFarColour) {
     EXPECT_LE(worst, 16);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::image_indexed_test

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace neumann {
-namespace {
+namespace neumann::pixel_filters_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -68,8 +67,6 @@ const Cut cuts[] = {{7, {0.0, 100.0}}, {0, {0.0, 100.0}}, {1, {0.0, 3.0}},
 FilterSample sample(const PixelFilter& filter, double u, const Cut& cut) {
     return std::visit([&](const auto& f) { return f.sample(u, cut.pixel, cut.film); }, filter);
 }
-
-}  // namespace
 
 // Evenly spaced numbers, so that bins fill as the density says up to one sample at each end.
 TEST(PixelFilters, HistogramsAgainstTheFormulas) {
@@ -152,4 +149,4 @@ TEST(PixelFilters, BorderOfTheFilm) {
     EXPECT_GT(film.sample({0.999, 0.999}, 7, 3).position.y, 4.0);
 }
 
-}  // namespace neumann
+}  // namespace neumann::pixel_filters_test

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::texture_bitmap_test {
 
 using Filter = Bitmap::Filter;
 using Wrap = Bitmap::Wrap;
@@ -130,5 +129,4 @@ TEST(TextureUvTransform, LeavesOutTheThirdDimension) {
     EXPECT_EQ(t.slope({10, 1}), Vec2(23, -6));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::texture_bitmap_test

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann {
-namespace {
+namespace neumann::energy_balance_test {
 
 constexpr int bounces = 4;
 constexpr std::uint32_t groups = 256, together = 64;
@@ -163,5 +162,4 @@ TEST(SelfHits, PointsThatAreChosenAreNone) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::energy_balance_test

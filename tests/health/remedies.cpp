@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::remedies_test {
 
 using namespace physics;
 
@@ -87,5 +86,4 @@ TEST(Remedies, OfOtherMethods) {
     EXPECT_EQ(of(PathGenerator::bidirectional, bounces + 1), Remedies{Remedy::more_bounces});
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::remedies_test

@@ -9,8 +9,7 @@
 
 #include <cstring>
 
-namespace neumann {
-namespace {
+namespace neumann::replay_test {
 
 constexpr std::uint32_t size = 4;
 constexpr int bounces = 3;
@@ -134,5 +133,4 @@ TEST(Replay, APathIsJoined) {
     EXPECT_EQ(reflections, 3);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::replay_test

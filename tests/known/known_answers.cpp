@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <set>
 
-namespace neumann {
-namespace {
+namespace neumann::known_answers_test {
 
 using known::Case;
 using known::Figure;
@@ -113,5 +112,4 @@ TEST(KnownCases, AreFoundByPattern) {
     EXPECT_FALSE(known::matches("cube/floor/mis", "Cube"));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::known_answers_test

@@ -13,8 +13,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace neumann {
-namespace {
+namespace neumann::algebra_test {
 
 using namespace known;
 using T1 = TransportMatrix<1>;
@@ -255,5 +254,4 @@ TEST(Algebra, TheSeriesIsCompensated) {
     EXPECT_EQ(series.bounce(), 64);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::algebra_test

@@ -12,8 +12,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::directions_test {
 
 using namespace known;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -179,5 +178,4 @@ TEST(Directions, CoarserCellsAreAroundTheirParts) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::directions_test

@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::gaps_test {
 
 using namespace physics;
 
@@ -52,5 +51,4 @@ TEST(Gaps, LeakAsFastAsTheyShould) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::gaps_test

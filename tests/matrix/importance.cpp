@@ -11,8 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann {
-namespace {
+namespace neumann::importance_test {
 
 using namespace physics;
 constexpr int N = 4;
@@ -131,5 +130,4 @@ TEST(Importance, HiddenLightsHaveNoneOfTheCameraItself) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::importance_test

@@ -11,8 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann {
-namespace {
+namespace neumann::known_answers_test {
 
 using namespace physics;
 
@@ -198,5 +197,4 @@ TEST(KnownAnswersSlow, GrooveUnderTheSky) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::known_answers_test

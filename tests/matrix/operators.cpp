@@ -11,8 +11,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::operators_test {
 
 using namespace known;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -184,5 +183,4 @@ TEST(MatrixSeries, EmissionTimesAPowerOfTwoScalesBitwise) {
         EXPECT_TRUE((scaled.term().values() == series.term().values() * 0x1p-40).all());
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::operators_test

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace neumann {
-namespace {
+namespace neumann::patches_test {
 
 using namespace known;
 
@@ -274,5 +273,4 @@ TEST(DirectionCells, HoldTheirDirections) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::patches_test

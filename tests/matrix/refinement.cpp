@@ -11,8 +11,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::refinement_test {
 
 using namespace physics;
 
@@ -82,5 +81,4 @@ TEST(Refinement, OfRays) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::refinement_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann {
-namespace {
+namespace neumann::refusals_test {
 
 using namespace physics;
 
@@ -62,5 +61,4 @@ TEST(PatchRefusals, OfAnisotropy) {
               "the material of shape 1 is anisotropic, which patches do not hold; 'render --method walk' can");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::refusals_test

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-namespace neumann {
-namespace {
+namespace neumann::rest_test {
 
 // K as a matrix, each channel by itself, and the last unknown for nothing.
 ExitantVector<1> times(const Eigen::MatrixXd& K, const ExitantVector<1>& x) { return ExitantVector<1>(Vector(K * to_vector(x))); }
@@ -63,5 +62,4 @@ TEST(SeriesRest, AlbedoOneOrMoreDoesNotConverge) {
     EXPECT_FALSE(rest(K, {1.0, 0.1}).converges);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::rest_test

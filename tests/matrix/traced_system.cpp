@@ -13,8 +13,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace neumann {
-namespace {
+namespace neumann::traced_system_test {
 
 using namespace physics;
 
@@ -129,5 +128,4 @@ TEST(PowerRows, Furnace) {
     EXPECT_EQ(bounces_until(rows, 0.1), std::nullopt);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::traced_system_test

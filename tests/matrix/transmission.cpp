@@ -11,8 +11,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::transmission_test {
 
 using namespace physics;
 
@@ -150,5 +149,4 @@ TEST(TransmissionRefusals, OfWhatStandsInGlass) {
               "the camera stands within glass, which patches do not hold; 'render --method walk' can");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::transmission_test

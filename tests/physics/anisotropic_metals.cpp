@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::anisotropic_metals_test {
 
 const ConductorFresnel gold(Rgb(0.143, 0.374, 1.442), Rgb(3.983, 2.385, 1.603));
 
@@ -115,5 +114,4 @@ TEST(VaryingRoughness, IsThatOfThePoint) {
     EXPECT_FALSE(is_constant(bsdf));
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::anisotropic_metals_test

@@ -10,8 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 
-namespace neumann {
-namespace {
+namespace neumann::close_surfaces_test {
 
 using Long = glm::tvec3<long double>;
 
@@ -329,5 +328,4 @@ TEST(CloseSurfaces, GiantsAreWhatDwarfsAllElse) {
     EXPECT_FALSE(geometry.first_hit({-2.5, 0.5, 2.0}, {0, 0, -1}, 1.5, p));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::close_surfaces_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::continuations_test {
 
 // A floor, a wall, a slanted metal plate and a lamp that nowhere touch: the variances of all ways are finite.
 SceneMaker plates() {
@@ -131,5 +130,4 @@ TEST(ContinuationsSlow, SpecularIsTheWalkByWayOfMirrors) {
     EXPECT_GT(all_floor.terms[2].mean.r, 10.0 * all_floor.terms[2].standard_error.r);
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::continuations_test

@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::cylinder_test {
 
 // In a skew position, where nothing has a short binary form.
 Cylinder skew(bool flip_normals = false) {
@@ -151,5 +150,4 @@ TEST(Cylinder, ScaleAndPlaceDoNotMatter) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::cylinder_test

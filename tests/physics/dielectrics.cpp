@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::dielectrics_test {
 
 constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 constexpr double n = 1.5;
@@ -111,5 +110,4 @@ TEST(ThinDielectric, AFurnaceSeesAllOfTheLight) {
                          [](int i) { return grey(i == 1 ? 1.0 : 0.0); });
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::dielectrics_test

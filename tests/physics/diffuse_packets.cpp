@@ -10,8 +10,7 @@
 #include <bit>
 #include <numeric>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::diffuse_packets_test {
 
 // As the walk goes on by default, but one by one.
 struct OneByOne : MaterialContinuation {};
@@ -106,5 +105,4 @@ TEST(DiffusePackets, AreNotForOtherLights) {
     }));
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::diffuse_packets_test

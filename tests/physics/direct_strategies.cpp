@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 
-namespace neumann::physics {
-
-namespace {
+namespace neumann::physics::direct_strategies_test {
 
 using Settings = DirectLightSettings;
 
@@ -51,8 +49,6 @@ SceneMaker many_lights() {
     maker.add(Disk{{1.2, -1.2, 1.5}, {0.3, 0, 0}, {0, 0.3, 0}, {0, 0, -1}}, lamp(3.0));
     return maker;
 }
-
-}  // namespace
 
 // A corner of a unit square at height 1: F = 0.1385316059948930 (direct_light.cpp). 26 comparisons.
 TEST(DirectStrategiesSlow, ARectangleByLambertsFormula) {
@@ -259,4 +255,4 @@ TEST(DirectStrategiesSlow, ARectangleHasNoMoreVarianceThanItsTriangles) {
     EXPECT_LT(whole.variance[1].mean.r, 1.02 * cut.variance[1].mean.r);
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::direct_strategies_test

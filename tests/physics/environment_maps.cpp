@@ -11,8 +11,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::environment_maps_test {
 
 // Numbers without any pattern; some pixels are black, and one is 100 times as bright as the others.
 Image picture(int width, int height) {
@@ -222,5 +221,4 @@ TEST(EnvironmentMap, MayBeBlack) {
                      [](int) { return grey(0.0); });
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::environment_maps_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::extremes_test {
 
 constexpr Technique all_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise,
                                         Technique::surfaces};
@@ -64,5 +63,4 @@ TEST(Extremes, WithoutLightOrSurfacesAllIsZero) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::extremes_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::filters_test {
 
 constexpr int width = 8, height = 2;
 constexpr double edge = 4.05;  // where the lamp begins, pixels
@@ -62,8 +61,6 @@ double splatted(const Named& filter, int column, bool sample_border) {
                  high = sample_border ? filter.radius : std::min(filter.radius, width - center);
     return integral(filter.f, std::clamp(edge - center, low, high), high) / integral(filter.f, low, high);
 }
-
-}  // namespace
 
 // A step, with what rings beside it, against the integral that splatting tends to. 5 filters, 8 columns, with the film's border and
 // without: 80 comparisons from 64 replicates at |t| ≤ 5, for where only the end of a filter reaches the lamp few samples find it,
@@ -147,4 +144,4 @@ TEST(Filters, EveryBounceWeighsAlike) {
     }
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::filters_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::flux_test {
 
 // The mean of z over all surfaces, exactly: a triangle's is that of its centroid, that of round shapes is that of their centres.
 double mean_height(const Scene& scene) {
@@ -62,5 +61,4 @@ TEST(Superposition, TwoLightsAddUpWalkByWalk) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::flux_test

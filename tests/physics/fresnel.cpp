@@ -5,8 +5,7 @@
 
 #include <complex>
 
-namespace neumann {
-namespace {
+namespace neumann::fresnel_test {
 
 // The amplitudes themselves, in complex numbers.
 double fresnel(double cosine, std::complex<double> n) {
@@ -71,5 +70,4 @@ TEST(Conductor, IsADeltaWithinItsBound) {
     EXPECT_TRUE(is_black(sample(bsdf, {}, {0.6, 0, -0.8}, Vec2(0.3, 0.7)).weight));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::fresnel_test

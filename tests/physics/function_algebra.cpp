@@ -15,8 +15,7 @@
 #include <array>
 #include <cstdio>
 
-namespace neumann {
-namespace {
+namespace neumann::function_algebra_test {
 
 using namespace physics;
 
@@ -132,5 +131,4 @@ TEST(FunctionAlgebra, AdjointsMeasureTheSame) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::function_algebra_test

@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::furnace_test {
 
 const Rgb colour(0.25, 0.5, 0.75);
 
@@ -72,5 +71,4 @@ TEST(Furnace, TheRestIsTheTailOfTheGeometricSeries) {
         }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::furnace_test

@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::hidden_lights_test {
 
 constexpr double rho = 0.5, radiance = 3.0;
 
@@ -55,8 +54,6 @@ Method with_fields(M m) {
     m.directions = 1024;
     return m;
 }
-
-}  // namespace
 
 // What is seen is the floor, lit by the lower lamp alone as the upper one shines upwards. Sobol' numbers are 0.3% right with 4096
 // samples of a pixel; pointwise finds the lamp by chance.
@@ -110,4 +107,4 @@ TEST(HiddenLights, SurroundingsLightWhatIsSeen) {
     }
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::hidden_lights_test

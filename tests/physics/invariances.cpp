@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::invariances_test {
 
 constexpr int width = 48, height = 36, bounces = 8;
 
@@ -176,5 +175,4 @@ TEST(Invariance, EveryChannelHasItsOwnPowers) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::invariances_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::masks_test {
 
 constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 
@@ -189,5 +188,4 @@ TEST(Retroreflector, ARoughOneIsARoughMirrorTurnedRound) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::masks_test

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
+#include <tuple>
 
-namespace {
+namespace neumann::physics::measured_laws_test {
 
 Bsdf tilted(const Bsdf& nested, double angle) {
     return PerturbedNormal([angle](const ShadingPoint&) { return Vec3(std::sin(angle), 0.0, std::cos(angle)); },
@@ -38,8 +38,6 @@ std::pair<double, double> defect_by_chance(const Bsdf& bsdf) {
     return {mean, std::sqrt((squares - mean * mean) / (batches - 1))};
 }
 
-}  // namespace
-
 TEST(MeasuredLaws, ReciprocalMaterialsHaveNoDefect) {
     for (const Bsdf& bsdf :
          {Bsdf(Diffuse(Rgb(0.5))), Bsdf(RoughConductor(Ggx(0.2))), Bsdf(Conductor({}, Rgb(1.0))), tilted(Diffuse(Rgb(0.5)), 0.0)})
@@ -65,9 +63,9 @@ TEST(MeasuredLaws, AreSaidOnceForAllMaterials) {
     EXPECT_TRUE(maker.make().warnings.counts().empty());
     maker.add(Sphere{{0, 0, 0}, 0.3, false}, made_of(tilted(Diffuse(Rgb(0.25)), 0.3)));
     maker.add(Sphere{{0.5, 0, 0}, 0.1, false}, made_of(tilted(Diffuse(Rgb(0.75)), 0.1)));
-    maker.parts.origins = {{{"room.xml", 3, 1}, "shape 'sphere'", "bsdf 'diffuse'"},
-                           {{"room.xml", 7, 5}, "shape 'sphere'", "bsdf 'bumpmap'"},
-                           {{"room.xml", 9, 5}, "shape 'sphere'", "bsdf 'normalmap'"}};
+    for (const auto& [line, column, bsdf] :
+         {std::tuple(3, 1, "bsdf 'diffuse'"), std::tuple(7, 5, "bsdf 'bumpmap'"), std::tuple(9, 5, "bsdf 'normalmap'")})
+        maker.parts.origins.push_back({{"room.xml", line, column}, "shape 'sphere'", bsdf});
     const Scene scene = maker.make();
     const MeasuredLaws laws = measure_laws(scene.geometry, scene.materials);
     EXPECT_EQ(laws.materials, 2u);
@@ -112,4 +110,4 @@ TEST(MeasuredLaws, ReflectanceAboveOneIsNamed) {
         << found.begin()->first;
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::measured_laws_test

@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::mirrors_test {
 
 constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 constexpr double rho = 0.9;
@@ -66,5 +65,4 @@ TEST(Mirrors, ReflectionOverSurfacesRefusesThem) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::mirrors_test

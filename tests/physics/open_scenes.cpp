@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::open_scenes_test {
 
 Surface sky(const AreaLight& radiance) { return {std::nullopt, radiance}; }
 
@@ -88,5 +87,4 @@ TEST(OpenSceneSlow, AConvexBodyNeverSeesItself) {
         }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::open_scenes_test

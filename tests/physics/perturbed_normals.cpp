@@ -7,9 +7,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-
-namespace {
+namespace neumann::physics::perturbed_normals_test {
 
 constexpr PerturbedNormal::Options plain{false, false, false};
 
@@ -29,8 +27,6 @@ double over_directions(double tilt, const Function& f) {
         return integrate_smooth(0.0, edge, ring) + (edge < 0.5 * pi ? integrate_smooth(edge, 0.5 * pi, ring) : 0.0);
     });
 }
-
-}  // namespace
 
 // n' = (−∂f/∂x, −∂f/∂y, 1) over a plane with the height f, whatever the coordinates on it: by the chain rule.
 TEST(PerturbedNormals, BumpsOfAHeightField) {
@@ -141,4 +137,4 @@ TEST(PerturbedNormals, LightFromOneDirectionMayGainPower) {
     EXPECT_GT(limit, 3.3);
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::perturbed_normals_test

@@ -3,8 +3,7 @@
 
 #include <complex>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::plastics_test {
 
 struct Named {
     std::string name;
@@ -190,5 +189,4 @@ TEST(RoughPlastic, WithHardlyAnyRoughnessIsSmooth) {
     EXPECT_NEAR(T.mean(), mean_over_cosines([&](double mu) { return T(mu); }), 1e-5);
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::plastics_test

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::principled_test {
 
 using Side = Principled::Side;
 
@@ -219,5 +218,4 @@ TEST(Principled, VariesOverTheSurface) {
     EXPECT_EQ(largest_albedo(varying), largest);
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::principled_test

@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::rough_conductors_test {
 
 struct Named {
     std::string name;
@@ -193,5 +192,4 @@ TEST(RoughConductor, TheDensityOfSmoothMetalsKeepsItsDigits) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::rough_conductors_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::rough_dielectrics_test {
 
 template <class Microfacets>
 Bsdf glass(double alpha, double eta) {
@@ -189,5 +188,4 @@ TEST(RoughDielectric, StaysFiniteAndWithinItsBounds) {
     EXPECT_TRUE(transmits(tinted));
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::rough_dielectrics_test

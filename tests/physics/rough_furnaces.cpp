@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::rough_furnaces_test {
 
 Scene sphere(const Bsdf& bsdf) {
     SceneMaker maker;
@@ -33,5 +32,4 @@ TEST(RoughFurnaceSlow, AllWaysFindTheSameTerms) {
         }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::rough_furnaces_test

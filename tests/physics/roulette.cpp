@@ -5,9 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-
-namespace {
+namespace neumann::physics::roulette_test {
 
 Scene furnace(double rho) {
     SceneMaker maker;
@@ -30,8 +28,6 @@ double variance_of_sum(double rho, double q) {
     }
     return sum - mean * mean;
 }
-
-}  // namespace
 
 // verification figures: 90 and 28.93 for ρ = 0.9 and q = 0.9 and 0.95.
 TEST(Roulette, TheFormulaGivesTheKnownVariances) {
@@ -105,4 +101,4 @@ TEST(RouletteSlow, ByAlbedoAndByThroughput) {
     }
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::roulette_test

@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::sensors_test {
 
 const Film film{.width = 30, .height = 20, .crop_width = 30, .crop_height = 20};
 const Mat4 moved = glm::rotate(glm::translate(Mat4(1.0), Vec3(3, -2, 5)), 0.7, glm::normalize(Vec3(3, -1, 2)));
@@ -109,5 +108,4 @@ TEST(Sensors, OnlyALensDrawsNumbers) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::sensors_test

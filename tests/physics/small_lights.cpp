@@ -10,8 +10,7 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::small_lights_test {
 
 constexpr double rho = 0.7;
 const Surroundings nowhere;
@@ -170,5 +169,4 @@ TEST(SmallLights, AnEnvironmentIsSeenDirectly) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::small_lights_test

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::splitting_test {
 
 constexpr Split splits[] = {{8, 8}, {1, 16}, {16, 1}, {3, 5}};
 std::string describe(const Split& s) { return fmt::format("split {},{}", s.lights, s.walks); }
@@ -88,5 +87,4 @@ TEST(SplittingSlow, MeansAreThoseOfSingleWalks) {
         }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::splitting_test

@@ -5,8 +5,7 @@
 
 #include <limits>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::tangents_test {
 
 // From outside a ray sees the outside, also where it is a tangent to all digits of a float.
 TEST(Tangents, SeeRoundShapesFromOutside) {
@@ -34,5 +33,4 @@ TEST(Tangents, SeeRoundShapesFromOutside) {
     for (const int count : hits) EXPECT_GT(count, 2000);
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::tangents_test

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-
-namespace {
+namespace neumann::physics::texture_coordinates_test {
 
 ShadingPoint shade(const Shape& shape, const Vec3& position, std::uint32_t primitive = 0, const Vec3& normal = {0, 0, 1}) {
     return shading_point(shape, {position, normal, 0.0, 0, primitive});
@@ -41,8 +39,6 @@ void expect_consistent(const Shape& shape, const SurfacePoint& p) {
     EXPECT_GT(glm::dot(s.frame.s, dp_du), 0.0);
     EXPECT_NEAR(glm::dot(s.frame.t, dp_du), 0.0, 1e-12 * glm::length(dp_du));
 }
-
-}  // namespace
 
 TEST(TextureCoordinates, Rectangle) {
     const Shape r = make_rectangle(skew());
@@ -173,4 +169,4 @@ TEST(TextureCoordinates, DegenerateTrianglesTakeTheirAttributesAlong) {
     EXPECT_EQ(left.attributes[1].values.size(), 3u);
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::texture_coordinates_test

@@ -9,16 +9,12 @@
 
 #include <algorithm>
 
-namespace neumann::physics {
-
-namespace {
+namespace neumann::physics::textured_scenes_test {
 
 std::shared_ptr<const Bitmap> bitmap(int width, int height, std::vector<float> texels, Bitmap::Filter filter, Bitmap::Wrap wrap) {
     return std::make_shared<const Bitmap>(std::make_shared<const Texels>(Texels{width, height, 1, {}, std::move(texels)}), filter,
                                           wrap, false);
 }
-
-}  // namespace
 
 // A textured rectangle under a white sky: what it reflects on average is the mean of its texels, with both filters, where the
 // picture is repeated.
@@ -92,4 +88,4 @@ TEST(TexturedScenes, SmoothMeshesHaveShadingNormals) {
     EXPECT_TRUE(has_shading_normals(maker.make()));
 }
 
-}  // namespace neumann::physics
+}  // namespace neumann::physics::textured_scenes_test

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::half_spaces_test {
 
 const Vec3 low(-1.0, -2.0, -0.5), high(1.0, 1.0, 2.0);
 
@@ -166,5 +165,4 @@ TEST(HalfSpaces, TooManyTrianglesAreNotLookedThrough) {
     EXPECT_FALSE(HalfSpaces(g).no_surface_seen_from(0, true));
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::half_spaces_test

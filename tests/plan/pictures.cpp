@@ -14,8 +14,7 @@
 #include <functional>
 #include <numeric>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::pictures_test {
 
 constexpr int bounces = 4;
 
@@ -197,5 +196,4 @@ TEST(PlannedPictures, OfAConvexObjectUnderASkyEndAfterBounceOne) {
     EXPECT_EQ(planned.tally.rays[1], 0u);
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::pictures_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::plan_test {
 
 using Decisions = std::vector<bool LeftOut::*>;
 
@@ -110,5 +109,4 @@ TEST(Plan, MaterialsWhereNoLightArrives) {
     EXPECT_TRUE(make_plan(maker.make()).sides.empty());
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::plan_test

@@ -11,8 +11,7 @@
 #include <atomic>
 #include <cstring>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::renders_test {
 
 Goal quick() {
     Goal goal;
@@ -107,5 +106,4 @@ TEST(Renders, AWatchIsToldTheBouncesFirstAndStopsIt) {
     EXPECT_EQ(bounces_of_progress, 2);
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::renders_test

@@ -1,7 +1,6 @@
 #include "tests/reader/mesh_test_file.h"
 
-namespace neumann {
-namespace {
+namespace neumann::mesh_obj_test {
 
 class MeshObj : public MeshTestFile {
 protected:
@@ -181,5 +180,4 @@ TEST_F(MeshObj, RefusesFilesThatCannotBeOpened) {
     EXPECT_EQ(message("/dev/zero"), "/dev/zero: cannot be opened: Not a regular file");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::mesh_obj_test

@@ -9,8 +9,7 @@
 #include <initializer_list>
 #include <limits>
 
-namespace neumann {
-namespace {
+namespace neumann::mesh_ply_test {
 
 // Builds the body of a binary file.
 class Bytes {
@@ -386,5 +385,4 @@ TEST_F(MeshPly, RefusesFilesThatCannotBeOpened) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::mesh_ply_test

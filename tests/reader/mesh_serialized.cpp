@@ -5,8 +5,7 @@
 
 #include <zlib.h>
 
-namespace neumann {
-namespace {
+namespace neumann::mesh_serialized_test {
 
 // Builds a file byte by byte.
 class Bytes {
@@ -230,5 +229,4 @@ TEST_F(MeshSerialized, WrongNumbers) {
               "FILE: mesh 0: triangle 2: vertex index 1 is out of range, the mesh has 1 vertex, counted from 0");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::mesh_serialized_test

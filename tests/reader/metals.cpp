@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace neumann {
-namespace {
+namespace neumann::metals_test {
 
 // luxpop.com, as in Mitsuba's ior/Ag.eta.spd, Ag.k.spd, Au.eta.spd and Au.k.spd; silver and gold at the same wavelengths.
 const std::vector<double> wavelengths = {
@@ -72,5 +71,4 @@ TEST(Metals, AreSortedAndReal) {
         }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::metals_test

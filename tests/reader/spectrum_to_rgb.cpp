@@ -6,9 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace neumann {
-
-namespace {
+namespace neumann::spectrum_to_rgb_test {
 
 SpectrumTable constant(double value, double from = 360.0, double to = 830.0) { return {{from, to}, {value, value}}; }
 
@@ -50,8 +48,6 @@ SpectrumTable green() {
                        0.141, 0.136, 0.13,  0.126, 0.123, 0.121, 0.122, 0.119, 0.114, 0.115, 0.117, 0.117, 0.118,
                        0.12,  0.122, 0.128, 0.132, 0.139, 0.144, 0.146, 0.15,  0.152, 0.157, 0.159});
 }
-
-}  // namespace
 
 TEST(SpectrumTables, SumsOfTheObserver) {
     Vec3 sum(0.0);
@@ -157,4 +153,4 @@ TEST(Srgb, Decode) {
     EXPECT_NEAR(srgb_decode(0.04045), 0.0031308, 1e-7);
 }
 
-}  // namespace neumann
+}  // namespace neumann::spectrum_to_rgb_test

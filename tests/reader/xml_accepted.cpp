@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace neumann {
+namespace neumann::xml_accepted_test {
 
 using XmlAccepted = XmlTest;
 
@@ -134,4 +134,4 @@ TEST_F(XmlAccepted, EmittersByReference) {
     EXPECT_EQ(parts.lights.area[0].largest, Rgb(1.0, 2.0, 3.0));
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_accepted_test

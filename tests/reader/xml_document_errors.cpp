@@ -1,7 +1,7 @@
 // What is wrong with a file as a document: XML, elements, attributes, includes, $names, ids.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_document_errors_test {
 
 class XmlDocumentErrors : public XmlTest {};
 
@@ -153,4 +153,4 @@ TEST_F(XmlDocumentErrors, IdsTakenTwice) {
               "scene.xml:3:15: the id 'a' is taken already, at scene.xml:2:22");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_document_errors_test

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann {
+namespace neumann::xml_instances_test {
 
 class XmlInstances : public XmlTest {
 protected:
@@ -151,4 +151,4 @@ TEST_F(XmlInstances, Memory) {
                           fitting + 3, all, 300.0 * all / 0x1p30, physical_memory() / 0x1p30));
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_instances_test

@@ -3,7 +3,7 @@
 #include "core/sampling/warp.h"
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_lights_test {
 
 class XmlLights : public XmlTest {
 protected:
@@ -197,4 +197,4 @@ TEST_F(XmlLights, SeveralAndOneThatSurrounds) {
         "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity, sampling_weight");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_lights_test

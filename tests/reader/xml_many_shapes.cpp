@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann {
+namespace neumann::xml_many_shapes_test {
 
 class XmlManyShapes : public XmlTest {
 protected:
@@ -68,4 +68,4 @@ TEST_F(XmlManyShapes, SerializedParameters) {
         "flip_tex_coords");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_many_shapes_test

@@ -1,7 +1,7 @@
 // Materials that only reflect, with their parameters and defaults.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_materials_test {
 
 using XmlMaterials = XmlTest;
 
@@ -141,4 +141,4 @@ TEST_F(XmlMaterials, Principled) {
     EXPECT_EQ(eval(sheet.bsdfs.at(0), {}, up, up).g, 0.0);
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_materials_test

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace neumann {
+namespace neumann::xml_meshes_test {
 
 class XmlMeshes : public XmlTest {
 protected:
@@ -116,4 +116,4 @@ TEST_F(XmlMeshes, RoundShapesKnowHowTheyAreTurned) {
     EXPECT_NEAR(texture_coordinates(shading_point(parts.shapes[2], {{1, 0, -1}, {0, 0, 1}})).y, 1.0 / 3.0, 1e-15);
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_meshes_test

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann {
+namespace neumann::xml_problems_test {
 
 class XmlProblems : public XmlTest {
 protected:
@@ -189,4 +189,4 @@ TEST_F(XmlProblems, ManyAreCounted) {
     EXPECT_EQ(error(body), expected + "and 10 more");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_problems_test

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace neumann {
+namespace neumann::xml_sensors_test {
 
 class XmlSensors : public XmlTest {
 protected:
@@ -140,4 +140,4 @@ TEST_F(XmlSensors, Integrators) {
               std::nullopt);
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_sensors_test

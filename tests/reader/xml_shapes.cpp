@@ -1,7 +1,7 @@
 // Round shapes, and shapes without a material.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_shapes_test {
 
 using XmlShapes = XmlTest;
 
@@ -59,4 +59,4 @@ TEST_F(XmlShapes, Cylinders) {
     EXPECT_DOUBLE_EQ(small.radius, 1e-200);
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_shapes_test

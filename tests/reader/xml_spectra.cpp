@@ -1,7 +1,7 @@
 // Colours, and <spectrum> in all its forms.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_spectra_test {
 
 class XmlSpectra : public XmlTest {
 protected:
@@ -154,4 +154,4 @@ TEST_F(XmlSpectra, WavelengthsOutsideSrgb) {
               (std::map<std::string, std::uint64_t>{{"spectrum outside the colours of sRGB, cut to them", 1}}));
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_spectra_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace neumann {
+namespace neumann::xml_textures_test {
 
 class XmlTextures : public XmlTest {
 protected:
@@ -319,4 +319,4 @@ TEST_F(XmlTextures, NormalAndBumpMapErrors) {
               "use_shadowing_function");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_textures_test

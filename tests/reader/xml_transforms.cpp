@@ -1,7 +1,7 @@
 // <transform> against matrices worked out by hand, seen through the camera, and through meshes.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_transforms_test {
 
 class XmlTransforms : public XmlTest {
 protected:
@@ -109,4 +109,4 @@ TEST_F(XmlTransforms, NormalsFollowTheInverseTranspose) {
     EXPECT_NEAR(glm::length(tiny - glm::normalize(Vec3(-1, 0, 1))), 0.0, 1e-14);
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_transforms_test

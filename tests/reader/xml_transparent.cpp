@@ -1,7 +1,7 @@
 // Materials that let light through, and mixtures, in scene files.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_transparent_test {
 
 class XmlTransparent : public XmlTest {
 protected:
@@ -173,4 +173,4 @@ TEST_F(XmlTransparent, RefusalsOfMixtures) {
               "scene.xml:2:1: bsdf 'mask' stands inside itself");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_transparent_test

@@ -1,14 +1,10 @@
 // Files of older versions mean what the same scene means in today's names.
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
-
-namespace {
+namespace neumann::xml_upgrade_test {
 
 const std::string names = "old scene file: a name in camelCase taken in snake_case";
 const std::string lookat = "old scene file: <lookAt> taken as <lookat>";
-
-}  // namespace
 
 class XmlUpgrade : public XmlTest {
 protected:
@@ -198,4 +194,4 @@ TEST_F(XmlUpgrade, WhatMitsubaLeavesIsRefused) {
     EXPECT_EQ(version_error("0.3.0", ""), "scene.xml:1:8: scene version 0.3.0 is not known, expected 0.4 to 3.x");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_upgrade_test

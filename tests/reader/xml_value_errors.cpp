@@ -2,7 +2,7 @@
 #include "core/colour/metals.h"
 #include "tests/reader/xml_scene_files.h"
 
-namespace neumann {
+namespace neumann::xml_value_errors_test {
 
 class XmlValueErrors : public XmlTest {
 protected:
@@ -355,4 +355,4 @@ TEST_F(XmlValueErrors, UnusedDefinitionsAreCheckedToo) {
               "scene.xml:2:51: film width is 0, expected at least 1");
 }
 
-}  // namespace neumann
+}  // namespace neumann::xml_value_errors_test

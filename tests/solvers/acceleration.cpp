@@ -11,10 +11,9 @@
 
 #include <algorithm>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::acceleration_test {
 
-namespace {
+using namespace known;
 
 constexpr double goals[] = {1e-3, 1e-6, 1e-10};
 using Counts = std::array<double, 3>;
@@ -58,8 +57,6 @@ Acceleration uniform(double rho) {
     const Cube cube = symmetric_cube(16);
     return {cube, Vector::Constant(cube.size(), rho)};
 }
-
-}  // namespace
 
 // The quotient by the symmetries of the square stands for the whole cube: same iterates, same counts, but for rounding at the
 // threshold.
@@ -134,3 +131,5 @@ TEST(Acceleration, AllStopWhereTheySay) {
         EXPECT_LE(result.applications, 5000) << solver.name;
     }
 }
+
+}  // namespace neumann::acceleration_test

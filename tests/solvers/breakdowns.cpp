@@ -12,10 +12,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::breakdowns_test {
 
-namespace {
+using namespace known;
 
 Problem problem_of(const DenseChannel& K, const Vector& Le) {
     Problem problem;
@@ -25,8 +24,6 @@ Problem problem_of(const DenseChannel& K, const Vector& Le) {
     problem.most = 2000;
     return problem;
 }
-
-}  // namespace
 
 // A furnace of albedo 1.05: (I − K)⁻¹ Le = −20, which elimination, Krylov methods and extrapolation find without noticing.
 TEST(Breakdowns, NobodyAnswersADivergentSeries) {
@@ -240,3 +237,5 @@ TEST(SideBySide, EndsAtTheNextUseOfK) {
         for (std::size_t i = 0; i < some.rows.size(); ++i) EXPECT_EQ(some.rows[i].result.x, all.rows[i].result.x);
     }
 }
+
+}  // namespace neumann::breakdowns_test

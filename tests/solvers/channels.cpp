@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::channels_test {
+
+using namespace known;
 
 TEST(Channels, DenseAndSparseAreTheMatrix) {
     DenseChannel::Matrix m(3, 3);
@@ -37,3 +38,5 @@ TEST(Channels, RefuseWhatIsNoChannel) {
     EXPECT_THROW(DenseChannel(DenseChannel::Matrix::Zero(2, 3), Vector::Ones(2)), std::invalid_argument);
     EXPECT_THROW(DenseChannel(DenseChannel::Matrix::Zero(2, 2), vector({1, 0})), std::invalid_argument);
 }
+
+}  // namespace neumann::channels_test

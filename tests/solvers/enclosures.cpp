@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::enclosures_test {
+
+using namespace known;
 
 TEST(Enclosures, StopTheSeriesEarly) {
     const Cube cube = symmetric_cube(16);
@@ -29,3 +30,5 @@ TEST(Enclosures, NegativeTermsHaveNone) {
     EXPECT_EQ(enclose(vector({1, 1}), vector({0.5, 1.5}), vector({1, 1}), vector({1, 1})).why,
               "the largest quotient of terms is 1.5, not below 1");
 }
+
+}  // namespace neumann::enclosures_test

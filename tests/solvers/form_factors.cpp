@@ -7,10 +7,9 @@
 
 #include <numbers>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::form_factors_test {
 
-namespace {
+using namespace known;
 
 Parallelogram facing_up(double x0, double x1, double y0, double y1, double z = 0.0) {
     return {{x0, y0, z}, {x1 - x0, 0, 0}, {0, y1 - y0, 0}};
@@ -22,8 +21,6 @@ Parallelogram facing_down(double x0, double x1, double y0, double y1, double z) 
 Parallelogram wall(double y0, double y1, double z0, double z1) { return {{0, y0, z0}, {0, y1 - y0, 0}, {0, 0, z1 - z0}}; }
 
 bool everywhere(const Vec3&) { return true; }
-
-}  // namespace
 
 // Turned and moved, far and near; scaled by 2^k area by 4^k.
 TEST(FormFactors, DoNotDependOnWhereThePairIs) {
@@ -81,3 +78,5 @@ TEST(FormFactors, CubeIsClosedAndReciprocal) {
         EXPECT_NEAR(cube.mean(g, face, everywhere), quotient.mean(q, face, everywhere), 1e-14);
     EXPECT_NEAR(g.maxCoeff(), q.maxCoeff(), 1e-14);
 }
+
+}  // namespace neumann::form_factors_test

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::power_test {
+
+using namespace known;
 
 // Closed and diffuse: power falls by ρ a bounce, whatever is emitted; and with any ρ what is absorbed, (1−ρ)/ρ K^i Le, adds up to
 // what was emitted.
@@ -22,3 +23,5 @@ TEST(Power, IsConserved) {
     }
     EXPECT_NEAR(absorbed, 1.0, 1e-13);
 }
+
+}  // namespace neumann::power_test

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::series_runs_test {
+
+using namespace known;
 
 // Rounding does not pile up: 27618 terms of ρ = 0.999, in double and compensated.
 TEST(SeriesRuns, LongSumsKeepTheirDigits) {
@@ -60,3 +61,5 @@ TEST(SeriesRuns, BouncesUntilLittleRemains) {
     EXPECT_EQ(bounces_until(rows, 0.01), 43);   // 0.9^44 = 0.0097
     EXPECT_EQ(bounces_until(rows, 0.001), 65);  // 0.9^66 = 0.00096
 }
+
+}  // namespace neumann::series_runs_test

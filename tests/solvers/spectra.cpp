@@ -13,8 +13,9 @@
 #include <cmath>
 #include <numbers>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::spectra_test {
+
+using namespace known;
 
 // In a sphere each patch sends all others the same per area: K_uv = ρ a_v / Σ a, whatever the patches' sizes. No bounce leaves more
 // of a patch's power than ρ, although the plain column of a large patch sums to nearly 5 ρ.
@@ -160,3 +161,5 @@ TEST(Spectra, RoundingFloor) {
         EXPECT_LE(found, 1.02 * rounding_floor(std::numeric_limits<float>::epsilon(), rho));
     }
 }
+
+}  // namespace neumann::spectra_test

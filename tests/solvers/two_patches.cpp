@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::two_patches_test {
+
+using namespace known;
 
 // L by Cramer's rule.
 TEST(TwoPatches, AllSolversSolveThem) {
@@ -51,3 +52,5 @@ TEST(TwoPatches, AlternatingTermsAreEnclosedInPairs) {
     EXPECT_LE(early.low[1], .88209 / determinant);
     EXPECT_GE(early.high[1], .88209 / determinant);
 }
+
+}  // namespace neumann::two_patches_test

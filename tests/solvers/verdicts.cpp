@@ -12,10 +12,9 @@
 #include <map>
 #include <numbers>
 
-using namespace neumann;
-using namespace neumann::known;
+namespace neumann::verdicts_test {
 
-namespace {
+using namespace known;
 
 using Matrix = DenseChannel::Matrix;
 
@@ -98,8 +97,6 @@ void expect_verdicts(const Known& known, const std::vector<Verdict>& usual) {
 }
 
 using enum Verdict;
-
-}  // namespace
 
 // Terms go to and fro, and fall by λ each time. The ratio of neighbours is infinite, or 2.6 λ: there is none below 1 for the tail,
 // nor for Aitken's, and the plain sum gets there. ±λ are equally large, so that there may be no single leading pair.
@@ -257,3 +254,5 @@ TEST(Verdicts, Darkness) {
         }
     }
 }
+
+}  // namespace neumann::verdicts_test

@@ -10,8 +10,7 @@
 #include <oneapi/tbb/task_arena.h>
 #include <atomic>
 
-namespace neumann {
-namespace {
+namespace neumann::agreement_fields_test {
 
 RenderedSeries walk(const Scene& scene, int bounces, std::uint64_t samples) {
     PictureSampler::Settings settings;
@@ -114,5 +113,4 @@ TEST(FieldPicturesInGapsSlow, DeepBouncesOfACornellBox) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::agreement_fields_test

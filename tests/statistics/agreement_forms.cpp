@@ -13,8 +13,7 @@
 #include <cstdio>
 #include <span>
 
-namespace neumann {
-namespace {
+namespace neumann::agreement_forms_test {
 
 using T = TransportOperator;
 using R = ReflectionOperator;
@@ -198,5 +197,4 @@ TEST(Agreement, OfTheFourFormsAndTheWalkOnDirectLight) { expect_agreement(places
 // point on all surfaces is on the light in less than 1% of the cases, so the surface forms need many.
 TEST(AgreementSlow, OfTheFourFormsAndTheWalkOnTwoBounces) { expect_agreement(std::span(places).first(4), 2, 1, 20480, 0.1); }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::agreement_forms_test

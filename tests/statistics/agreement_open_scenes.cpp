@@ -12,8 +12,7 @@
 #include <fstream>
 #include <string>
 
-namespace neumann {
-namespace {
+namespace neumann::agreement_open_scenes_test {
 
 constexpr int bounces = 3;
 
@@ -108,5 +107,4 @@ TEST(OpenScenesSlow, UnderTheSky) { expect_agreement(std::string(sky) + mirror, 
 TEST(OpenScenesSlow, WithAPointLight) { expect_agreement(point, false); }
 TEST(OpenScenesSlow, WithAllOfThem) { expect_agreement(std::string(sky) + point + sun, false); }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::agreement_open_scenes_test

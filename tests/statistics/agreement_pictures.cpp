@@ -10,8 +10,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace neumann {
-namespace {
+namespace neumann::agreement_pictures_test {
 
 constexpr int resolution = 32, bounces = 4;
 
@@ -119,5 +118,4 @@ TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementOfGuidedSlow, testing::Values("cornell-box", "metal-room"));
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::agreement_pictures_test

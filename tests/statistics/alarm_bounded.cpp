@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace neumann {
-namespace {
+namespace neumann::alarm_bounded_test {
 
 using namespace physics;
 
@@ -141,5 +140,4 @@ TEST(BoundedSamples, AreKnownByMethod) {
     EXPECT_FALSE(samples_are_bounded(sky, ways));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::alarm_bounded_test

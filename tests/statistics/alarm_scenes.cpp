@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace neumann {
-namespace {
+namespace neumann::alarm_scenes_test {
 
 constexpr int bounces = 3, resolution = 36;
 
@@ -115,5 +114,4 @@ TEST(AlarmSlow, IsSilentInTheCornellBox) {
     expect_silent(scene, DirectLight::mis, SamplerKind::sobol, 100, "mitsuba-cornell, MIS");
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::alarm_scenes_test

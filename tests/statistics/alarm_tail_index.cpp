@@ -10,8 +10,7 @@
 #include <cstdio>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::alarm_tail_index_test {
 
 double uniform(std::mt19937_64& random) { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; }
 
@@ -163,5 +162,4 @@ TEST(TailIndex, TheLargestSamplesAreTheSameHoweverTheyWereCut) {
     EXPECT_EQ(whole.sorted(), values);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::alarm_tail_index_test

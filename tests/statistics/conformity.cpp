@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::conformity_test {
 
 constexpr std::uint64_t samples = 200, reference_samples = 32'000;
 
@@ -123,5 +122,4 @@ TEST(Conformity, SizesHaveToAgree) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::conformity_test

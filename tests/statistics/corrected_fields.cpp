@@ -16,8 +16,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace neumann {
-namespace {
+namespace neumann::corrected_fields_test {
 
 using physics::fixed_seed;
 
@@ -193,5 +192,4 @@ TEST(CorrectedFields, SameBitsOnAnyThreads) {
     for (const auto& other : bits) EXPECT_EQ(std::memcmp(other.data(), bits[0].data(), bits[0].size() * sizeof(double)), 0);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::corrected_fields_test

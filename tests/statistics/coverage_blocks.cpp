@@ -15,8 +15,7 @@
 #include <cstdio>
 #include <mutex>
 
-namespace neumann {
-namespace {
+namespace neumann::coverage_blocks_test {
 
 constexpr int resolution = 32, block = 8, bounces = 6;
 constexpr std::uint64_t first_seed = 1;
@@ -234,5 +233,4 @@ void expect_coverage(SamplerKind kind, const char* name) {
 TEST(CoverageSlow, WithIndependentNumbers) { expect_coverage(SamplerKind::independent, "independent"); }
 TEST(CoverageSlow, WithSobolPoints) { expect_coverage(SamplerKind::sobol, "Sobol"); }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::coverage_blocks_test

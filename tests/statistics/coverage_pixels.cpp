@@ -21,8 +21,7 @@
 #include <cstdio>
 #include <mutex>
 
-namespace neumann {
-namespace {
+namespace neumann::coverage_pixels_test {
 
 using namespace known;
 
@@ -265,5 +264,4 @@ TEST(LeastErrors, ALightSmallerThanAPixel) {
     EXPECT_TRUE(least.of_term(1).pixels.empty()) << "nothing reflects";
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::coverage_pixels_test

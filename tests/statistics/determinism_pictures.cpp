@@ -9,8 +9,7 @@
 #include <cstring>
 #include <map>
 
-namespace neumann {
-namespace {
+namespace neumann::determinism_pictures_test {
 
 struct Case {
     const char* name;
@@ -206,5 +205,4 @@ INSTANTIATE_TEST_SUITE_P(AllWays, Determinism,
                                          Case{"BidirectionalSobol", PathGenerator::bidirectional, SamplerKind::sobol}),
                          [](const auto& info) { return std::string(info.param.name); });
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::determinism_pictures_test

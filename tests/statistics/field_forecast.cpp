@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace neumann {
-namespace {
+namespace neumann::field_forecast_test {
 
 FieldSettings settings(std::size_t patches, std::uint32_t rays, std::uint32_t samples) {
     FieldSettings s;
@@ -98,5 +97,4 @@ TEST(FieldForecast, Seconds) {
                 1.0);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::field_forecast_test

@@ -11,8 +11,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::guided_walk_test {
 
 Scene cornell_box(int resolution) {
     return read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
@@ -245,5 +244,4 @@ TEST(GuidedWalkSlow, HasLessVarianceThanThePlainWalk) {
         EXPECT_LT(std::pow(relative_standard_error(guided.term(i)) / relative_standard_error(plain.term(i)), 2), 0.6) << i;
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::guided_walk_test

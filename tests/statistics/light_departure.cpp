@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace neumann::physics {
-namespace {
+namespace neumann::physics::light_departure_test {
 
 Scene scene_with(const char* light, const char* camera, const char* things) {
     return read_scene(TEST_DATA "/generators/room.xml", {{"light", std::string(light) + ".xml"},
@@ -149,5 +148,4 @@ TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
     }
 }
 
-}  // namespace
-}  // namespace neumann::physics
+}  // namespace neumann::physics::light_departure_test

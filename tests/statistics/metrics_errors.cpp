@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace neumann {
-namespace {
+namespace neumann::metrics_errors_test {
 
 Image row(const std::vector<Rgb>& pixels) {
     Image image(static_cast<int>(pixels.size()), 1);
@@ -78,5 +77,4 @@ TEST(Metrics, SizesMustAgree) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::metrics_errors_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::metrics_means_test {
 
 Estimate constant(int pixels, const Rgb& mean, const Rgb& error) {
     Estimate e{Image(pixels, 1), Image(pixels, 1)};
@@ -101,5 +100,4 @@ TEST(MetricsMeans, IntervalsHoldTheTruth) {
     EXPECT_LT(held, 0.965 * runs);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::metrics_means_test

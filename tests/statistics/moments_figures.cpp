@@ -9,8 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace neumann {
-namespace {
+namespace neumann::moments_figures_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -99,5 +98,4 @@ TEST(StudentT, WithoutDegreesOfFreedomTheIntervalIsInfinite) {
     EXPECT_EQ(student_t_quantile(0.95, std::numeric_limits<double>::quiet_NaN()), infinity);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::moments_figures_test

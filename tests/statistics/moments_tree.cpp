@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::moments_tree_test {
 
 constexpr std::size_t width = 3, height = 2, pixels = width * height, quantities = 4;
 
@@ -161,5 +160,4 @@ TEST(Moments, ReplicatesMustFollowEachOther) {
     EXPECT_THROW(moments.add(leaf(all, 2)), std::logic_error);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::moments_tree_test

@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace neumann {
-namespace {
+namespace neumann::path_generators_test {
 
 constexpr int bounces = 4;
 constexpr double limit = 4.5;
@@ -178,5 +177,4 @@ TEST(PathGeneratorsSlow, TheWaysToMakeABounceAgreeWithoutWeights) {
     EXPECT_LE(std::abs(sum - truth.mean), limit * std::hypot(variance, truth.standard_error));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::path_generators_test

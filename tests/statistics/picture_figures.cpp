@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace neumann {
-namespace {
+namespace neumann::picture_figures_test {
 
 Estimate five_by_three() {
     Estimate picture{Image(5, 3), Image(5, 3), 7.0, Image(5, 3)};
@@ -75,5 +74,4 @@ TEST(PictureFigures, DecayOfExactBounces) {
     EXPECT_NEAR(fit_decay(bounces)->ratio, 0.5, 1e-12);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::picture_figures_test

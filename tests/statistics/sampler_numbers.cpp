@@ -20,8 +20,7 @@
 #include <set>
 #include <vector>
 
-namespace neumann {
-namespace {
+namespace neumann::sampler_numbers_test {
 
 constexpr double rejected = 1e-5;
 constexpr std::uint64_t seed = 1;
@@ -324,5 +323,4 @@ TEST(SobolNumbers, TwoPointsOfAReplicateAreScrambledAsOwenSays) {
     std::printf("smallest p-value of %d: %.2g\n", tests, smallest);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::sampler_numbers_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <set>
 
-namespace neumann {
-namespace {
+namespace neumann::effort_test {
 
 TEST(Effort, SamplesInWholeNets) {
     std::vector<std::uint64_t> all;
@@ -172,5 +171,4 @@ TEST(MethodSummary, RankedByErrorAndTime) {
     EXPECT_NEAR(all[0].seconds_to_error->work, 4.0, 1e-12);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::effort_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::error_slope_test {
 
 std::vector<ErrorPoint> power_law(double exponent, double mse_error = 0.01) {
     std::vector<ErrorPoint> points;
@@ -96,5 +95,4 @@ TEST(WorkToError, BetweenPoints) {
     EXPECT_EQ(work_to_error(negative, 0.1)->work, 2.0);
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::error_slope_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::picture_errors_test {
 
 constexpr int width = 12, height = 10;
 
@@ -120,5 +119,4 @@ TEST(PictureErrors, MeansAndIntervals) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::picture_errors_test

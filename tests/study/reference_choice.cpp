@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace neumann {
-namespace {
+namespace neumann::reference_choice_test {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -52,5 +51,4 @@ TEST(ReferenceChoice, VarianceTimesRays) {
     EXPECT_EQ(variance_times_rays(series(2.0, 0.0, false)), variance_times_rays(series(2.0, 1e-9, false)));
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::reference_choice_test

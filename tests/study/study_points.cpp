@@ -5,8 +5,7 @@
 
 #include <array>
 
-namespace neumann {
-namespace {
+namespace neumann::study_points_test {
 
 // Two methods, two budgets in seconds, one pixel; the reference is exactly 1 in bounce 0 and in the sum.
 struct SmallStudy {
@@ -95,5 +94,4 @@ TEST(StudyPoints, TheMethodWithLessErrorInLessTimeIsFirst) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::study_points_test

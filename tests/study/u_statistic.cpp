@@ -6,8 +6,7 @@
 
 #include <random>
 
-namespace neumann {
-namespace {
+namespace neumann::u_statistic_test {
 
 SymmetricMatrix products(const std::vector<std::vector<double>>& x) {
     SymmetricMatrix g(x.size());
@@ -69,5 +68,4 @@ TEST(UStatistic, ErrorIsThatOfManyTrials) {
     }
 }
 
-}  // namespace
-}  // namespace neumann
+}  // namespace neumann::u_statistic_test
