@@ -1,4 +1,6 @@
-// Manual pages: headings in capitals, paragraphs, and items, whose text is indented under them.
+// Manual pages: headings in capitals, paragraphs, and items, whose text is indented under them. Read by own code, so that one text
+// makes
+// --help, which no converter of documents can, and the man page.
 #pragma once
 
 #include <string>

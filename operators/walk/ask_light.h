@@ -15,18 +15,18 @@ inline Rgb reflected_light(const Rgb& beta, const SurfaceSide& side, const Vec3&
     return beta * eval(*side.bsdf, side.p, wo, wi) * light;
 }
 
-// R: chooses the walk's light sample and stores it in w.asked. Its MIS weight is against the pdf of `way` (continuation.h), which
-// draws `directions` directions for each light sample.
-template <class Way, class Sampler>
-void choose_question(const DirectLightSampler& direct, std::size_t question, const Way& way, double directions,
+// R: chooses the walk's light sample and stores it in w.asked. Its MIS weight is against the pdf of `distribution`
+// (continuation.h), which draws `directions` directions for each light sample.
+template <class Distribution, class Sampler>
+void choose_question(const DirectLightSampler& direct, std::size_t question, const Distribution& distribution, double directions,
                      const SurfaceSide& side, const Vec3& wo, Sampler& sampler, Walker& w) {
     w.asked.value = Rgb(0.0);
     const LightQuestion q = direct.ask(side, sampler, question);
     if (!(q.pdf > 0.0)) return;
     const Vec3 wi = side.p.frame.to_local(q.w);
-    const double pdf_of_way = direct.is_weighted() ? way.pdf(side, wo, wi, q.point) * directions : 0.0;
+    const double pdf_of_walk = direct.is_weighted() ? distribution.pdf(side, wo, wi, q.point) * directions : 0.0;
     w.asked.value = reflected_light(w.beta, side, wo, wi, q.weight) *
-                    (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_of_way) * directions);
+                    (std::abs(wi.z) * direct.weight_of_answer(q.pdf, pdf_of_walk) * directions);
     w.asked.y = q.point;
     w.asked.w = q.w;
 }

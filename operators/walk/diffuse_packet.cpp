@@ -18,10 +18,10 @@ NEUMANN_HOT void DiffusePacket::compute(double directions, double weighted_direc
         const double cosine_of_y = -glm::dot(normal_of_y_[j], w), pdf = density_[j] * distance2 / cosine_of_y;
         const double cosine = glm::dot(normal, w);
         const bool reflects = (cosine_[j] > 0.0) & (cosine > 0.0);
-        const double pdf_of_way = (reflects ? cosine * inv_pi : 0.0) * weighted_directions;
+        const double pdf_of_walk = (reflects ? cosine * inv_pi : 0.0) * weighted_directions;
         const Rgb fs = albedo_[j] * inv_pi, eval(reflects ? fs.r : 0.0, reflects ? fs.g : 0.0, reflects ? fs.b : 0.0);
         const Rgb value =
-            beta_[j] * eval * (radiance_[j] / pdf) * (std::abs(cosine) * power_heuristic(pdf, pdf_of_way) * directions);
+            beta_[j] * eval * (radiance_[j] / pdf) * (std::abs(cosine) * power_heuristic(pdf, pdf_of_walk) * directions);
         const bool lights = (cosine_of_y > 0.0) & (pdf > 0.0);
         value_.set(j, {lights ? value.r : 0.0, lights ? value.g : 0.0, lights ? value.b : 0.0});
         to_y_.set(j, w);

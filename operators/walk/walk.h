@@ -64,16 +64,16 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
                     if (!side.bsdf) return false;
                     const Vec3 wo = side.p.frame.to_local(w.wo);
-                    const auto& way = continuation.at(side, places[i]);
+                    const auto& distribution = continuation.at(side, places[i]);
                     if (questions > 0)
-                        choose_question(direct, question % direct.questions(), way, directions_per_question, side, wo, samplers[i],
-                                        w);
+                        choose_question(direct, question % direct.questions(), distribution, directions_per_question, side, wo,
+                                        samplers[i], w);
                     if (question < questions) return true;
                     BsdfSample sampled;
                     if constexpr (Continuation::joins_points)
-                        sampled = way.sample(side, wo, samplers[i], walkers.next[i]);
+                        sampled = distribution.sample(side, wo, samplers[i], walkers.next[i]);
                     else
-                        sampled = way.sample(side, wo, samplers[i]);
+                        sampled = distribution.sample(side, wo, samplers[i]);
                     w.beta *= sampled.weight;
                     w.reflected = max_component(sampled.weight);
                     w.pdf = sampled.pdf;
