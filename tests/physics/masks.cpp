@@ -117,7 +117,7 @@ TEST(Blend, OverlappingLobesHaveOneDensity) {
             }
         }
         EXPECT_GE(directions_p_value(bsdf, {}, at_cosine(0.5), stream++), 6.8e-6);
-        EXPECT_LE(reciprocity_defect(bsdf, {}), 1e-10);
+        EXPECT_LE(largest_irreciprocity(bsdf, {}), 1e-10);
     }
     const Lobe both = lobe(Blend(matt, rough, Rgb(0.5)));
     EXPECT_EQ(both.kind, Lobe::Kind::rough);
@@ -183,7 +183,7 @@ TEST(Retroreflector, ARoughOneIsARoughMirrorTurnedRound) {
             // Brightest along ωo, give or take the facets' masking.
             EXPECT_GT(eval(bsdf, {}, wo, wo).r, eval(bsdf, {}, wo, Vec3(-wo.x, -wo.y, wo.z)).r * (mu < 1.0 ? 1.0 : 0.999));
         }
-        EXPECT_LE(reciprocity_defect(bsdf, {}), 1e-10);
+        EXPECT_LE(largest_irreciprocity(bsdf, {}), 1e-10);
         EXPECT_EQ(largest_albedo(bsdf), Rgb(0.8, 0.5, 0.2));
     }
 }

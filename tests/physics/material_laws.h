@@ -107,7 +107,7 @@ inline void expect_consistent_samples(const Bsdf& bsdf, const ShadingPoint& p, c
 }
 
 // The largest |fs(a → b)/fs(b → a) − 1|, relative to the larger one, over `count` pairs on the same side.
-inline double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, int count = 1000) {
+inline double largest_irreciprocity(const Bsdf& bsdf, const ShadingPoint& p, int count = 1000) {
     double worst = 0.0;
     Sampler sampler(fixed_seed, 2);
     for (int i = 0; i < count; ++i) {

@@ -87,7 +87,7 @@ TEST(Plastic, TheWeightTimesTheDensityIsTheScatteringFunction) {
 }
 
 TEST(Plastic, IsReciprocal) {
-    for (const auto& [name, bsdf] : plastics()) EXPECT_LE(reciprocity_defect(bsdf, {}), 1e-10) << name;
+    for (const auto& [name, bsdf] : plastics()) EXPECT_LE(largest_irreciprocity(bsdf, {}), 1e-10) << name;
 }
 
 TEST(Plastic, NothingIsReflectedBelowTheHorizonOrFromBehind) {

@@ -149,7 +149,7 @@ TEST(Principled, TheWeightTimesTheDensityIsTheScatteringFunction) {
 
 // On one side it is reciprocal, though nobody promises it; through the surface fs / n² is.
 TEST(Principled, IsReciprocal) {
-    for (const auto& [name, bsdf] : both()) EXPECT_LE(reciprocity_defect(bsdf, {}), 1e-10) << name;
+    for (const auto& [name, bsdf] : both()) EXPECT_LE(largest_irreciprocity(bsdf, {}), 1e-10) << name;
     auto v = parameters(orange, 0.6);
     v->spec_trans = Rgb(0.7);
     const Bsdf outside = Principled(v, Side::outside), inside = Principled(v, Side::inside);

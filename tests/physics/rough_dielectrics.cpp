@@ -49,7 +49,7 @@ TEST(RoughDielectric, TheWeightTimesTheDensityIsTheScatteringFunction) {
 // the rounding of F, which is of order 1, can be asked for.
 TEST(RoughDielectric, IsReciprocalButForTheSquaredIndex) {
     for (const Named& g : glasses()) {
-        EXPECT_LE(reciprocity_defect(g.bsdf, {}), 1e-10) << g.name;
+        EXPECT_LE(largest_irreciprocity(g.bsdf, {}), 1e-10) << g.name;
         Sampler sampler(fixed_seed, 3);
         int let_through = 0;
         for (std::uint64_t i = 0; i < 2000; ++i) {
