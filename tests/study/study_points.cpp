@@ -28,7 +28,7 @@ struct SmallStudy {
             run.rays = {10 * (n + 1)};
             run.peak_memory = static_cast<double>(n);
             run.mean = {1.0, 1.0};
-            run.variance = method == 1 && repeat == 0 ? "i" : "f";
+            run.variance = std::string(1, method == 1 && repeat == 0 ? 'i' : 'f');
         }
     }
     // ±d in turn: method 0 has d = 0.1, method 1 d = 0.4.
