@@ -26,8 +26,10 @@ std::string refusal(const Surface& surface, std::vector<Origin> origins = {}) {
 const SurfaceFunction varying([](const ShadingPoint& p) { return Rgb(texture_coordinates(p).x); }, Rgb(1.0));
 
 TEST(PatchRefusals, OfMixedGlass) {
-    const std::vector<Origin> origins = {{{"room.xml", 3, 1}, "shape 'sphere'", "bsdf 'diffuse'"},
-                                         {{"room.xml", 7, 5}, "shape 'sphere'", "bsdf 'mask'"}};
+    std::vector<Origin> origins(2);
+    origins[1].place = {"room.xml", 7, 5};
+    origins[1].shape = "shape 'sphere'";
+    origins[1].bsdf = "bsdf 'mask'";
     const auto glass = std::make_shared<const Bsdf>(Dielectric(1.5)), matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.5)));
     EXPECT_EQ(
         refusal(made_of(Mask(glass, Rgb(0.5))), origins),
