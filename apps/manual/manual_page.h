@@ -1,6 +1,5 @@
-// Manual pages: headings in capitals, paragraphs, and items, whose text is indented under them. Read by own code, so that one text
-// makes
-// --help, which no converter of documents can, and the man page.
+// Manual pages: headings in capitals, paragraphs, and items, whose text is indented under them. Own code reads them, so that one
+// text makes both the man page and --help, for which no converter of documents has a format.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Own code, because pandoc and its kin are too much to need for a build, and what the texts use of roff is four requests.
+// Own code: the texts need four requests of roff, for which a build should not depend on pandoc.
 #include "apps/manual/manual_page.h"
 
 #include <fmt/format.h>

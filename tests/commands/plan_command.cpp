@@ -36,7 +36,7 @@ TEST_F(PlanCommand, SaysWhatIsKeptAndWhatIsLeftOut) {
     const auto plan = nlohmann::json::parse(run({"plan", cornell_, "--json"}).out);
     EXPECT_TRUE(part(plan, "three colour channels").at("kept").get<bool>());
     EXPECT_TRUE(part(plan, "shadow rays").at("kept").get<bool>());
-    const auto& specular = part(plan, "mirrors");
+    const nlohmann::json specular = part(plan, "mirrors");
     EXPECT_FALSE(specular.at("kept").get<bool>());
     EXPECT_FALSE(specular.at("reason").get<std::string>().empty());
     EXPECT_FALSE(specular.at("saves").get<std::string>().empty());

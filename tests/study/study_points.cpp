@@ -25,7 +25,7 @@ struct SmallStudy {
             run.repeat = repeat;
             run.samples = budget + 1;
             run.seconds = plan.budgets[budget] * (method == 1 ? 1.2 : 1.0);
-            run.rays = {10 * (n + 1)};
+            run.rays.assign(1, 10 * (n + 1));
             run.peak_memory = static_cast<double>(n);
             run.mean = {1.0, 1.0};
             run.variance = std::string(1, method == 1 && repeat == 0 ? 'i' : 'f');
