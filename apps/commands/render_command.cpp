@@ -79,6 +79,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
             "At least: the variance is finite, but the largest samples are rare and make much of what is there. The interval may "
             "be\n"
             "too short; more samples help, or another method.\n");
+    if (series.choice) fmt::print("By method {}: {}.\n", name_of(series.choice->method), series.choice->why);
     if (series.outcome == Outcome::interrupted) fmt::print("Interrupted: the pictures hold what was sampled so far.\n");
     fmt::print("{} samples a pixel in {:.1f} s. The pictures are in {}\n", series.samples, series.seconds, folder);
 }

@@ -127,6 +127,18 @@ Json samples_json(const BounceSeries& series) {
 
 }  // namespace
 
+namespace {
+
+Json choice_json(const MethodChoice& choice) {
+    Json json = {{"method", name_of(choice.method)}, {"why", choice.why}};
+    for (const MethodTrial& trial : choice.trials)
+        json["pilot"].push_back({{"method", trial.method}, {"rays_per_sample", trial.rays}, {"error", json_number(trial.error)}});
+    if (!choice.trials.empty()) json["pilot_seconds"] = choice.seconds;
+    return json;
+}
+
+}  // namespace
+
 Json options_json(const BounceSeries& series) {
     Json json = {{"bounces", series.bounces()}};
     json.update(as_json(series.method));
@@ -146,6 +158,7 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
                                          : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
     json["options"] = options_json(series);
+    if (series.choice) json["choice"] = choice_json(*series.choice);
     json["files"] = names_of(rendering.files);
     json["plan"] = series.plan.parts.empty() ? Json("full") : plan_json(series.plan);
     json["paths"] = name(series.paths);

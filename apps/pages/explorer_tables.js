@@ -58,6 +58,9 @@ if (data.comparison) {
 all.forEach(s => {
   const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;
   section(`The bounces${tag}`, bouncesTable(s));
+  if (run.choice)
+    section(`The method${tag}`, element("p", `${run.choice.method}: ${run.choice.why}.`),
+      ...(run.choice.pilot ? [folded("The pilot", false, generic(run.choice.pilot))] : []));
   if (Array.isArray(run.plan)) {
     const leftOut = run.plan.filter(p => !p.kept).map(p => ({ part: p.part, reason: p.reason, saves: p.saves }));
     section(`The plan${tag}: what was left out, and why`, generic(leftOut),
@@ -68,7 +71,7 @@ all.forEach(s => {
     section(`Health${tag}`, element("p", complaints.length ? complaints.join("; ") : "Nothing to complain of.", complaints.length ? "warning" : undefined),
       folded("What was looked at", complaints.length > 0, generic(run.health)));
   const what = { command: run.command, ...run };
-  for (const part of ["plan", "health", "bounces", "warnings", "ways"]) delete what[part];
+  for (const part of ["plan", "choice", "health", "bounces", "warnings", "ways"]) delete what[part];
   section(`The run${tag}`, folded("All facts of run.json", false, generic(what)));
 });
 section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits), standard errors to 3%. " +

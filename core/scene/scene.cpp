@@ -169,4 +169,11 @@ Scene Scene::with(Materials other) const {
     return scene;
 }
 
+Scene Scene::with(const Film& other) const {
+    Scene scene = *this;
+    scene.camera = Sensor(camera.options(), other);
+    scene.film = other;
+    return scene;
+}
+
 }  // namespace neumann

@@ -44,6 +44,8 @@ public:
     Scene(Geometry geometry, Materials materials, Emitters emitters, const Sensor& camera, const Film& film, SceneNotes notes);
     // The same scene with other materials.
     Scene with(Materials materials) const;
+    // The same scene, seen on another film.
+    Scene with(const Film& film) const;
 
     const Geometry& geometry;
     Materials materials;

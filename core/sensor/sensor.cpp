@@ -2,7 +2,7 @@
 
 namespace neumann {
 
-Sensor::Sensor(const SensorOptions& options, const Film& film) : sensor_(make(options, film)) {}
+Sensor::Sensor(const SensorOptions& options, const Film& film) : sensor_(make(options, film)), options_(options) {}
 
 Sensor::Variant Sensor::make(const SensorOptions& options, const Film& film) {
     switch (options.kind) {

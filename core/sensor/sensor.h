@@ -32,12 +32,14 @@ public:
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const {
         return std::visit([&](const auto& sensor) { return sensor.pixels_per_area(ray, p); }, sensor_);
     }
+    const SensorOptions& options() const { return options_; }
     bool has_lens() const { return std::holds_alternative<ThinLens>(sensor_); }
 
 private:
     using Variant = std::variant<Perspective, ThinLens, Orthographic>;
     static Variant make(const SensorOptions& options, const Film& film);
     Variant sensor_;
+    SensorOptions options_;
 };
 
 }  // namespace neumann

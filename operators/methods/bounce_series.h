@@ -5,6 +5,7 @@
 #include "core/base/warnings.h"
 #include "core/image/pixel_estimate.h"
 #include "operators/methods/method.h"
+#include "operators/methods/method_choice.h"
 #include "operators/methods/ways.h"
 #include "operators/pictures/health.h"
 #include "operators/pictures/missing_paths.h"
@@ -60,7 +61,8 @@ struct BounceSeries {
     double setup_seconds = 0.0;  // part of `seconds`: the time before the first sample
     double degrees_of_freedom = 0.0;
 
-    Method method;  // as it ran: the same method, seed, bounces and samples repeat the render
+    Method method;                       // as it ran: the same method, seed, bounces and samples repeat the render
+    std::optional<MethodChoice> choice;  // how --method auto came to it
     std::uint64_t seed = 0;
     Plan plan;  // has no parts where nothing was left out
     std::variant<PathRecord, FieldRecord> record;

@@ -4,16 +4,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
 namespace neumann {
+
+namespace {
+
+constexpr double shortest = 1e-3;  // seconds left if all are spent
+
+}  // namespace
 
 std::uint32_t share_of_replicate(const Goal& goal) {
     const std::uint64_t samples = goal.samples.value_or(0), share = samples / *goal.replicates;
     if (share * *goal.replicates != samples || !std::has_single_bit(share) || share > std::numeric_limits<std::uint32_t>::max())
         throw InputError(fmt::format("{} samples are not {} replicates of a power of two each", samples, *goal.replicates));
     return static_cast<std::uint32_t>(share);
+}
+
+Goal with_default_limits(Goal goal) {
+    if (goal.samples || goal.seconds || goal.relative_error) return goal;
+    goal.seconds = default_seconds;
+    goal.relative_error = default_error;
+    return goal;
+}
+
+Goal after(Goal goal, double seconds) {
+    goal = with_default_limits(std::move(goal));
+    if (goal.seconds) goal.seconds = std::max(*goal.seconds - seconds, shortest);
+    return goal;
 }
 
 }  // namespace neumann

@@ -33,4 +33,9 @@ constexpr double default_seconds = 20.0, default_error = 0.02;
 // Time limit in seconds of a render that has an error to reach and no time limit of its own.
 constexpr double longest_search = 600.0;
 
+// The same goal with the limits that it has without any.
+Goal with_default_limits(Goal goal);
+// The goal of what is left after some seconds of it.
+Goal after(Goal goal, double seconds);
+
 }  // namespace neumann

@@ -25,6 +25,12 @@ struct PathOptions {
     bool operator==(const PathOptions&) const = default;
 };
 
+// The method of these that promises least error for its cost in the scene (choose_method.h).
+struct Auto : PathOptions {
+    static constexpr const char* name = "auto";
+    bool operator==(const Auto&) const = default;
+};
+
 // Path tracing: walks from the camera sample directions by the BSDF. One walk gives a sample of every bounce.
 struct Walk : PathOptions {
     static constexpr const char* name = "walk";
@@ -114,8 +120,9 @@ struct Patches : FieldOptions {
 
 }  // namespace method
 
-using Method = std::variant<method::Walk, method::Guided, method::Corrected, method::Surface, method::Light, method::Bidirectional,
-                            method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
+using Method =
+    std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
+                 method::Bidirectional, method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);

@@ -16,7 +16,7 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Walk{},   method::Guided{},        method::Corrected{}, method::Surface{},
+    static const std::vector<Method> all{method::Auto{}, method::Walk{},   method::Guided{},        method::Corrected{}, method::Surface{},
                                          method::Light{},  method::Bidirectional{}, method::Classic{},   method::Pointwise{},
                                          method::Matrix{}, method::Gather{},        method::Patches{}};
     return all;
@@ -277,7 +277,9 @@ std::vector<std::string> method_names() {
 
 const std::string& method_help() {
     static const std::string text =
-        "walk: one walk from the camera for all bounces, the default; guided: the same with directions sampled from a matrix "
+        "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a pilot of a second, "
+        "the default (walk, if an option is given that auto does not have, or the render is small); walk: one walk from the camera "
+        "for all bounces; guided: the same with directions sampled from a matrix "
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
         "sampled on all surfaces; light: walks from the lights to the camera; "
         "bidirectional: walks from both ends, joined everywhere; classic: mirrors and glass alone, which leaves out other paths; "
@@ -289,6 +291,15 @@ const std::string& method_help() {
 std::string name_of(const DirectLightSettings& direct) { return name(strategies, strategy(direct)); }
 
 Method make_method(const MethodText& text) {
+    if (text.name.empty()) {
+        const Method open = method::Auto{};
+        const bool enough = std::all_of(text.options.begin(), text.options.end(), [&](const auto& given) {
+            const auto all = method_options();
+            return std::any_of(all.begin(), all.end(),
+                               [&](const MethodOption& o) { return o.name == given.first && o.belongs_to(open); });
+        });
+        return make_method({enough ? name_of(open) : method::Walk::name, text.options});
+    }
     const auto is_it = [&](const Method& method) { return name_of(method) == text.name; };
     const auto found = std::find_if(all_methods().begin(), all_methods().end(), is_it);
     if (found == all_methods().end()) throw InputError("--method: " + not_in(text.name, method_names()));

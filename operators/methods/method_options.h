@@ -33,7 +33,7 @@ const std::string& method_help();
 
 // A method as text: its name, and the options that are given.
 struct MethodText {
-    std::string name = "walk";
+    std::string name = {};  // empty: auto, or walk if an option is given that auto does not have
     std::vector<std::pair<std::string, std::string>> options = {};
 };
 // Throws InputError where a name or a text is unknown, an option does not belong to the method, or two of them exclude each other.

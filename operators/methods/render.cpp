@@ -1,6 +1,7 @@
 #include "operators/methods/render.h"
 
 #include "core/base/error.h"
+#include "operators/methods/choose_method.h"
 #include "operators/methods/method_plan.h"
 #include "operators/methods/render_job.h"
 
@@ -20,6 +21,15 @@ DirectLightSettings direct_of_pilot(const Method& method) {
 }
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const PilotOnDemand& pilot) {
+    if (const auto* open = std::get_if<method::Auto>(&method)) {
+        MethodChoice choice = choose_method(*open, scene, goal, watch);
+        BounceSeries series = render(scene, choice.method, after(goal, choice.seconds), watch, pilot);
+        series.seconds += choice.seconds;
+        series.setup_seconds += choice.seconds;
+        for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += choice.seconds;
+        series.choice = std::move(choice);
+        return series;
+    }
     Plan plan = plan_for(method, scene);
     const std::optional<Scene> reduced = without_unlit_materials(plan, scene);
     const RenderJob job{reduced ? *reduced : scene, plan, goal, watch, pilot};

@@ -56,8 +56,8 @@ std::vector<std::pair<double, FurnaceWalk>> furnaces(const Roulette& roulette, d
 }
 
 SamplingGoal sampling_goal(const Goal& goal) {
-    if (!goal.samples && !goal.seconds && !goal.relative_error) return {std::nullopt, default_seconds, default_error};
-    return {goal.samples, goal.seconds, goal.relative_error};
+    const Goal limits = with_default_limits(goal);
+    return {limits.samples, limits.seconds, limits.relative_error};
 }
 
 RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <stdexcept>
 
 namespace neumann {
 
@@ -56,6 +57,9 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
     if constexpr (requires { m.split; }) settings.walk.split = m.split;
     settings.sampler = m.sampler.value_or(scene.sampler.value_or(SamplerKind::sobol));
     return settings;
+}
+SamplingSettings settings_of(const method::Auto&, const Scene&) {
+    throw std::logic_error("sampling_settings: the method is still open");
 }
 template <HasFields M>
 SamplingSettings settings_of(const M&, const Scene&) {

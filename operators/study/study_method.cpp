@@ -9,6 +9,8 @@ namespace neumann {
 
 Method studied_method(const std::string& word) {
     const Method method = read_method(word);
+    if (std::holds_alternative<method::Auto>(method))
+        throw InputError("auto: a study compares methods, and auto is one of the others; name those that it is to compare");
     const auto* both = std::get_if<method::Bidirectional>(&method);
     const auto* patches = std::get_if<method::Patches>(&method);
     if ((both && both->ways) || (patches && patches->importance))
