@@ -1,0 +1,106 @@
+// --method auto: what it takes, and that it is nothing but the method that it took.
+#include "core/reader/read_scene.h"
+#include "operators/methods/choose_method.h"
+#include "operators/methods/method_options.h"
+#include "operators/methods/render.h"
+#include "tests/physics/seed.h"
+#include "tests/plan/scenes.h"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace neumann::physics::choice_test {
+
+Scene of_file(const std::string& name) { return read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", "64"}}); }
+
+MethodChoice choice(const Scene& scene, std::uint64_t seed = fixed_seed) {
+    Goal goal;
+    goal.seed = seed;
+    return choose_method({}, scene, goal, {});
+}
+std::string chosen(const Scene& scene) { return name_of(choice(scene).method); }
+
+TEST(Choice, ASmallRenderIsAWalkAndHasItsBits) {
+    const Scene scene = of_file("cornell-box");
+    Goal goal;
+    goal.bounces = 2;
+    goal.samples = 4;
+    goal.seed = fixed_seed;
+    const BounceSeries open = render(scene, method::Auto{}, goal), walk = render(scene, method::Walk{}, goal);
+    ASSERT_TRUE(open.choice);
+    EXPECT_TRUE(open.choice->trials.empty());
+    EXPECT_TRUE(open.method == walk.method);
+    const Image a = open.term(2).mean, b = walk.term(2).mean;
+    EXPECT_EQ(std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)), 0);
+}
+
+TEST(Choice, IsTheSameOnAnyNumberOfThreads) {
+    const Scene scene = of_file("cornell-box");
+    const MethodChoice all = choice(scene);
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const MethodChoice alone = choice(scene);
+    EXPECT_STREQ(name_of(all.method), "corrected");
+    EXPECT_TRUE(all.method == alone.method);
+    EXPECT_EQ(all.why, alone.why);
+    ASSERT_EQ(all.trials.size(), 4u);
+    for (std::size_t i = 0; i < all.trials.size(); ++i) EXPECT_EQ(all.trials[i].error, alone.trials[i].error) << i;
+}
+
+// In a furnace whose walls reflect and shine alike everywhere every walk brings the same, and no other method can do better.
+TEST(Choice, WhereTheWalkHasNoVarianceItStays) { EXPECT_EQ(chosen(of_file("furnace")), "walk"); }
+
+TEST(Choice, TheSamplerIsHandedOn) {
+    method::Auto open;
+    open.sampler = SamplerKind::independent;
+    Goal goal;
+    goal.bounces = 0;
+    const MethodChoice found = choose_method(open, of_file("furnace"), goal, {});
+    EXPECT_EQ(std::get<method::Walk>(found.method).sampler, SamplerKind::independent);
+}
+
+TEST(Choice, WithoutANameAnOptionOfTheWalkMeansTheWalk) {
+    EXPECT_STREQ(name_of(make_method({})), "auto");
+    EXPECT_STREQ(name_of(make_method({"", {{"sampler", "independent"}}})), "auto");
+    EXPECT_STREQ(name_of(make_method({"", {{"direct", "bsdf"}}})), "walk");
+    EXPECT_THROW(make_method({"auto", {{"direct", "bsdf"}}}), InputError);
+    EXPECT_THROW(make_method({"", {{"patches", "100"}}}), InputError);
+}
+
+TEST(Choice, EmittedLightAloneTakesNoPilot) {
+    Goal goal;
+    goal.bounces = 0;
+    EXPECT_TRUE(choose_method({}, of_file("cornell-box"), goal, {}).trials.empty());
+}
+
+// The light of a point by way of a mirror is found by walks from the point alone.
+TEST(Choice, APointAndAMirrorTakeWalksFromBothEnds) {
+    const auto box_of = [](const Surface& surface) {
+        SceneMaker maker;
+        maker.add(room({-1.0, -1.0, -1.0}, {1.0, 1.5, 1.2}), matte(0.5));
+        maker.add(box({-0.3, 0.2, -1.0}, {0.3, 0.6, -0.2}), surface);
+        maker.parts.lights.delta = {PointLight({0.2, -0.3, 0.8}, Rgb(1.0))};
+        return looked_at(maker, {0.3, -0.8, 0.1}, {-0.1, 1.0, -0.2});
+    };
+    EXPECT_EQ(chosen(box_of(made_of(Conductor({}, Rgb(0.9))))), "bidirectional");
+    EXPECT_NE(chosen(box_of(matte(0.5))), "bidirectional");
+}
+
+TEST(Choice, HiddenLightsTakeNoWalksFromThem) {
+    Scene scene = of_file("glass-ball");
+    scene.hide_emitters = true;
+    const MethodChoice found = choice(scene);
+    EXPECT_STRNE(name_of(found.method), "bidirectional");
+    EXPECT_EQ(found.trials.size(), 3u);
+}
+
+// What a study of minutes finds best on these scenes (apps/manual/methods.md), or at most a third behind the best.
+TEST(ChoiceSlow, IsThatOfAStudyOnSixScenes) {
+    for (const char* name : {"cornell-box", "door-ajar", "floating-panels", "mitsuba-cornell"})
+        EXPECT_EQ(chosen(of_file(name)), "corrected") << name;
+    for (const char* name : {"glass-ball", "glossy-floor"}) EXPECT_EQ(chosen(of_file(name)), "bidirectional") << name;
+}
+
+}  // namespace neumann::physics::choice_test
