@@ -1,5 +1,6 @@
 #include "operators/methods/choose_method.h"
 
+#include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "operators/methods/render.h"
 #include "operators/pictures/missing_paths.h"
@@ -148,10 +149,20 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
     if (affordable < fewest_rays) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
     const Scene small = scene.with(small_film(scene.film));
-    const std::vector<Candidate> all = candidates(open, scene);
+    std::vector<Candidate> all;
     std::vector<Result> results;
-    for (const Candidate& candidate : all)
-        results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));
+    for (Candidate& candidate : candidates(open, scene)) {
+        try {
+            results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));
+            all.push_back(std::move(candidate));
+        } catch (const InputError&) {
+            if (all.empty())
+                throw;  // what the walk refuses nobody can render; what another refuses, as fields without surfaces, may be
+        } catch (const RunError&) {
+            if (!watch.stop()) throw;
+        }
+    }
+    if (watch.stop()) return {method::Walk{open}, "the pilot was interrupted"};
 
     const std::vector<double> errors = relative_errors(results);
     std::vector<double> works;

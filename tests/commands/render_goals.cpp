@@ -17,7 +17,7 @@ TEST_F(RenderGoals, ErrorHoldsForEveryBounceThatIsNotZero) {
     below.replace(below.find("0, 0, 0.5"), 9, "1, -.9, 0");
     write("below.xml", below);
     for (const std::string scene : {"scene", "below"}) {
-        render(scene + ".xml", scene, {"-n", "3", "--error", "0.3", "--quiet"});
+        render(scene + ".xml", scene, {"-n", "3", "--error", "0.3", "--method", "walk", "--quiet"});
         const nlohmann::json run = run_json(scene);
         EXPECT_EQ(run.at("samples").at("outcome"), "error reached");
         EXPECT_TRUE(std::has_single_bit(run.at("samples").at("per_pixel").get<std::uint64_t>()));

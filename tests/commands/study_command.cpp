@@ -245,7 +245,9 @@ TEST_F(StudyCommand, Refused) {
     };
     EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
               "--methods wlak: --method: wlak not in "
-              "{walk,guided,corrected,surface,light,bidirectional,classic,pointwise,matrix,gather,patches}\n");
+              "{auto,walk,guided,corrected,surface,light,bidirectional,classic,pointwise,matrix,gather,patches}\n");
+    EXPECT_EQ(refusal({"--methods", "walk,auto"}),
+              "--methods auto: a study compares methods, and auto is one of the others; name those that it is to compare\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
     EXPECT_EQ(refusal({"--methods", "walk:colour=red"}),
               "--methods walk:colour=red: 'colour' is not an option of a method, such as direct, lights or roulette\n");
@@ -258,10 +260,10 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_EQ(
         refusal({"--methods", "walk:patches=100", "--samples", "4"}),
         "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
-    EXPECT_EQ(
-        refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
-        "--methods matrix:sampler=sobol: --sampler belongs to --method walk, guided, corrected, surface, light, bidirectional, "
-        "classic and pointwise, not to matrix\n");
+    EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
+              "--methods matrix:sampler=sobol: --sampler belongs to --method auto, walk, guided, corrected, surface, light, "
+              "bidirectional, "
+              "classic and pointwise, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),
               "--methods patches:importance=true: ways and importance have no place in a study, which compares pictures of "
               "radiance\n");

@@ -76,6 +76,12 @@ class Render(Case):
         self.assertGreater(emission[:8].sum(), 0.0)
         self.assertEqual(emission[8:].sum(), 0.0)
 
+    def test_counts_alone_are_integers(self):
+        # In a furnace means are whole numbers, too, and standard errors are 0.
+        table = furnace(albedo=0.0).render(bounces=1, spp=2, quiet=True).table
+        self.assertEqual({name: table[name].dtype.kind for name in ("bounce", "rays")}, {"bounce": "i", "rays": "i"})
+        self.assertEqual({name: table[name].dtype.kind for name in ("mean", "mean_stderr")}, {"mean": "f", "mean_stderr": "f"})
+
     def test_table_and_run(self):
         here, there = cornell().render(bounces=3, spp=8, seed=7), self.by_command()
         for name in ("bounce", "mean", "mean_stderr", "ratio", "bound", "rays", "interval95"):

@@ -207,13 +207,13 @@ class BounceSeries:
     def table(self) -> NDArray[Any]:
         """series.csv as a structured array, a row a bounce: ``table["mean"]``, ``"mean_stderr"``, ``"ratio"``, ``"bound"`` (on what
         follows, in the maximum norm; inf: there is none), ``"rays"``, ``"seconds"``, ``"interval95"`` (half of it)."""
-        return _report.table(self._source.table())
+        return _report.table(self._source.table(), counts=("bounce", "rays"))
 
     @cached_property
     def convergence(self) -> NDArray[Any]:
         """convergence.csv as a structured array, a row a doubling of the samples: ``"samples"``, ``"seconds"``, ``"rays"``,
         ``"relative_stderr_000"`` … and, given a reference, ``"relative_error_000"`` …"""
-        return _report.table(self._source.convergence())
+        return _report.table(self._source.convergence(), counts=("samples", "rays"))
 
     @cached_property
     def run(self) -> Report:

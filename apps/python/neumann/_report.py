@@ -4,7 +4,7 @@ import csv
 import io
 import json
 import warnings
-from typing import Any, Iterable, List, Type
+from typing import Any, Container, Iterable, List, Optional, Type
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +35,8 @@ def from_json(text: str) -> Any:
     return json.loads(text, object_hook=Report)
 
 
-def _column(texts: List[str]) -> NDArray[Any]:
-    if all(text.isdigit() for text in texts):
+def _column(texts: List[str], may_be_counts: bool) -> NDArray[Any]:
+    if may_be_counts and all(text.isdigit() for text in texts):
         numbers = [int(text) for text in texts]
         return np.array(numbers, dtype=np.uint64 if max(numbers, default=0) >= 1 << 63 else np.int64)
     try:
@@ -45,10 +45,11 @@ def _column(texts: List[str]) -> NDArray[Any]:
         return np.array(texts)
 
 
-def table(text: str) -> NDArray[Any]:
-    """A structured array of a CSV file: a row a line, a field a column; numbers where all of a column are, nan where there is nothing."""
+def table(text: str, counts: Optional[Container[str]] = None) -> NDArray[Any]:
+    """A structured array of a CSV file: a row a line, a field a column; numbers where all of a column are, nan where there is nothing.
+    counts: the columns of integers; without it, those that hold nothing else."""
     head, *lines = csv.reader(io.StringIO(text))
-    columns = [_column([line[i] for line in lines]) for i in range(len(head))]
+    columns = [_column([line[i] for line in lines], counts is None or name in counts) for i, name in enumerate(head)]
     result = np.empty(len(lines), dtype=[(name, column.dtype) for name, column in zip(head, columns)])
     for name, column in zip(head, columns):
         result[name] = column
