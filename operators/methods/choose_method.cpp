@@ -156,8 +156,8 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
             results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));
             all.push_back(std::move(candidate));
         } catch (const InputError&) {
-            if (all.empty())
-                throw;  // what the walk refuses nobody can render; what another refuses, as fields without surfaces, may be
+            // Others refuse what the walk does not: a scene without surfaces has no patches.
+            if (all.empty()) throw;
         } catch (const RunError&) {
             if (!watch.stop()) throw;
         }
@@ -183,8 +183,9 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
     }
     if (works[best] > 0.0)
         choice.why = fmt::format("for the same error the others took, in a pilot: {} times its work", fmt::join(others, ", "));
-    if (errors[best] > largest_known_error) {
-        const MethodChoice other = by_the_lights(open, scene);
+    const MethodChoice other = by_the_lights(open, scene);
+    const auto is_other = [&](const Candidate& candidate) { return candidate.method == other.method; };
+    if (errors[best] > largest_known_error && std::any_of(all.begin(), all.end(), is_other)) {
         choice.method = other.method;
         choice.why = other.why;
     }

@@ -16,9 +16,9 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Auto{}, method::Walk{},   method::Guided{},        method::Corrected{}, method::Surface{},
-                                         method::Light{},  method::Bidirectional{}, method::Classic{},   method::Pointwise{},
-                                         method::Matrix{}, method::Gather{},        method::Patches{}};
+    static const std::vector<Method> all{method::Auto{},      method::Walk{},   method::Guided{},        method::Corrected{},
+                                         method::Surface{},   method::Light{},  method::Bidirectional{}, method::Classic{},
+                                         method::Pointwise{}, method::Matrix{}, method::Gather{},        method::Patches{}};
     return all;
 }
 
@@ -277,7 +277,8 @@ std::vector<std::string> method_names() {
 
 const std::string& method_help() {
     static const std::string text =
-        "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a pilot of a second, "
+        "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a pilot of a "
+        "second, "
         "the default (walk, if an option is given that auto does not have, or the render is small); walk: one walk from the camera "
         "for all bounces; guided: the same with directions sampled from a matrix "
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
