@@ -4,17 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
 #include <limits>
 
 namespace neumann {
-
-namespace {
-
-constexpr double shortest = 1e-3;  // seconds left if all are spent
-
-}  // namespace
 
 std::uint32_t share_of_replicate(const Goal& goal) {
     const std::uint64_t samples = goal.samples.value_or(0), share = samples / *goal.replicates;
@@ -27,12 +20,6 @@ Goal with_default_limits(Goal goal) {
     if (goal.samples || goal.seconds || goal.relative_error) return goal;
     goal.seconds = default_seconds;
     goal.relative_error = default_error;
-    return goal;
-}
-
-Goal after(Goal goal, double seconds) {
-    goal = with_default_limits(std::move(goal));
-    if (goal.seconds) goal.seconds = std::max(*goal.seconds - seconds, shortest);
     return goal;
 }
 

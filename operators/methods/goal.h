@@ -18,6 +18,7 @@ struct Goal {
     // per pixel. The default depends on the samples.
     std::optional<std::uint32_t> replicates = {};
     std::optional<double> seconds = {};
+    double spent = 0.0;                         // seconds that have gone into choosing the method and count towards `seconds`
     std::optional<double> relative_error = {};  // for every bounce
     std::optional<double> memory = {};          // approximate limit in bytes; the default is half of the machine's memory
     std::uint64_t seed = 0;
@@ -35,7 +36,5 @@ constexpr double longest_search = 600.0;
 
 // The same goal with the limits that it has without any.
 Goal with_default_limits(Goal goal);
-// The goal of what is left after some seconds of it.
-Goal after(Goal goal, double seconds);
 
 }  // namespace neumann

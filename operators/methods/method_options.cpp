@@ -277,9 +277,9 @@ std::vector<std::string> method_names() {
 
 const std::string& method_help() {
     static const std::string text =
-        "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a pilot of a "
-        "second, "
-        "the default (walk, if an option is given that auto does not have, or the render is small); walk: one walk from the camera "
+        "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a short "
+        "pilot, the default (walk, if an option is given that auto does not have, or the render is small); walk: one walk from the "
+        "camera "
         "for all bounces; guided: the same with directions sampled from a matrix "
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
         "sampled on all surfaces; light: walks from the lights to the camera; "

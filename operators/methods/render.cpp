@@ -23,10 +23,9 @@ DirectLightSettings direct_of_pilot(const Method& method) {
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const PilotOnDemand& pilot) {
     if (const auto* open = std::get_if<method::Auto>(&method)) {
         MethodChoice choice = choose_method(*open, scene, goal, watch);
-        BounceSeries series = render(scene, choice.method, after(goal, choice.seconds), watch, pilot);
-        series.seconds += choice.seconds;
-        series.setup_seconds += choice.seconds;
-        for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += choice.seconds;
+        Goal rest = goal;
+        rest.spent = choice.seconds;
+        BounceSeries series = render(scene, choice.method, rest, watch, pilot);
         series.choice = std::move(choice);
         return series;
     }

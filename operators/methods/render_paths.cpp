@@ -196,13 +196,12 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     settings.walk.bounces = choose_bounces(job);
 
     SamplingGoal to_reach = sampling_goal(goal);
-    double setup_seconds = 0.0;
+    double setup_seconds = goal.spent;
     const Stopwatch clock;
-    if (set_up(method, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()), settings, job.watch)) {
-        setup_seconds = clock.seconds();
-        // The set-up counts towards the time limit.
-        if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
-    }
+    if (set_up(method, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()), settings, job.watch))
+        setup_seconds += clock.seconds();
+    // The set-up counts towards the time limit.
+    if (setup_seconds > 0.0 && to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
     settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
@@ -230,7 +229,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     if (setup_seconds > 0.0) {
         series.setup_seconds = setup_seconds;
         series.seconds += setup_seconds;
-        series.rays += settings.tables ? settings.tables->rays() : settings.approximation->rays();
+        if (settings.tables) series.rays += settings.tables->rays();
+        if (settings.approximation) series.rays += settings.approximation->rays();
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
 
