@@ -15,11 +15,15 @@ constexpr std::uint64_t field_stream = 0x636f7272656374ull;
 constexpr std::uint32_t most_light_samples = 64;
 // The density of points is a mixture of the uniform one and of the brightness of the fields.
 constexpr double uniform_share = 0.3;
+// α of the tables of directions (guide/direction_tables.h).
+constexpr double share_of_cosine = 0.5;
 
-// Bytes of an unknown: the fields, here and on coarser patches, their rasters, work space, and T.
+// Bytes of an unknown: the fields, here and on coarser patches, their rasters, work space, T, and the tables of directions.
 void check_memory(const ApproximationSettings& settings, double patches) {
     check_patch_memory(static_cast<std::size_t>(patches), settings.rays,
-                       300.0 + 2.0 * (32.0 + 60.0 * (settings.bounces + 2.0)) + 8.0 * settings.rays, settings.memory);
+                       300.0 + 2.0 * (32.0 + 60.0 * (settings.bounces + 2.0)) + 8.0 * settings.rays +
+                           2.0 * static_cast<double>(DirectionTables::bytes_of_facet),
+                       settings.memory);
 }
 
 }  // namespace
@@ -39,7 +43,9 @@ Approximation::Approximation(const Scene& scene, const ApproximationSettings& se
                                               .rest = true},
                                              watch);
     fields_.emplace(scene, sides, series.fine, settings.seed);
-    rays_ = series.rays + fields_->rays();
+    tables_.emplace(series.fine,
+                    TableSettings{CellDistribution::cells, share_of_cosine, settings.bounces, settings.seed ^ field_stream});
+    rays_ = series.rays + fields_->rays() + tables_->rays();
     find_density(sides, series.fine);
     if (facets_.empty()) fields_.reset();
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "operators/correction/field_raster.h"
+#include "operators/guide/direction_tables.h"
 #include "operators/watch.h"
 
 #include <cstdint>
@@ -29,6 +30,8 @@ public:
     const ApproximationSettings& settings() const { return settings_; }
     // Null if no side is diffuse.
     const FieldRaster* fields() const { return fields_ ? &*fields_ : nullptr; }
+    // Null likewise.
+    const DirectionTables* tables() const { return tables_ ? &*tables_ : nullptr; }
     double area() const { return area_; }  // of the sides with fields, scene units squared
     std::uint64_t rays() const { return rays_; }
 
@@ -47,6 +50,7 @@ private:
     std::optional<Scene> diffuse_scene_;
     std::optional<PatchSpace> space_;
     std::optional<FieldRaster> fields_;
+    std::optional<DirectionTables> tables_;
     std::vector<std::uint32_t> facets_;  // on diffuse sides
     std::vector<double> ends_;           // cumulative probability of facets_
     double area_ = 0.0;

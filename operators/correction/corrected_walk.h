@@ -20,6 +20,7 @@
 #include "operators/correction/shared_points.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
+#include "operators/walk/guided_continuation.h"
 #include "operators/walk/observer.h"
 #include "operators/walk/term_samples.h"
 #include "operators/walk/walk_settings.h"
@@ -35,7 +36,7 @@ struct FirstVertex {
     std::uint32_t lights = 1;      // light samples
     std::uint32_t directions = 4;  // walks that go on from it; each also asks a point
     double clamp = 100.0;          // c, in units of 1 / (area of all sides with fields)
-    double survival = 0.25;        // roulette of the walks that go on instead of reading
+    double survival = 1.0;         // roulette of the walks that go on instead of reading
 };
 
 struct CorrectedWalker : Walker {
@@ -70,6 +71,7 @@ public:
           direct_(direct),
           settings_(settings),
           fields_(fields.fields()),
+          tables_(fields.tables()),
           points_(points),
           first_(first),
           of_area_(fields.area() > 0.0 ? 1.0 / fields.area() : 0.0) {}
@@ -91,12 +93,16 @@ private:
         const double d2 = glm::dot(d, d);
         return a * b * inv_pi / (d2 * d2);
     }
-    // R: the next direction, and the shared point that is asked along with it.
-    bool choose_direction(CorrectedWalker& w, Sampler& sampler) const {
+    // R: the next direction, by what the fields say of the light that arrives (guide/direction_tables.h), and the shared point that
+    // is asked along with it. `wanted`: the number of later bounces that have pictures.
+    bool choose_direction(CorrectedWalker& w, int wanted, Sampler& sampler) const {
         const SurfaceSide side = scene_.materials.side(w.x, w.wo);
         if (!side.bsdf) return false;
         w.reads = fields_ && std::holds_alternative<Diffuse>(*side.bsdf);
-        const BsdfSample sampled = neumann::sample(*side.bsdf, side.p, side.p.frame.to_local(w.wo), sampler.next2());
+        const GuidedContinuation::Vertex vertex = w.reads && wanted > 0
+                                                      ? GuidedContinuation::Vertex(tables_->at(w.x, w.wo, wanted), side.p.frame)
+                                                      : GuidedContinuation::Vertex();
+        const BsdfSample sampled = vertex.sample(side, side.p.frame.to_local(w.wo), sampler);
         w.beta *= sampled.weight;
         w.reflected = max_component(sampled.weight);
         w.pdf = sampled.pdf;
@@ -135,6 +141,7 @@ private:
     const DirectLightSampler& direct_;
     const WalkSettings& settings_;
     const FieldRaster* fields_;
+    const DirectionTables* tables_;
     const SharedPoints* points_;
     FirstVertex first_;
     double of_area_;
@@ -209,7 +216,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
         // R: choose directions and points; T: which points are seen?
         walkers.asking.clear();
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
-            if (!choose_direction(w, walkers.samplers[i])) return false;
+            if (!choose_direction(w, N - bounce, walkers.samplers[i])) return false;
             if (!is_black(w.point_weight) && !ending.is_last(bounce)) walkers.asking.push_back(i);
             return true;
         });

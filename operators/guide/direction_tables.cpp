@@ -2,9 +2,6 @@
 
 #include "core/base/hot.h"
 #include "operators/matrix/facet_rays.h"
-#include "operators/matrix/scene_patches.h"
-#include "operators/matrix/traced_series.h"
-#include "operators/patches/patch_memory.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -13,28 +10,11 @@ namespace neumann {
 
 namespace {
 
-// Independent of the random numbers of walks with the same seed, and of each other.
-constexpr std::uint64_t field_stream = 0x6775696465206bull, table_stream = 0x67756964652074ull;
+// With fewer rays a table is smoothed: a cell whose few rays happen to see little is not dark.
+constexpr std::uint32_t rays_of_sharp_table = 4 * CellDistribution::cells;
 
-// Number of terms of the series used; later ones are nearly isotropic.
-constexpr int most_terms = 16;
-
-// Checks the memory for the fields (also on coarser patches), work space, T and the tables. Called before the patch space exists,
-// and again when the number of unknowns is known.
-void check_memory(const GuideSettings& settings, double unknowns, double facets) {
-    check_patch_memory(settings.patches, settings.rays,
-                       300.0 + unknowns * (32.0 + 15.0 * (most_terms + 2.0) + 4.0 * DirectionTables::most_tables) +
-                           facets * (4.0 * settings.field_rays + DirectionTables::most_tables * sizeof(CellDistribution)),
-                       settings.memory);
-}
-
-PatchSpace make_space(const Scene& scene, const GuideSettings& settings) {
-    check_memory(settings, 1.0, 1.0);
-    PatchSpace space = scene_patches(scene, {.patches = settings.patches});
-    const auto patches = static_cast<double>(space.patches().size());
-    check_memory(settings, space.size() / patches, static_cast<double>(space.facets().size()) / patches);
-    return space;
-}
+// Independent of the random numbers of walks with the same seed, and of the fields.
+constexpr std::uint64_t table_stream = 0x67756964652074ull;
 
 // w of each unknown, for each number of bounces still wanted. The last entries are for PatchSpace::nothing() and are 0.
 class Attraction {
@@ -76,6 +56,21 @@ CellDistribution mixture(const CellDistribution::Weights& seen, double share_of_
     return CellDistribution(weights);
 }
 
+// The mean of each cell and its neighbours.
+CellDistribution::Weights smooth(const CellDistribution::Weights& seen) {
+    constexpr auto k = static_cast<int>(CellDistribution::k);
+    CellDistribution::Weights means;
+    for (int row = 0; row < k; ++row)
+        for (int column = 0; column < k; ++column) {
+            double sum = 0.0, count = 0.0;
+            for (int j = std::max(row - 1, 0); j <= std::min(row + 1, k - 1); ++j)
+                for (int i = std::max(column - 1, 0); i <= std::min(column + 1, k - 1); ++i, count += 1.0)
+                    sum += seen[static_cast<std::size_t>(j * k + i)];
+            means[static_cast<std::size_t>(row * k + column)] = sum / count;
+        }
+    return means;
+}
+
 // Fills the tables of one facet.
 NEUMANN_HOT void look_around(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t facet,
                              const Attraction& attraction, double share_of_material, std::span<CellDistribution> tables) {
@@ -84,27 +79,25 @@ NEUMANN_HOT void look_around(const PatchSpace& space, const SobolPoints& sobol, 
         const std::uint32_t cell = CellDistribution::grid.cell_of_square(u);
         for (std::size_t t = 0; t < tables.size(); ++t) seen[t][cell] += attraction[unknown][t];
     });
-    for (std::size_t t = 0; t < tables.size(); ++t) tables[t] = mixture(seen[t], share_of_material);
+    for (std::size_t t = 0; t < tables.size(); ++t)
+        tables[t] = mixture(sobol.size() < rays_of_sharp_table ? smooth(seen[t]) : seen[t], share_of_material);
 }
 
 }  // namespace
 
-DirectionTables::DirectionTables(const Scene& scene, const GuideSettings& settings)
-    : settings_(settings), space_(make_space(scene, settings)), raster_(space_) {
-    const int terms = std::clamp(settings.bounces - 1, 1, most_terms);
-    tables_of_facet_ = static_cast<std::size_t>(std::min(terms, most_tables));
-    const auto facets = static_cast<std::uint32_t>(space_.facets().size());
+DirectionTables::DirectionTables(const FieldStack& fields, const TableSettings& settings)
+    : space_(&fields.space()), raster_(*space_) {
+    const int n = terms(settings.bounces);
+    tables_of_facet_ = static_cast<std::size_t>(std::min(n, most_tables));
+    const auto facets = static_cast<std::uint32_t>(space_->facets().size());
     tables_.resize(facets * tables_of_facet_);
-    const TracedSeries series =
-        trace_series(scene, space_, space_.coarser(),
-                     {.bounces = terms, .rays = settings.field_rays, .seed = settings.seed ^ field_stream, .rest = false});
-    const Attraction attraction(series.fine, terms, tables_of_facet_);
+    const Attraction attraction(fields, n, tables_of_facet_);
     const SobolPoints sobol(settings.rays);
     oneapi::tbb::parallel_for(std::uint32_t{0}, facets, [&](std::uint32_t facet) {
-        look_around(space_, sobol, settings.seed ^ table_stream, facet, attraction, settings.share_of_material,
+        look_around(*space_, sobol, settings.seed ^ table_stream, facet, attraction, settings.share_of_material,
                     std::span(tables_).subspan(facet * tables_of_facet_, tables_of_facet_));
     });
-    rays_ = series.rays + std::uint64_t{settings.rays} * facets;
+    rays_ = std::uint64_t{settings.rays} * facets;
 }
 
 }  // namespace neumann

@@ -9,11 +9,9 @@
 // absolute errors (1). Le is left out, because walks find it by light sampling. Any density above 0 leaves walks unbiased.
 #pragma once
 
-#include "core/base/memory.h"
-#include "core/scene/scene.h"
 #include "operators/guide/cell_distribution.h"
 #include "operators/guide/facet_raster.h"
-#include "operators/patches/patch_space.h"
+#include "operators/matrix/field_stack.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -21,40 +19,39 @@
 
 namespace neumann {
 
-struct GuideSettings {
-    std::size_t patches = 2000;        // approximate number
-    std::uint32_t rays = 2048;         // per facet, to fill its tables; a power of two, at least CellDistribution::cells
-    std::uint32_t field_rays = 64;     // per facet, for the fields; a power of two
-    double share_of_material = 0.4;    // α, above 0
-    int bounces = 8;                   // N: the last bounce wanted
-    std::uint64_t seed = 0;            // the tables' random numbers are independent of those of walks with the same seed
-    double memory = default_memory();  // approximate limit in bytes
+struct TableSettings {
+    std::uint32_t rays = 2048;       // per facet, to fill its tables; a power of two, at least CellDistribution::cells
+    double share_of_material = 0.4;  // α, above 0
+    int bounces = 8;                 // N: the last bounce wanted
+    std::uint64_t seed = 0;          // the tables' random numbers are independent of those of walks with the same seed
 };
 
 class DirectionTables {
 public:
     // There are tables for 1, 2, … bounces still wanted; the last one is also used for more.
     static constexpr int most_tables = 2;
+    // The number of terms of the series that are looked at; later ones are nearly isotropic.
+    static constexpr int most_terms = 16;
+    static int terms(int bounces) { return std::clamp(bounces - 1, 1, most_terms); }
 
-    // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in memory.
-    DirectionTables(const Scene& scene, const GuideSettings& settings);
+    // `fields` holds at least terms(settings.bounces) bounces. Keeps a reference to their space.
+    DirectionTables(const FieldStack& fields, const TableSettings& settings);
+    // Bytes of the tables of a facet.
+    static constexpr std::size_t bytes_of_facet = most_tables * sizeof(CellDistribution);
 
     // The table for the side of p on which `wo` is. `wanted` ≥ 1: number of bounces after the one that is sampled. Directions are
     // in Frame(normal), with the normal of that side. Null if there is no table.
     const CellDistribution* at(const SurfacePoint& p, const Vec3& wo, int wanted) const {
         const std::uint32_t facet = raster_.facet(p, glm::dot(p.normal, wo) > 0.0);
-        if (facet == space_.facets().size()) return nullptr;
+        if (facet == space_->facets().size()) return nullptr;
         const int table = std::min(wanted, static_cast<int>(tables_of_facet_)) - 1;
         return &tables_[facet * tables_of_facet_ + static_cast<std::size_t>(table)];
     }
 
-    const PatchSpace& space() const { return space_; }
-    const GuideSettings& settings() const { return settings_; }
     std::uint64_t rays() const { return rays_; }
 
 private:
-    GuideSettings settings_;
-    PatchSpace space_;
+    const PatchSpace* space_;
     FacetRaster raster_;
     std::size_t tables_of_facet_;
     std::vector<CellDistribution> tables_;

@@ -3,7 +3,7 @@
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "operators/correction/approximation.h"
-#include "operators/guide/direction_tables.h"
+#include "operators/guide/guide.h"
 #include "operators/methods/render_job.h"
 #include "operators/methods/sampling.h"
 #include "operators/pictures/least_errors.h"
@@ -174,8 +174,8 @@ Method as_it_ran(Method method, const SamplingSettings& settings) {
         [&]<class M>(M& m) {
             if constexpr (MakesPaths<M>) m.sampler = settings.sampler;
             if constexpr (std::same_as<M, method::Guided>) {
-                m.patches = settings.tables->settings().patches;
-                m.directions = settings.tables->settings().rays;
+                m.patches = settings.guide->settings().patches;
+                m.directions = settings.guide->settings().rays;
             }
             if constexpr (std::same_as<M, method::Corrected>) {
                 m.patches = settings.approximation->settings().patches;
@@ -229,7 +229,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     if (setup_seconds > 0.0) {
         series.setup_seconds = setup_seconds;
         series.seconds += setup_seconds;
-        if (settings.tables) series.rays += settings.tables->rays();
+        if (settings.guide) series.rays += settings.guide->rays();
         if (settings.approximation) series.rays += settings.approximation->rays();
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "operators/correction/approximation.h"
-#include "operators/guide/direction_tables.h"
+#include "operators/guide/guide.h"
 #include "operators/methods/method_options.h"
 #include "operators/walk/direct_light.h"
 
@@ -78,7 +78,7 @@ std::shared_ptr<const Approximation> approximation(const method::Corrected& corr
     return std::make_shared<const Approximation>(scene, settings, watch);
 }
 
-std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& guided, const Scene& scene, int bounces,
+std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scene& scene, int bounces,
                                                         std::uint64_t seed, double memory) {
     GuideSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
     if (guided.patches) settings.patches = *guided.patches;
@@ -88,7 +88,7 @@ std::shared_ptr<const DirectionTables> direction_tables(const method::Guided& gu
             throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
                                          CellDistribution::cells));
     }
-    return std::make_shared<const DirectionTables>(scene, settings);
+    return std::make_shared<const Guide>(scene, settings);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
 bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
             const Watch& watch) {
     if (const auto* guided = std::get_if<method::Guided>(&method))
-        settings.tables = direction_tables(*guided, scene, bounces, seed, memory);
+        settings.guide = make_guide(*guided, scene, bounces, seed, memory);
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
         settings.approximation = approximation(*corrected, scene, bounces, seed, memory, watch);
     else

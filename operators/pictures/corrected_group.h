@@ -11,7 +11,7 @@
 namespace neumann {
 
 // Of each camera sample.
-inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0, .survival = 0.25};
+inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0};
 
 struct CorrectedSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}

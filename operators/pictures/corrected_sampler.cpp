@@ -15,9 +15,9 @@ namespace neumann {
 
 namespace {
 
-constexpr FirstVertex at_point{.lights = 64, .directions = 128, .clamp = 10.0, .survival = 1.0};
+constexpr FirstVertex at_point{.lights = 64, .directions = 128, .clamp = 10.0};
 // Rays for the points of a replicate, as a part of those for its pixels, roughly.
-constexpr double share_of_points = 0.3;
+constexpr double share_of_points = 0.1;
 constexpr double fewest_points = 256.0, most_points = 4096.0;
 
 std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {

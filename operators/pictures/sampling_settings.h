@@ -11,7 +11,7 @@
 namespace neumann {
 
 class Approximation;
-class DirectionTables;
+class Guide;
 
 enum class PathGenerator {
     walk,           // walks from the camera that sample the BSDF
@@ -30,7 +30,7 @@ inline bool splats(PathGenerator generator) {
 
 struct SamplingSettings {
     PathGenerator generator = PathGenerator::walk;
-    std::shared_ptr<const DirectionTables> tables = {};       // for `guided`
+    std::shared_ptr<const Guide> guide = {};                  // for `guided`
     std::shared_ptr<const Approximation> approximation = {};  // for `corrected`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;

@@ -13,8 +13,8 @@ TermEstimator make_estimator(const Scene& scene, const SamplingSettings& setting
         case PathGenerator::classic:
             return WalkEstimator(scene, settings.walk, SpecularContinuation());
         case PathGenerator::guided:
-            if (!settings.tables) throw std::logic_error("PictureSampler: a guided walk has no tables");
-            return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.tables));
+            if (!settings.guide) throw std::logic_error("PictureSampler: a guided walk has no guide");
+            return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.guide));
         default:
             return WalkEstimator(scene, settings.walk, MaterialContinuation());
     }

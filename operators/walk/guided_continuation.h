@@ -3,7 +3,7 @@
 // the tables do not depend on the walks.
 #pragma once
 
-#include "operators/guide/direction_tables.h"
+#include "operators/guide/guide.h"
 #include "operators/walk/continuation.h"
 
 #include <memory>
@@ -15,7 +15,7 @@ class GuidedContinuation {
 public:
     static constexpr bool joins_points = false;
 
-    explicit GuidedContinuation(std::shared_ptr<const DirectionTables> tables) : tables_(std::move(tables)) {}
+    explicit GuidedContinuation(std::shared_ptr<const Guide> guide) : guide_(std::move(guide)) {}
 
     // A vertex of a walk. With a table, fs |cosθ| / pdf is ρ divided by the table's density.
     class Vertex {
@@ -53,7 +53,7 @@ public:
 
     using Place = const CellDistribution*;
     Place place(const SurfacePoint& x, const Vec3& wo, int wanted) const {
-        const CellDistribution* t = wanted == 0 ? nullptr : tables_->at(x, wo, wanted);
+        const CellDistribution* t = wanted == 0 ? nullptr : guide_->tables().at(x, wo, wanted);
         return t;
     }
     Vertex at(const SurfaceSide& side, Place table) const {
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    std::shared_ptr<const DirectionTables> tables_;
+    std::shared_ptr<const Guide> guide_;
 };
 
 }  // namespace neumann

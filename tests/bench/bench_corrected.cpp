@@ -89,12 +89,20 @@ int main(int argc, char** argv) {
     print("walk", walk, walk_samples);
     double least = 1e300;
     for (const double goal : goals) {
-        // Doubles the samples of its four replicates until the goal is reached.
+        // Doubles the samples of its four replicates until the goal is reached; between the last two the seconds are linear in
+        // 1 / error, because some of them do not depend on samples.
+        Run before;
         for (std::uint64_t samples = 4;; samples *= 2) {
             const Run r = run(scene, method::Corrected{}, samples, 1, reference);
             print("corrected", r, samples);
-            if (r.error > goal && samples < 1024) continue;
-            const double walk_needs = walk.seconds * walk.error / goal, needs = r.seconds * std::min(r.error / goal, 1.0);
+            if (r.error > goal && samples < 1024) {
+                before = r;
+                continue;
+            }
+            const double walk_needs = walk.seconds * walk.error / goal;
+            double needs = r.seconds;
+            if (before.error > r.error)
+                needs += (before.seconds - r.seconds) * (1.0 / r.error - 1.0 / goal) / (1.0 / r.error - 1.0 / before.error);
             fmt::print("{:g}: the walk needs {:.2f} s, corrected fields {:.2f}: {:.1f} times\n", goal, walk_needs, needs,
                        walk_needs / needs);
             least = std::min(least, walk_needs / needs);

@@ -4,7 +4,7 @@
 //
 //     bench_generators [SCENE.xml [RESOLUTION [SECONDS]]]
 #include "core/reader/read_scene.h"
-#include "operators/guide/direction_tables.h"
+#include "operators/guide/guide.h"
 #include "operators/pictures/rendered_series.h"
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
             g.setup = seconds_of([&] {
                 GuideSettings guide;
                 guide.bounces = bounces;
-                g.settings.tables = std::make_shared<const DirectionTables>(scene, guide);
+                g.settings.guide = std::make_shared<const Guide>(scene, guide);
             });
         g.sampler = std::make_unique<PictureSampler>(scene, g.settings);
         g.moments = std::make_unique<SeriesMoments>(g.sampler->width(), g.sampler->height(), g.sampler->quantities());

@@ -3,7 +3,7 @@
 #include "operators/pictures/replay.h"
 #include "core/reader/read_scene.h"
 #include "operators/correction/approximation.h"
-#include "operators/guide/direction_tables.h"
+#include "operators/guide/guide.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ protected:
                            .seed = 5,
                            .replicate_size = size};
         if (s.generator == PathGenerator::guided)
-            s.tables = std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
+            s.guide = std::make_shared<const Guide>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
         if (s.generator == PathGenerator::corrected)
             s.approximation = std::make_shared<const Approximation>(
                 scene, ApproximationSettings{.patches = 100, .rays = 16, .bounces = bounces, .seed = 5});

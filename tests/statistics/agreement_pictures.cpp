@@ -17,12 +17,11 @@ constexpr int resolution = 32, bounces = 4;
 SeriesMoments::Result render(const Scene& scene, PathGenerator method, DirectLight direct, std::uint64_t seed,
                              std::uint64_t samples) {
     constexpr std::uint32_t replicate_size = 16;
-    std::shared_ptr<const DirectionTables> tables;
+    std::shared_ptr<const Guide> guide;
     if (method == PathGenerator::guided)
-        tables = std::make_shared<const DirectionTables>(
-            scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed});
+        guide = std::make_shared<const Guide>(scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed});
     const PictureSampler sampler(scene, {.generator = method,
-                                         .tables = tables,
+                                         .guide = guide,
                                          .walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0},
                                          .sampler = SamplerKind::sobol,
                                          .seed = seed,

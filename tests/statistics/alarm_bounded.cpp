@@ -1,6 +1,6 @@
 // One scene, one verdict: where no sample can exceed a bound, no method may say that the variance is infinite.
 #include "core/emitter/environment_map.h"
-#include "operators/guide/direction_tables.h"
+#include "operators/guide/guide.h"
 #include "operators/pictures/bounded_samples.h"
 #include "operators/pictures/series_report.h"
 #include "tests/physics/scene_maker.h"
@@ -46,8 +46,8 @@ SamplingSettings settings_of(PathGenerator method, const Scene& scene, std::uint
                               .seed = seed,
                               .replicate_size = 8};
     if (method == PathGenerator::guided)
-        settings.tables = std::make_shared<const DirectionTables>(
-            scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed});
+        settings.guide =
+            std::make_shared<const Guide>(scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed});
     return settings;
 }
 

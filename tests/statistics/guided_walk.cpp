@@ -17,8 +17,8 @@ Scene cornell_box(int resolution) {
     return read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
 }
 
-std::shared_ptr<const DirectionTables> tables(const Scene& scene, std::size_t patches = 500) {
-    return std::make_shared<const DirectionTables>(scene, GuideSettings{.patches = patches, .rays = 256, .seed = fixed_seed});
+std::shared_ptr<const Guide> guide(const Scene& scene, std::size_t patches = 500) {
+    return std::make_shared<const Guide>(scene, GuideSettings{.patches = patches, .rays = 256, .seed = fixed_seed});
 }
 
 CellDistribution::Weights lopsided_weights() {
@@ -86,7 +86,7 @@ TEST(CellDistribution, SamplesFollowTheDensity) {
 // directions make z; 16 cells in 3 frames, false alarm 3e-4 of |z| > 4.5.
 TEST(GuidedDirections, WeighWhatTheyMissInAnyFrame) {
     const Scene scene = cornell_box(8);
-    const GuidedContinuation guided(tables(scene));
+    const GuidedContinuation guided(guide(scene));
     const Vec3 wo = glm::normalize(Vec3(0.3, -0.2, 0.5));
     SurfaceSide side = on_the_floor(scene);
     const Frame flat = side.p.frame;
@@ -129,7 +129,7 @@ TEST(GuidedDirections, WeighWhatTheyMissInAnyFrame) {
 // patches are alike, at most half is taken for the neighbour, and more where patches are narrow. Never is it another surface.
 TEST(FacetRaster, FindsTheFacetOrANeighbour) {
     const Scene scene = cornell_box(8);
-    const auto guide = tables(scene, 2000);
+    const auto guide = guide(scene, 2000);
     const PatchSpace& space = guide->space();
     const Patches& patches = space.patches();
     const FacetRaster raster(space);
@@ -194,7 +194,7 @@ TEST(GuidedWalk, EveryPixelOfAFurnaceIsThePowerOfTheAlbedo) {
         const Scene scene = enclosure.maker.make();
         const Pictures pictures = render(scene,
                                          {.generator = PathGenerator::guided,
-                                          .tables = tables(scene, 100),
+                                          .guide = guide(scene, 100),
                                           .walk = {.bounces = 10, .direct = {DirectLight::bsdf}, .rest_probability = 0.0},
                                           .seed = fixed_seed},
                                          4);
@@ -215,7 +215,7 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
     for (const std::size_t threads : {1, 2, 7}) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
         results.push_back(
-            render(scene, {.generator = PathGenerator::guided, .tables = tables(scene), .walk = {.bounces = 4}, .seed = fixed_seed},
+            render(scene, {.generator = PathGenerator::guided, .guide = guide(scene), .walk = {.bounces = 4}, .seed = fixed_seed},
                    4)
                 .result);
     }
@@ -233,7 +233,7 @@ TEST(GuidedWalkSlow, HasLessVarianceThanThePlainWalk) {
     const auto rendered = [&](PathGenerator method) {
         return render(scene,
                       {.generator = method,
-                       .tables = method == PathGenerator::guided ? tables(scene, 2000) : nullptr,
+                       .guide = method == PathGenerator::guided ? guide(scene, 2000) : nullptr,
                        .walk = {.bounces = 7, .rest_probability = 0.0},
                        .seed = fixed_seed},
                       32)
