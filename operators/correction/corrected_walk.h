@@ -4,8 +4,8 @@
 //     K^i Le = K f_{i−1} + K e_{i−1}
 //     e_i    = (K f_{i−1} − f_i) + K e_{i−1}
 //
-// A walk that leaves a diffuse surface x reads f_k at the next one, z, and ends there: one ray is a sample of K f_k for all k. At x
-// it also asks one of the shared points y for its errors:
+// A walk that leaves a diffuse surface x, mostly towards where the fields are bright, reads f_k at the next one, z, and ends there:
+// one ray is a sample of K f_k for all k. At x it also asks one of the shared points y for its errors:
 //
 //     K e_k (x) = ∫ ρ(x) g(x, y) V(x, y) e_k(y) dA(y),   g = cosθx cosθy / (π d²)
 //

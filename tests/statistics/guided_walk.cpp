@@ -1,6 +1,7 @@
 // Walks whose directions are drawn by tables of what a surface sees.
 #include "core/reader/read_scene.h"
 #include "operators/known/enclosures.h"
+#include "operators/matrix/scene_patches.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/material_laws.h"
 #include "tests/physics/pictures.h"
@@ -129,8 +130,7 @@ TEST(GuidedDirections, WeighWhatTheyMissInAnyFrame) {
 // patches are alike, at most half is taken for the neighbour, and more where patches are narrow. Never is it another surface.
 TEST(FacetRaster, FindsTheFacetOrANeighbour) {
     const Scene scene = cornell_box(8);
-    const auto guide = guide(scene, 2000);
-    const PatchSpace& space = guide->space();
+    const PatchSpace space = scene_patches(scene, {.patches = 2000});
     const Patches& patches = space.patches();
     const FacetRaster raster(space);
     const AreaSampler surfaces(scene.geometry);
@@ -155,7 +155,7 @@ TEST(FacetRaster, FindsTheFacetOrANeighbour) {
 TEST(GuidedDirections, ThereIsNoTableWhereNoFurtherBounceIsWantedNorForMetals) {
     const Scene box = cornell_box(8);
     const SurfaceSide floor = on_the_floor(box);
-    const GuidedContinuation guided(tables(box));
+    const GuidedContinuation guided(guide(box));
     const Vec3 wo(0.0, 0.0, 1.0);
     const auto weight = [&](const GuidedContinuation& continuation, const SurfaceSide& side, int wanted) {
         Sampler sampler(fixed_seed, 1);
@@ -171,7 +171,7 @@ TEST(GuidedDirections, ThereIsNoTableWhereNoFurtherBounceIsWantedNorForMetals) {
     EXPECT_NE(weight(guided, floor, 1), weight_of_material(floor));
 
     const Scene room = read_scene(SCENES "/metal-room/metal-room.xml", {{"res", "8"}});
-    const GuidedContinuation in_room(tables(room));
+    const GuidedContinuation in_room(guide(room));
     int metals = 0;
     for (std::uint32_t shape = 0; shape < room.geometry.shapes().size(); ++shape) {
         const SurfacePoint p = room.geometry.point(shape, 0, {0.3, 0.4});
