@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "operators/correction/diffuse_sides.h"
 #include "operators/methods/render.h"
 #include "operators/pictures/missing_paths.h"
 
@@ -129,9 +130,13 @@ Goal goal_of_trial(const Goal& goal, int bounces) {
 
 // Where no method knows its terms after the pilot, their errors are made by rare paths, which the pilot may or may not have met.
 MethodChoice by_the_lights(const method::Auto& open, const Scene& scene) {
-    if (scene.emitters.has_environment() || scene.hide_emitters)
-        return {method::Guided{open},
-                "the pilot met too few of the paths to tell, and tables of directions find most light from afar"};
+    if (scene.emitters.has_environment() || scene.hide_emitters) {
+        if (DiffuseSides(scene).empty())
+            return {method::Guided{open},
+                    "the pilot met too few of the paths to tell, and tables of directions find most light from afar"};
+        return {method::Corrected{open},
+                "the pilot met too few of the paths to tell, and fields on diffuse surfaces find most light from afar"};
+    }
     return {method::Bidirectional{open},
             "the pilot met too few of the paths to tell, and walks from the lamps find most that are rare"};
 }

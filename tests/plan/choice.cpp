@@ -97,8 +97,8 @@ TEST(Choice, HiddenLightsTakeNoWalksFromThem) {
 }
 
 // What a study of minutes finds best on these scenes (apps/manual/methods.md), or at most a third behind the best.
-TEST(ChoiceSlow, IsThatOfAStudyOnSixScenes) {
-    for (const char* name : {"cornell-box", "door-ajar", "floating-panels", "mitsuba-cornell"})
+TEST(ChoiceSlow, IsThatOfAStudyOnEightScenes) {
+    for (const char* name : {"cornell-box", "door-ajar", "floating-panels", "mitsuba-cornell", "outdoor", "sphere-segment"})
         EXPECT_EQ(chosen(of_file(name)), "corrected") << name;
     for (const char* name : {"glass-ball", "glossy-floor"}) EXPECT_EQ(chosen(of_file(name)), "bidirectional") << name;
 }
