@@ -47,7 +47,9 @@ Approximation::Approximation(const Scene& scene, const ApproximationSettings& se
                     TableSettings{CellDistribution::cells, share_of_cosine, settings.bounces, settings.seed ^ field_stream});
     rays_ = series.rays + fields_->rays() + tables_->rays();
     find_density(sides, series.fine);
-    if (facets_.empty()) fields_.reset();
+    if (!facets_.empty()) return;
+    fields_.reset();
+    tables_.reset();
 }
 
 void Approximation::find_density(const DiffuseSides& sides, const FieldStack& fields) {

@@ -78,8 +78,8 @@ std::shared_ptr<const Approximation> approximation(const method::Corrected& corr
     return std::make_shared<const Approximation>(scene, settings, watch);
 }
 
-std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scene& scene, int bounces,
-                                                        std::uint64_t seed, double memory) {
+std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scene& scene, int bounces, std::uint64_t seed,
+                                        double memory) {
     GuideSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
     if (guided.patches) settings.patches = *guided.patches;
     if (guided.directions) {
