@@ -12,11 +12,6 @@ namespace {
 
 double rounding_at(const Vec3& p, const Vec3& other) { return double_rounding(p, largest_component(other)); }
 
-// How far outside its rim a ray from p still hits a face: if two faces share an edge, the ray must hit at least one of them.
-double rim_rounding(const Vec3& p, const Vec3& face, double distance) {
-    return 4.0 * double_rounding(p, largest_component(face) + distance);
-}
-
 // Components of p − base along the axis and perpendicular to it.
 struct Cylindrical {
     double along;
@@ -28,13 +23,73 @@ Cylindrical in_cylinder(const Cylinder& c, const Vec3& p) {
     return {along, f - c.axis * along};
 }
 
-// √(a² + b²) for p = center + a·u + b·v + …·normal.
-double radius_in_disk(const Disk& d, const Vec3& p) {
+// Coordinates (a, b) of p = center + a·u + b·v + …·normal, and √(a² + b²).
+Vec2 in_disk(const Disk& d, const Vec3& p) {
     const Vec3 f = p - d.center;
     const double uu = glm::dot(d.u, d.u), uv = glm::dot(d.u, d.v), vv = glm::dot(d.v, d.v), gram = uu * vv - uv * uv;
-    return std::hypot(glm::dot(f, (d.u * vv - d.v * uv) / gram), glm::dot(f, (d.v * uu - d.u * uv) / gram));
+    return {glm::dot(f, (d.u * vv - d.v * uv) / gram), glm::dot(f, (d.v * uu - d.u * uv) / gram)};
+}
+double radius_in_disk(const Disk& d, const Vec3& p) {
+    const Vec2 at = in_disk(d, p);
+    return std::hypot(at.x, at.y);
 }
 double least_half_axis(const Disk& d) { return glm::length(glm::cross(d.u, d.v)) / std::hypot(glm::length(d.u), glm::length(d.v)); }
+
+// How a ray passes an edge of a face: on its inner side, by this distance, which has this rounding error.
+struct Passing {
+    Vec3 inwards;  // perpendicular to the ray and to the edge
+    double distance, rounding;
+
+    bool is_inside(double roundings) const { return distance >= -roundings * rounding; }
+    bool is_close() const { return std::abs(distance) <= DoubleFaces::unsure * rounding; }
+};
+
+// `inner`: a place on the edge's inner side. Of a ray that is nearly parallel to the edge it is hard to tell on which side it is.
+Passing pass(const Vec3& p, const Vec3& direction, const Vec3& on_edge, const Vec3& along, const Vec3& inner, double rounding) {
+    const Vec3 n = glm::cross(along, direction);
+    const double length = glm::length(n);
+    const Vec3 inwards = n / (glm::dot(n, inner - on_edge) < 0.0 ? -length : length);
+    return {inwards, glm::dot(inwards, p - on_edge), rounding * glm::length(along) / length};
+}
+
+// How the ray from p that meets the plane or surface of a face at `distance` passes the edges of the face.
+class Passings {
+public:
+    Passings(const std::array<Vec3, 3>& v, const Vec3& p, const Vec3& direction, double distance)
+        : rounding_(double_rounding(p, largest_component(v[0]) + distance)) {
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 &a = v[i], &b = v[(i + 1) % 3], &c = v[(i + 2) % 3];
+            add(pass(p, direction, a, b - a, c, rounding_));
+        }
+    }
+    Passings(const Disk& disk, const Vec3& p, const Vec3& direction, double distance)
+        : rounding_(double_rounding(p, largest_component(disk.center) + glm::length(disk.u) + glm::length(disk.v) + distance)) {
+        const Vec2 at = in_disk(disk, p + direction * distance);
+        const double angle = std::atan2(at.y, at.x), cosine = std::cos(angle), sine = std::sin(angle);
+        add(pass(p, direction, disk.center + disk.u * cosine + disk.v * sine, disk.v * cosine - disk.u * sine, disk.center,
+                 rounding_));
+    }
+    Passings(const Cylinder& cylinder, const Vec3& p, const Vec3& direction, double distance)
+        : rounding_(double_rounding(p, largest_component(cylinder.base) + cylinder.length + distance)) {
+        const Vec3 center = cylinder.center(), across = in_cylinder(cylinder, p + direction * distance).across;
+        for (const double end : {0.0, cylinder.length})
+            add(pass(p, direction, cylinder.base + cylinder.axis * end + across, glm::cross(cylinder.axis, across), center + across,
+                     rounding_));
+    }
+
+    const Passing* begin() const { return edges_.data(); }
+    const Passing* end() const { return edges_.data() + size_; }
+    bool are_inside(double roundings) const {
+        return std::all_of(begin(), end(), [&](const Passing& edge) { return edge.is_inside(roundings); });
+    }
+
+private:
+    void add(const Passing& passing) { edges_[size_++] = passing; }
+
+    double rounding_;
+    std::array<Passing, 3> edges_;
+    std::size_t size_ = 0;
+};
 
 // The distances > 0 at which |across + t·d_across| = radius, without the one where the ray starts.
 int meet_round(const Vec3& across, const Vec3& d_across, double radius, bool starts_there, double (&t)[2]) {
@@ -100,50 +155,66 @@ bool DoubleFaces::is_near(const Face& f, const Vec3& p, double distance) const {
            radius_in_disk(disk, p) <= 1.0 + distance / least_half_axis(disk);
 }
 
-bool DoubleFaces::holds(const Face& f, const Vec3& p) const {
-    if (const Triangle* t = triangle(f)) return std::abs(glm::dot(p - t->vertex(), t->normal())) <= rounding_at(p, t->vertex());
+DoubleFaces::Height DoubleFaces::height(const Face& f, const Vec3& p) const {
+    const auto above_plane = [&](const Vec3& on_plane, const Vec3& normal) {
+        return Height{normal, glm::dot(p - on_plane, normal), rounding_at(p, on_plane)};
+    };
+    const auto above_round = [&](const Vec3& across, double radius, double rounding) {
+        const double length = glm::length(across);
+        return Height{across / length, length - radius, rounding};
+    };
+    if (const Triangle* t = triangle(f)) return above_plane(t->vertex(), t->normal());
     const Shape& shape = (*shapes_)[f.shape];
     if (const auto* sphere = std::get_if<Sphere>(&shape))
-        return std::abs(glm::length(p - sphere->center) - sphere->radius) <= rounding_at(p, sphere->center + sphere->radius);
+        return above_round(p - sphere->center, sphere->radius, rounding_at(p, sphere->center + sphere->radius));
     if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-        return std::abs(glm::length(in_cylinder(*cylinder, p).across) - cylinder->radius) <=
-               rounding_at(p, glm::abs(cylinder->base) + cylinder->length + cylinder->radius);
+        return above_round(in_cylinder(*cylinder, p).across, cylinder->radius,
+                           rounding_at(p, glm::abs(cylinder->base) + cylinder->length + cylinder->radius));
     const Disk& disk = std::get<Disk>(shape);
-    return std::abs(glm::dot(p - disk.center, disk.normal)) <= rounding_at(p, disk.center);
+    return above_plane(disk.center, disk.normal);
 }
 
-int DoubleFaces::meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2]) const {
+int DoubleFaces::meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2], double roundings) const {
     const Vec3& p = start.position;
     const bool starts_there = start.face == f || holds(f, p);
-    if (const Triangle* t = triangle(f)) {
-        if (starts_there) return 0;
-        const auto [cosine, distance, position, w] = t->meet(p, direction);
-        distances[0] = distance;
-        if (!(distances[0] > 0.0)) return 0;
-        const double rounding = rim_rounding(p, t->vertex(), distances[0]);
-        return w.x >= -rounding * glm::length(t->dual1()) && w.y >= -rounding * glm::length(t->dual2()) &&
-               1.0 - w.x - w.y >= -rounding * glm::length(t->dual1() + t->dual2());
+    const Triangle* t = triangle(f);
+    if (starts_there && t) return 0;
+    const auto is_hit = [&](const auto& face, double distance) {
+        return distance > 0.0 && Passings(face, p, direction, distance).are_inside(roundings);
+    };
+    if (t) {
+        distances[0] = t->meet(p, direction).distance;
+        return is_hit(vertices(f), distances[0]);
     }
     const Shape& shape = (*shapes_)[f.shape];
     if (const auto* sphere = std::get_if<Sphere>(&shape))
         return meet_round(p - sphere->center, direction, sphere->radius, starts_there, distances);
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        const auto [along, across] = in_cylinder(*cylinder, p);
-        const double d_along = glm::dot(direction, cylinder->axis);
-        const int met = meet_round(across, direction - cylinder->axis * d_along, cylinder->radius, starts_there, distances);
-        int n = 0;
-        for (int i = 0; i < met; ++i) {
-            const double at = along + distances[i] * d_along,
-                         rounding = rim_rounding(p, cylinder->base, cylinder->length + distances[i]);
-            if (at >= -rounding && at <= cylinder->length + rounding) distances[n++] = distances[i];
-        }
-        return n;
+        const Vec3 across = in_cylinder(*cylinder, p).across,
+                   d_across = direction - cylinder->axis * glm::dot(direction, cylinder->axis);
+        const int met = meet_round(across, d_across, cylinder->radius, starts_there, distances);
+        return static_cast<int>(std::remove_if(distances, distances + met, [&](double d) { return !is_hit(*cylinder, d); }) -
+                                distances);
     }
     if (starts_there) return 0;
     const Disk& disk = std::get<Disk>(shape);
     distances[0] = glm::dot(disk.normal, disk.center - p) / glm::dot(disk.normal, direction);
-    const double rounding = rim_rounding(p, disk.center, distances[0]);
-    return distances[0] > 0.0 && radius_in_disk(disk, p + direction * distances[0]) <= 1.0 + rounding / least_half_axis(disk);
+    return is_hit(disk, distances[0]);
+}
+
+std::optional<Vec3> DoubleFaces::off_edge(const Face& f, const Vec3& p, const Vec3& direction, double distance) const {
+    const auto off = [&](const Passings& edges) -> std::optional<Vec3> {
+        Vec3 inwards(0.0);
+        for (const Passing& edge : edges)
+            if (edge.is_close()) inwards += edge.inwards * (2.0 * unsure * edge.rounding);
+        if (inwards == Vec3(0.0)) return std::nullopt;
+        return inwards;
+    };
+    if (triangle(f)) return off({vertices(f), p, direction, distance});
+    const Shape& shape = (*shapes_)[f.shape];
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return off({*cylinder, p, direction, distance});
+    if (const auto* disk = std::get_if<Disk>(&shape)) return off({*disk, p, direction, distance});
+    return std::nullopt;
 }
 
 }  // namespace neumann

@@ -7,6 +7,8 @@
 #include "core/geometry/shape.h"
 #include "core/geometry/triangle.h"
 
+#include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,11 +39,25 @@ public:
 
     // Whether p is at most `distance` from the face; near corners the limit is a little larger.
     bool is_near(const Face& f, const Vec3& p, double distance) const;
-    // Whether p lies on the face, or on the plane of a triangle or disc, as far as doubles can tell.
-    bool holds(const Face& f, const Vec3& p) const;
+    // How far p is above a face, or above the plane of a triangle or disc: on the side of its normal.
+    struct Height {
+        Vec3 normal;  // unit length, at the place that is nearest to p
+        double distance, rounding;
+        // As far as doubles can tell.
+        bool is_zero() const { return std::abs(distance) <= rounding; }
+    };
+    Height height(const Face& f, const Vec3& p) const;
+    // Whether p lies on the face or its plane.
+    bool holds(const Face& f, const Vec3& p) const { return height(f, p).is_zero(); }
     // Finds the distances > 0 at which a ray hits the face: up to two, ascending, without the start itself. Returns their number.
-    // `direction`: unit length.
-    int meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2]) const;
+    // `direction`: unit length. A ray that passes an edge on the outside, by at most this many rounding errors, counts as a hit: if
+    // two faces share an edge, the ray must hit at least one of them.
+    int meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2], double roundings = 1.0) const;
+    // A ray that passes an edge by fewer rounding errors might as well be on its other side.
+    static constexpr double unsure = 2.0;
+    // For such a ray from p, which meets the face at `distance`: how to move it so that it certainly hits the face. Otherwise
+    // nothing.
+    std::optional<Vec3> off_edge(const Face& f, const Vec3& p, const Vec3& direction, double distance) const;
 
 private:
     const std::vector<Shape>* shapes_;

@@ -130,40 +130,47 @@ void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const Ra
 }
 
 bool Geometry::put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    SurfacePoint found = hit_among_others(start.position, direction, hit);
+    SurfacePoint found = hit_among_others(start, direction, hit);
     const bool unsure = found.close || neighbours_->may_hide(found, glm::dot(direction, found.normal));
     if (unsure && !settle(start, direction, found)) return false;
     p = found;
     return true;
 }
 
-SurfacePoint Geometry::hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const {
+SurfacePoint Geometry::hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const {
+    const Vec3& origin = start.position;
     SurfacePoint p;
     if (triangles_[hit.shape].empty())
         p = round_point({hit.shape, hit.primitive},
                         hit_round((*shapes_)[hit.shape], origin, direction, hit.distance, error_[hit.shape]));
     else
         put_near_edge(origin, direction, hit, p);
-    look_around(p);
+    const StartedRay ray{start, direction};
+    look_around(p, &ray);
     return p;
 }
 
-void Geometry::look_around(SurfacePoint& p) const { p.close = neighbours_->is_close(p); }
+void Geometry::look_around(SurfacePoint& p, const StartedRay* ray) const {
+    p.close = neighbours_->is_close(p);
+    if (p.close) neighbours_->part(p, ray);
+}
 
 bool Geometry::settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const {
     const Face own{p.shape, p.primitive};
     double distances[2];
     if (neighbours_->faces().meet(own, start, direction, distances) == 0) return false;
     const auto first = neighbours_->first(neighbours_->around(p), start, direction);
-    if (first && first->face != own && first->distance < glm::dot(p.position - start.position, direction))
-        p = point_on(first->face, start.position + direction * first->distance);
+    if (first && first->face != own && first->distance <= distances[0])
+        p = point_on(first->face, {start, direction}, first->distance);
     return true;
 }
 
-SurfacePoint Geometry::point_on(const Face& face, const Vec3& position) const {
-    if (!triangles_[face.shape].empty()) return point_on_triangle(face.shape, face.primitive, position);
-    SurfacePoint p = round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]));
-    look_around(p);
+SurfacePoint Geometry::point_on(const Face& face, const StartedRay& ray, double distance) const {
+    const Vec3 position = ray.start.position + ray.direction * distance;
+    const auto& of_shape = triangles_[face.shape];
+    SurfacePoint p = of_shape.empty() ? round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]))
+                                      : on_triangle(face.shape, face.primitive, position);
+    look_around(p, &ray);
     return p;
 }
 
@@ -185,7 +192,7 @@ bool Geometry::meet_giants(const RayStart& start, const Vec3& direction, double 
     if (giants_.empty()) return found;
     const auto first = neighbours_->first(giants_, start, direction);
     if (!first || first->distance >= (found ? glm::dot(p.position - start.position, direction) : distance)) return found;
-    p = point_on(first->face, start.position + direction * first->distance);
+    p = point_on(first->face, {start, direction}, first->distance);
     if (p.close) settle(start, direction, p);
     return true;
 }
@@ -200,9 +207,9 @@ bool Geometry::first_hit_past(const RayStart& start, const Vec3& embree_start, c
         RayCaster::Hit found;
         SurfacePoint p;
         const bool any = cast_near_rest(neighbours_->giants(), *caster_, embree_start, direction, distance, faces, found);
-        if (any) p = hit_among_others(origin, direction, found);
+        if (any) p = hit_among_others(start, direction, found);
         if (first && first->distance <= distance && !(any && glm::dot(p.position - origin, direction) < first->distance)) {
-            hit = point_on(first->face, origin + direction * first->distance);
+            hit = point_on(first->face, {start, direction}, first->distance);
             return true;
         }
         if (!any || !p.close) {
@@ -247,7 +254,7 @@ bool Geometry::first_hit_in_double(const SurfacePoint& from, const Vec3& directi
     if (any_beyond && !put_on_surface(start, direction, found, beyond))
         any_beyond = first_hit_past(start, origin, direction, infinity, faces, beyond);
     if (first && !(any_beyond && glm::dot(beyond.position - origin, direction) < first->distance)) {
-        hit = point_on(first->face, origin + direction * first->distance);
+        hit = point_on(first->face, {start, direction}, first->distance);
         if (hit.close) settle(start, direction, hit);
     } else if (any_beyond) {
         hit = beyond;

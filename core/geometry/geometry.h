@@ -146,9 +146,8 @@ public:
 
     // Moves a point near the plane of a triangle onto the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
-        const Triangle& t = triangles_[shape][primitive];
-        SurfacePoint p{t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
-        if (!t.is_clear(t.weights(p.position))) look_around(p);
+        SurfacePoint p = on_triangle(shape, primitive, position);
+        if (const Triangle& t = triangles_[shape][primitive]; !t.is_clear(t.weights(p.position))) look_around(p);
         return p;
     }
     // The inverse of point() on a sphere or a disc: the (u, v) of a point there.
@@ -190,17 +189,21 @@ private:
         return put_among_others(start, direction, hit, p);
     }
     bool put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
-    SurfacePoint hit_among_others(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit) const;
+    SurfacePoint hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const;
     void put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint round_point(const Face& face, const RoundPoint& p) const;
-    // Sets p.close.
-    void look_around(SurfacePoint& p) const;
+    SurfacePoint on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
+        const Triangle& t = triangles_[shape][primitive];
+        return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
+    }
+    // Sets p.close, and moves a point that is close off faces that cross its own.
+    void look_around(SurfacePoint& p, const StartedRay* ray = nullptr) const;
     // A face close to the hit p may be hit first; then moves p to it. Returns false if the ray misses p's own face.
     bool settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
     // After that: the first hit, with the close faces in double and all others by Embree, whose ray starts at `embree_start`.
     bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                         std::vector<Face> faces, SurfacePoint& hit) const;
-    SurfacePoint point_on(const Face& face, const Vec3& position) const;
+    SurfacePoint point_on(const Face& face, const StartedRay& ray, double distance) const;
     // Intersects the faces around close points, and giants, in double, and all others with Embree.
     bool first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
     bool visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const;

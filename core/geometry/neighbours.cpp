@@ -88,6 +88,25 @@ std::vector<Face> Neighbours::around(const SurfacePoint& p) const {
     return found;
 }
 
+void Neighbours::part(SurfacePoint& p, const StartedRay* ray) const {
+    const Face own{p.shape, p.primitive};
+    for (const Face& f : around(p)) {
+        if (f == own) continue;
+        const DoubleFaces::Height height = faces_.height(f, p.position);
+        const Vec3 along = height.normal - p.normal * glm::dot(height.normal, p.normal);
+        constexpr double nearly_parallel = 1e-4;  // square of a sine
+        const double slope = glm::dot(along, along);
+        if (!height.is_zero() || slope < nearly_parallel || !faces_.is_near(f, p.position, 4.0 * height.rounding)) continue;
+        double side = height.distance;
+        if (ray) {
+            const DoubleFaces::Height of_start = faces_.height(f, ray->start.position);
+            const bool starts_there = ray->start.face == f || of_start.is_zero();
+            side = starts_there ? glm::dot(ray->direction, of_start.normal) : -glm::dot(ray->direction, height.normal);
+        }
+        p.position += along * ((std::copysign(4.0 * height.rounding, side) - height.distance) / slope);
+    }
+}
+
 bool Neighbours::has_near(const SurfacePoint& p, double aside) const {
     const Boxes& boxes = surroundings_.find({p.shape, p.primitive})->second.boxes;
     const auto held = boxes.qbegin(index::intersects(Corner(p.position.x, p.position.y, p.position.z)));
@@ -177,7 +196,8 @@ bool Neighbours::is_behind(const Face& f, const Face& own_face, const Vec3& dire
     });
 }
 
-std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const {
+std::optional<Neighbours::Met> Neighbours::nearest(std::span<const Face> faces, const RayStart& start,
+                                                   const Vec3& direction) const {
     std::optional<Met> met;
     for (const Face& f : faces) {
         if (start.face && is_behind(f, *start.face, direction)) continue;
@@ -185,6 +205,26 @@ std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, co
         if (faces_.meet(f, start, direction, distances) > 0 && !(met && met->distance <= distances[0])) met = {f, distances[0]};
     }
     return met;
+}
+
+// Where a ray passes an edge of a body within rounding, it may miss the front and hit the back, or find the back first. A ray
+// beside it, clear of the edge, tells which of the faces that both hit is in front.
+std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const {
+    const auto met = nearest(faces, start, direction);
+    if (!met) return met;
+    const auto off_edge = faces_.off_edge(met->face, start.position, direction, met->distance);
+    if (!off_edge) return met;
+    std::vector<Face> hit;
+    for (const Face& f : faces) {
+        double distances[2];
+        if (faces_.meet(f, start, direction, distances, 2.0 * DoubleFaces::unsure) > 0) hit.push_back(f);
+    }
+    // So far back that it starts before all of them.
+    const double back = 1024.0 * glm::length(*off_edge);
+    RayStart beside = start;
+    beside.position += *off_edge - direction * back;
+    const auto front = nearest(hit, beside, direction);
+    return front ? Met{front->face, met->distance} : met;
 }
 
 bool Neighbours::any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const {

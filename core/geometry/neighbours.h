@@ -37,6 +37,9 @@ public:
     // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one. `cosine`: of the
     // ray with p's normal.
     bool may_hide(const SurfacePoint& p, double cosine) const;
+    // Where p, hit by this ray, lies on faces that cross its own, within rounding: moves it along its own face to the side of them
+    // from which the ray came, so that rays know on which side of them they start. Without a ray, p stays on the side where it is.
+    void part(SurfacePoint& p, const StartedRay* ray) const;
     // The faces within rounding of p, including its own, in order.
     std::vector<Face> around(const SurfacePoint& p) const;
 
@@ -52,6 +55,7 @@ public:
     const Giants& giants() const { return giants_; }
 
 private:
+    std::optional<Met> nearest(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
     using Box = boost::geometry::model::box<Corner>;
     struct Other {

@@ -19,4 +19,9 @@ struct RayStart {
     std::optional<Face> face = {};
 };
 
+struct StartedRay {
+    const RayStart& start;
+    const Vec3& direction;  // unit length
+};
+
 }  // namespace neumann
