@@ -34,7 +34,8 @@ namespace neumann {
 // The samples at the first diffuse vertex of a walk, where more of them help most.
 struct FirstVertex {
     std::uint32_t lights = 1;      // light samples
-    std::uint32_t directions = 4;  // walks that go on from it; each also asks a point
+    std::uint32_t directions = 4;  // walks that go on from it
+    std::uint32_t points = 1;      // of these, the walks that also ask a point
     double clamp = 100.0;          // c, in units of 1 / (area of all sides with fields)
     double survival = 1.0;         // roulette of the walks that go on instead of reading
 };
@@ -47,7 +48,8 @@ struct CorrectedWalker : Walker {
     double clamp = 0.0;       // c there, per scene unit squared
     double survival = 1.0;    // roulette of the share that goes on
     Vec3 from_normal{0.0};    // of the side that it left
-    // The shared point that it asks, and β ρ min(g, c) / density.
+    // For how many of the walks from its last vertex it asks a shared point; the point, and the weight of its errors.
+    double asks_for = 1.0;
     std::uint32_t point = 0;
     Rgb point_weight{0.0};
 };
@@ -103,19 +105,18 @@ private:
                                                       ? GuidedContinuation::Vertex(tables_->at(w.x, w.wo, wanted), side.p.frame)
                                                       : GuidedContinuation::Vertex();
         const BsdfSample sampled = vertex.sample(side, side.p.frame.to_local(w.wo), sampler);
+        w.point_weight = Rgb(0.0);
+        if (w.reads && points_ && w.asks_for > 0.0) {
+            const SharedPoints::Chosen chosen = points_->choose(w.x.position, side.p.frame.n, w.clamp, sampler.next());
+            w.point = chosen.point;
+            w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.asks_for * chosen.weight);
+        }
         w.beta *= sampled.weight;
         w.reflected = max_component(sampled.weight);
         w.pdf = sampled.pdf;
         w.w = side.p.frame.to_world(sampled.wi);
         w.from = w.x.position;
         w.from_normal = side.p.frame.n;
-        w.point_weight = Rgb(0.0);
-        if (w.reads && points_) {
-            w.point = static_cast<std::uint32_t>(sampler.next() * static_cast<double>(points_->size()));
-            const SharedPoints::Point& p = points_->points[w.point];
-            w.point_weight =
-                w.beta * (std::min(kernel(w.from, w.from_normal, p.y.position, p.normal), w.clamp) * p.inverse_density);
-        }
         return true;
     }
     // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.
@@ -190,6 +191,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             w.directions = splits ? static_cast<double>(first_.directions) / first_.lights : 1.0;
             w.clamp = points_ ? (splits ? first_.clamp : later_clamp) * of_area_ : 0.0;
             w.survival = splits ? first_.survival : 1.0;
+            w.asks_for = 1.0;
             if (splits) w.beta /= static_cast<double>(first_.directions);
             (splits ? walkers.splitting : walkers.single).push_back(i);
         }
@@ -207,6 +209,8 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
                 for (std::uint32_t g = 0; g < first_.directions; ++g) {
                     walkers.single.push_back(static_cast<std::uint32_t>(walkers.walker.size()));
                     walkers.walker.push_back(walkers.walker[i]);
+                    walkers.walker.back().asks_for =
+                        g < first_.points ? static_cast<double>(first_.directions) / first_.points : 0.0;
                     walkers.samplers.push_back(sampler_of(i, g));
                 }
             }
@@ -224,12 +228,12 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             T, walkers.asking.size(), RayCaster::Rays::any,
             [&](std::size_t k) {
                 const CorrectedWalker& w = walkers.walker[walkers.asking[k]];
-                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, points_->points[w.point].y);
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, (*points_)[w.point].y);
             },
             [&](std::size_t k, bool seen) {
                 const std::uint32_t i = walkers.asking[k];
                 const CorrectedWalker& w = walkers.walker[i];
-                const SurfacePoint& y = points_->points[w.point].y;
+                const SurfacePoint& y = (*points_)[w.point].y;
                 observer.asks(i, false, bounce, w.x, y.position - w.x.position, y, seen);
                 if (!seen) return;
                 const Rgb* errors = points_->errors_at(w.point);

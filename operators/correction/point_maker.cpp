@@ -55,9 +55,8 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
     const CorrectedWalk corrected(scene_, direct_, walk, fields_, next, samples);
     const FieldRaster& fields = *fields_.fields();
 
-    SharedPoints made;
-    made.points.resize(points_);
-    made.errors.resize(points_ * (quantities - 1));
+    std::vector<SharedPoints::Point> points(points_);
+    std::vector<Rgb> errors_of_points(points_ * (quantities - 1));
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
     std::atomic<std::uint64_t> cast = 0, lost = 0;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, points_ / points_at_once, 1), [&](const auto& range) {
@@ -79,7 +78,7 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
                 place.start(replicate);
                 const double choice = (number + place.next()) / points_;
                 const Approximation::Draw draw = fields_.draw(choice, place.next2());
-                made.points[number] = {draw.point, draw.normal, draw.inverse_density};
+                points[number] = {draw.point, draw.normal, draw.inverse_density};
                 work.light.push_back(Sampler(sampler_, light_net_, seed_ ^ light_stream, name));
                 work.walk.push_back(Sampler(sampler_, direction_net_, seed_ ^ walk_stream, name));
                 work.walk.back().start(replicate * samples_.directions);
@@ -102,8 +101,8 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
                 },
                 out);
             for (std::uint32_t i = 0; i < points_at_once; ++i) {
-                const SharedPoints::Point& p = made.points[first + i];
-                Rgb* const errors = made.errors.data() + (first + i) * (quantities - 1);
+                const SharedPoints::Point& p = points[first + i];
+                Rgb* const errors = errors_of_points.data() + (first + i) * (quantities - 1);
                 for (std::size_t k = 1; k < quantities; ++k) errors[k - 1] = work.terms[i * quantities + k];
                 fields.read(p.y, glm::dot(p.y.normal, p.normal) > 0.0, work.fields.data());
                 for (std::size_t k = 0; k < fields.size(); ++k)
@@ -116,7 +115,7 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
     });
     rays += cast;
     given_up += lost;
-    return made;
+    return {std::move(points), std::move(errors_of_points)};
 }
 
 std::optional<SharedPoints> PointMaker::make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,

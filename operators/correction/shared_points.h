@@ -4,22 +4,53 @@
 #include "core/geometry/surface_point.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace neumann {
 
-struct SharedPoints {
+class SharedPoints {
+public:
     struct Point {
         SurfacePoint y;
         Vec3 normal;             // of its side
         double inverse_density;  // 1 / (density with which it was drawn), scene units squared
     };
-    std::vector<Point> points;  // in the order of the patches
-    std::vector<Rgb> errors;    // point by point: ê_1 … ê_N and Σ_{k>N} ê_k
+    static constexpr std::size_t candidates = 16;
 
-    std::size_t size() const { return points.size(); }
-    std::size_t fields() const { return errors.size() / points.size(); }
-    const Rgb* errors_at(std::size_t point) const { return errors.data() + point * fields(); }
+    // `points`: in the order of the patches; their number is a multiple of that of the candidates. `errors`: point by point, ê_1 …
+    // ê_N and Σ_{k>N} ê_k.
+    SharedPoints(std::vector<Point> points, std::vector<Rgb> errors);
+
+    std::size_t size() const { return points_.size(); }
+    std::size_t fields() const { return errors_.size() / points_.size(); }
+    const Point& operator[](std::size_t point) const { return points_[point]; }
+    const Rgb* errors_at(std::size_t point) const { return errors_.data() + point * fields(); }
+
+    // The point that a walk asks at x, a surface side with this normal: of a few candidates that are spread over the list, one in
+    // proportion to what it brings if it is seen, which is resampled importance sampling (Talbot, Cline and Egbert, Importance
+    // resampling for global illumination, 2005).
+    struct Chosen {
+        std::uint32_t point;
+        // weight · V(x, y) · ê(y) estimates ∫ min(g, c) V e dA, g = cosθx cosθy / (π d²); 0 if no candidate brings anything.
+        double weight;
+    };
+    // `clamp`: c. `u`: a random number.
+    Chosen choose(const Vec3& x, const Vec3& normal, double clamp, double u) const;
+
+private:
+    struct Candidates {
+        double x[candidates], y[candidates], z[candidates], nx[candidates], ny[candidates], nz[candidates];
+        double size[candidates];   // of the errors
+        double worth[candidates];  // size over density
+    };
+
+    std::vector<double> error_sizes() const;
+
+    std::vector<Point> points_;
+    std::vector<Rgb> errors_;
+    // The k-th candidate of the i-th place in the list is point i + k · places_.size().
+    std::vector<Candidates> places_;
 };
 
 }  // namespace neumann

@@ -11,7 +11,7 @@
 namespace neumann {
 
 // Of each camera sample.
-inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .clamp = 100.0};
+inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .points = 1, .clamp = 100.0};
 
 struct CorrectedSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}

@@ -15,14 +15,15 @@ namespace neumann {
 
 namespace {
 
-constexpr FirstVertex at_point{.lights = 64, .directions = 128, .clamp = 10.0};
+constexpr FirstVertex at_point{.lights = 32, .directions = 64, .points = 16, .clamp = 10.0};
 // Rays for the points of a replicate, as a part of those for its pixels, roughly.
 constexpr double share_of_points = 0.1;
 constexpr double fewest_points = 256.0, most_points = 4096.0;
 
 std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {
-    const double of_pixel = settings.replicate_size * (1.0 + at_pixel.lights + 2.0 * at_pixel.directions),
-                 of_point = at_point.lights + 2.0 * at_point.directions, sets = std::clamp(settings.walk.bounces, 1, 8);
+    const auto rays = [](const FirstVertex& v) { return static_cast<double>(v.lights + v.directions + v.points); };
+    const double of_pixel = settings.replicate_size * (1.0 + rays(at_pixel)), of_point = rays(at_point),
+                 sets = std::clamp(settings.walk.bounces, 1, 8);
     return std::bit_floor(static_cast<std::uint32_t>(
         std::clamp(share_of_points * pixels * of_pixel / (of_point * sets), fewest_points, most_points)));
 }

@@ -1,7 +1,10 @@
 // Corrected fields are unbiased whatever the fields are, in every bounce and in the rest; their intervals hold; and the bits do not
 // depend on threads.
 #include "core/reader/read_scene.h"
+#include "core/sampling/sampler.h"
+#include "core/sampling/warp.h"
 #include "operators/correction/approximation.h"
+#include "operators/correction/shared_points.h"
 #include "operators/known/enclosures.h"
 #include "operators/methods/render.h"
 #include "operators/pictures/picture_sampler.h"
@@ -190,6 +193,47 @@ TEST(CorrectedFields, SameBitsOnAnyThreads) {
         bits.push_back(sampler.run(0, 2, tally)->data);
     }
     for (const auto& other : bits) EXPECT_EQ(std::memcmp(other.data(), bits[0].data(), bits[0].size() * sizeof(double)), 0);
+}
+
+// The point that a walk asks, with its weight, is on average the mean over all points, whatever their errors are: clamped, turned
+// away, without errors, or a thousand times as large as the others.
+TEST(SharedPoints, AskedAreOnAverageAll) {
+    Sampler random(3, 0);
+    random.start(0);
+    constexpr std::size_t n = 64, fields = 3;
+    std::vector<SharedPoints::Point> points(n);
+    std::vector<Rgb> errors(n * fields);
+    for (std::size_t i = 0; i < n; ++i) {
+        points[i].y.position = Vec3(random.next2(), random.next());
+        points[i].normal = uniform_sphere(random.next2());
+        points[i].inverse_density = 0.1 + random.next();
+        const double size = i % 7 == 0 ? 0.0 : i % 11 == 0 ? 1e3 : 1.0;
+        for (std::size_t k = 0; k < fields; ++k)
+            errors[i * fields + k] = size * (Rgb(random.next(), random.next(), random.next()) - 0.5);
+    }
+    const SharedPoints shared(points, errors);
+    const Vec3 x(0.5, 0.5, 0.1), normal(0, 0, 1);
+    for (const double clamp : {1e9, 2.0, 0.1}) {
+        std::vector<Rgb> mean(fields, Rgb(0.0)), found = mean;
+        double asked = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 d = points[i].y.position - x;
+            const double a = glm::dot(normal, d), b = -glm::dot(points[i].normal, d), d2 = glm::dot(d, d);
+            const double g = a > 0.0 && b > 0.0 ? std::min(a * b * inv_pi / (d2 * d2), clamp) : 0.0;
+            for (std::size_t k = 0; k < fields; ++k)
+                mean[k] += errors[i * fields + k] * (g * points[i].inverse_density / static_cast<double>(n));
+        }
+        constexpr int numbers = 1 << 20;
+        for (int j = 0; j < numbers; ++j) {
+            const SharedPoints::Chosen chosen = shared.choose(x, normal, clamp, (j + 0.5) / numbers);
+            for (std::size_t k = 0; k < fields; ++k) found[k] += shared.errors_at(chosen.point)[k] * (chosen.weight / numbers);
+            asked += chosen.weight > 0.0;
+        }
+        EXPECT_GT(asked, 0.5 * numbers);
+        // Of each place, the midpoints of 2^18 intervals lie on the wrong side of at most 16 boundaries.
+        for (std::size_t k = 0; k < fields; ++k)
+            EXPECT_LT(max_component(glm::abs(found[k] - mean[k])), 1e-4 * max_component(glm::abs(mean[k])) + 1e-3) << clamp;
+    }
 }
 
 }  // namespace neumann::corrected_fields_test
