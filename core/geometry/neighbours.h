@@ -55,7 +55,6 @@ public:
     const Giants& giants() const { return giants_; }
 
 private:
-    std::optional<Met> nearest(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
     using Box = boost::geometry::model::box<Corner>;
     struct Other {
@@ -74,6 +73,8 @@ private:
     bool is_clear_round(const Face& f) const;
     // Whether a face in the surroundings of p's face is within its `near` distance plus `aside`.
     bool has_near(const SurfacePoint& p, double aside) const;
+    // first(), but for rays that pass an edge within rounding.
+    std::optional<Met> nearest(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // For triangles: whether f lies entirely on the other side of the plane of `own` than `direction`.
     bool is_behind(const Face& f, const Face& own, const Vec3& direction) const;
     // The distance below which two faces that do not touch have close points.
