@@ -286,8 +286,8 @@ struct Corners {
 
 // Rays between boxes whose faces lie in common planes or a billionth beside them, aimed at edges and at places where faces cross,
 // as exactly as doubles can, and then on from there: none may meet the back of a face. Rays that are nearly parallel to faces are
-// left out; they pass edges within rounding for a long way. One in 100,000 may be wrong: rounding of double leaves so much where
-// several edges cross within 1e-10.
+// left out; they pass edges within rounding for a long way. Where several edges cross within 1e-10, rounding of double leaves one
+// wrong in 3·10⁵: more than one here, in any of the places, once in 100 seeds.
 TEST(CloseSurfaces, AreMetFromOutsideWhereRaysAreAimedAtEdges) {
     constexpr double beside[] = {0.0, 0.0, 1e-6, -1e-6, 1e-9, -1e-9};
     const auto grazes = [](const Vec3& w) { return std::min({std::abs(w.x), std::abs(w.y), std::abs(w.z)}) < 1e-3; };
@@ -299,7 +299,7 @@ TEST(CloseSurfaces, AreMetFromOutsideWhereRaysAreAimedAtEdges) {
         const auto turned = [&](const Vec3& w) { return glm::dmat3(place.to_world) * w; };
         const double rounding = 0x1p-52 * (1.0 + glm::length(Vec3(place.to_world[3])));
         int aimed = 0, arrived = 0, rays = 0, wrong = 0;
-        for (std::uint64_t room = 0; room < 1000; ++room) {
+        for (std::uint64_t room = 0; room < 200; ++room) {
             random.start(room);
             std::vector<Corners> boxes(5);
             std::vector<TriangleMesh> meshes;
@@ -356,7 +356,7 @@ TEST(CloseSurfaces, AreMetFromOutsideWhereRaysAreAimedAtEdges) {
                         wrong += is_wrong(hit, turned(on), next);
             }
         }
-        EXPECT_LE(wrong, rays / 100'000) << place.name << ", of " << rays;
+        EXPECT_LE(wrong, 1) << place.name << ", of " << rays;
         EXPECT_GT(arrived, aimed / 10) << place.name << ", of " << aimed;
     }
 }
@@ -377,7 +377,7 @@ TEST(CloseSurfaces, AreMetFromOutsideWhereRaysAreAimedAtRims) {
         const Geometry geometry({tube, disk(1e-9, -1.0), disk(1.0 + 1e-9, 1.0), transformed(hall, place.to_world)});
         const double rounding = 0x1p-52 * (1.0 + glm::length(Vec3(place.to_world[3])));
         int rays = 0, wrong = 0, met = 0;
-        for (int i = 0; i < 200'000; ++i) {
+        for (int i = 0; i < 50'000; ++i) {
             const double angle = 2.0 * pi * random.next(), aside = std::pow(10.0, -8.0 * random.next());
             const Vec3 rim(0.5 * std::cos(angle), 0.5 * std::sin(angle), 1e-9);
             SurfacePoint from, hit;
