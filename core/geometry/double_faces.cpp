@@ -23,14 +23,9 @@ Cylindrical in_cylinder(const Cylinder& c, const Vec3& p) {
     return {along, f - c.axis * along};
 }
 
-// Coordinates (a, b) of p = center + a·u + b·v + …·normal, and √(a² + b²).
-Vec2 in_disk(const Disk& d, const Vec3& p) {
-    const Vec3 f = p - d.center;
-    const double uu = glm::dot(d.u, d.u), uv = glm::dot(d.u, d.v), vv = glm::dot(d.v, d.v), gram = uu * vv - uv * uv;
-    return {glm::dot(f, (d.u * vv - d.v * uv) / gram), glm::dot(f, (d.v * uu - d.u * uv) / gram)};
-}
+// √(a² + b²) for p = center + a·u + b·v + …·normal.
 double radius_in_disk(const Disk& d, const Vec3& p) {
-    const Vec2 at = in_disk(d, p);
+    const Vec2 at = d.coordinates(p);
     return std::hypot(at.x, at.y);
 }
 double least_half_axis(const Disk& d) { return glm::length(glm::cross(d.u, d.v)) / std::hypot(glm::length(d.u), glm::length(d.v)); }
@@ -55,26 +50,27 @@ Passing pass(const Vec3& p, const Vec3& direction, const Vec3& on_edge, const Ve
 // How the ray from p that meets the plane or surface of a face at `distance` passes the edges of the face.
 class Passings {
 public:
-    Passings(const std::array<Vec3, 3>& v, const Vec3& p, const Vec3& direction, double distance)
-        : rounding_(double_rounding(p, largest_component(v[0]) + distance)) {
+    Passings(const std::array<Vec3, 3>& v, const Vec3& p, const Vec3& direction, double distance) {
+        const double rounding = double_rounding(p, largest_component(v[0]) + distance);
         for (int i = 0; i < 3; ++i) {
             const Vec3 &a = v[i], &b = v[(i + 1) % 3], &c = v[(i + 2) % 3];
-            add(pass(p, direction, a, b - a, c, rounding_));
+            add(pass(p, direction, a, b - a, c, rounding));
         }
     }
-    Passings(const Disk& disk, const Vec3& p, const Vec3& direction, double distance)
-        : rounding_(double_rounding(p, largest_component(disk.center) + glm::length(disk.u) + glm::length(disk.v) + distance)) {
-        const Vec2 at = in_disk(disk, p + direction * distance);
+    Passings(const Disk& disk, const Vec3& p, const Vec3& direction, double distance) {
+        const double rounding =
+            double_rounding(p, largest_component(disk.center) + glm::length(disk.u) + glm::length(disk.v) + distance);
+        const Vec2 at = disk.coordinates(p + direction * distance);
         const double angle = std::atan2(at.y, at.x), cosine = std::cos(angle), sine = std::sin(angle);
         add(pass(p, direction, disk.center + disk.u * cosine + disk.v * sine, disk.v * cosine - disk.u * sine, disk.center,
-                 rounding_));
+                 rounding));
     }
-    Passings(const Cylinder& cylinder, const Vec3& p, const Vec3& direction, double distance)
-        : rounding_(double_rounding(p, largest_component(cylinder.base) + cylinder.length + distance)) {
+    Passings(const Cylinder& cylinder, const Vec3& p, const Vec3& direction, double distance) {
+        const double rounding = double_rounding(p, largest_component(cylinder.base) + cylinder.length + distance);
         const Vec3 center = cylinder.center(), across = in_cylinder(cylinder, p + direction * distance).across;
         for (const double end : {0.0, cylinder.length})
             add(pass(p, direction, cylinder.base + cylinder.axis * end + across, glm::cross(cylinder.axis, across), center + across,
-                     rounding_));
+                     rounding));
     }
 
     const Passing* begin() const { return edges_.data(); }
@@ -86,7 +82,6 @@ public:
 private:
     void add(const Passing& passing) { edges_[size_++] = passing; }
 
-    double rounding_;
     std::array<Passing, 3> edges_;
     std::size_t size_ = 0;
 };

@@ -52,12 +52,11 @@ Vec2 coordinates(const Sphere& s, const Vec3& position) {
 double area(const Sphere& s) { return s.radius > 0.0 ? 4.0 * pi * s.radius * s.radius : 0.0; }
 
 RoundPoint put(const Disk& d, const Vec3& position, double error) {
-    const Vec3 from_center = position - d.center;
+    const Vec2 at = d.coordinates(position);
+    const double radius = std::sqrt(at.x * at.x + at.y * at.y);  // 1 at the rim
     const double uu = glm::dot(d.u, d.u), uv = glm::dot(d.u, d.v), vv = glm::dot(d.v, d.v), gram = uu * vv - uv * uv;
-    const double a = glm::dot(from_center, (d.u * vv - d.v * uv) / gram), b = glm::dot(from_center, (d.v * uu - d.u * uv) / gram);
-    const double radius = std::sqrt(a * a + b * b);  // 1 at the rim
     const double most = 1.0 - std::min(error * std::sqrt(std::max(uu, vv) / gram), 0.5);
-    return {radius > most ? d.center + from_center * (most / radius) : position, d.normal};
+    return {radius > most ? d.center + (position - d.center) * (most / radius) : position, d.normal};
 }
 
 RoundPoint hit(const Disk& d, const Vec3& origin, const Vec3& direction, double, double error) {

@@ -44,6 +44,13 @@ struct Sphere {
 struct Disk {
     Vec3 center{0.0}, u{1.0, 0.0, 0.0}, v{0.0, 1.0, 0.0};
     Vec3 normal{0.0, 0.0, 1.0};
+
+    // The a and b of a point in its plane, or of the point below p.
+    Vec2 coordinates(const Vec3& p) const {
+        const Vec3 f = p - center;
+        const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), gram = uu * vv - uv * uv;
+        return {glm::dot(f, (u * vv - v * uv) / gram), glm::dot(f, (v * uu - u * uv) / gram)};
+    }
 };
 
 // The lateral surface around base + s·axis, 0 ≤ s ≤ length, open at both ends. Front side: outside, or inside when flipped.
