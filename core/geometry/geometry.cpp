@@ -271,16 +271,18 @@ bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
 bool Geometry::visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const {
     const Vec3 d = y.position - x.position;
     std::vector<Face> faces = giants_;
-    for (const SurfacePoint* end : {&x, &y}) {
-        if (!end->close) continue;
-        const std::vector<Face> around = neighbours_->around(*end);
-        faces.insert(faces.end(), around.begin(), around.end());
-    }
+    // Where one end is close, a displaced other end would tilt the ray past what is close to the first.
+    const bool exact = x.close || y.close;
+    if (exact)
+        for (const SurfacePoint* end : {&x, &y}) {
+            const std::vector<Face> around = neighbours_->around(*end);
+            faces.insert(faces.end(), around.begin(), around.end());
+        }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     if (neighbours_->any_between(faces, x, y)) return false;
-    const Vec3 begin = x.close ? x.position : leave(x, glm::dot(x.normal, d)),
-               end = y.close ? y.position : leave(y, -glm::dot(y.normal, d));
+    const Vec3 begin = exact ? x.position : leave(x, glm::dot(x.normal, d)),
+               end = exact ? y.position : leave(y, -glm::dot(y.normal, d));
     const double length = glm::length(end - begin);
     const Vec3 direction = (end - begin) / length;
     const auto part = neighbours_->giants().near_rest(begin, direction, length);
