@@ -63,7 +63,7 @@ std::unique_ptr<Job> start_camera(const std::shared_ptr<Patched>& patched, std::
     return std::make_unique<Job>(0, [patched, samples, seed](Job& job) -> Job::Finish {
         job.tell("looking through the camera");
         const PatchScene& scene = *patched->scene;
-        check_camera(scene.scene(), scene.system().space());
+        check_camera(scene.scene());
         const auto matrix = std::make_shared<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
             camera_matrix(scene.scene(), scene.system().space(), samples, seed));
         return [matrix] { return py::cast(*matrix); };

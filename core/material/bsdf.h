@@ -20,6 +20,7 @@
 #include "core/material/rough_plastic.h"
 #include "core/material/thin_dielectric.h"
 
+#include <optional>
 #include <variant>
 
 namespace neumann {
@@ -89,6 +90,19 @@ inline double refractive_ratio(const Bsdf& bsdf) {
 }
 inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);
+}
+
+// For a material that sends light in two directions at most, among which sample() chooses by the first number: the probability of
+// the first one, which numbers below it choose.
+inline std::optional<double> choice(const Bsdf& bsdf, const Vec3& wo) {
+    return std::visit(
+        [&](const auto& b) -> std::optional<double> {
+            if constexpr (requires { b.choice(wo); })
+                return b.choice(wo);
+            else
+                return std::nullopt;
+        },
+        bsdf);
 }
 
 // True if the material conserves energy, up to its largest albedo, and is reciprocal; false if it guarantees neither.

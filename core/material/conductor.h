@@ -22,6 +22,7 @@ public:
         if (wo.z <= 0.0) return {};
         return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p) * fresnel_(wo.z), delta_pdf};
     }
+    double choice(const Vec3&) const { return 1.0; }
     Rgb reflectance(const ShadingPoint& p) const { return reflectance_(p); }
     Conductor white() const { return Conductor(fresnel_); }
     // F reaches 1 at grazing angles.

@@ -26,10 +26,11 @@ public:
     // Reflected with the probability F, which is 1 beyond the critical angle.
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const {
         if (wo.z <= 0.0) return {};
-        if (u.x < conductor_fresnel(wo.z, eta_, 0.0)) return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p), delta_pdf};
+        if (u.x < choice(wo)) return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p), delta_pdf};
         const double cosine = std::sqrt((eta_ - 1.0) * (eta_ + 1.0) + wo.z * wo.z);
         return {Vec3(-wo.x, -wo.y, -cosine) / eta_, transmittance_(p) / (eta_ * eta_), delta_pdf, eta_};
     }
+    double choice(const Vec3& wo) const { return conductor_fresnel(wo.z, eta_, 0.0); }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const Dielectric& white() const { return *this; }
     Rgb largest_albedo() const { return glm::max(reflectance_.upper_bound(), transmittance_.upper_bound() / (eta_ * eta_)); }

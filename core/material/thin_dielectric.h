@@ -24,9 +24,12 @@ public:
     double pdf(const ShadingPoint&, const Vec3&, const Vec3&) const { return 0.0; }
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const {
         if (wo.z <= 0.0) return {};
-        const double F = conductor_fresnel(wo.z, eta_, 0.0);
-        if (u.x < 2.0 * F / (1.0 + F)) return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p), delta_pdf};
+        if (u.x < choice(wo)) return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p), delta_pdf};
         return {-wo, transmittance_(p), delta_pdf};
+    }
+    double choice(const Vec3& wo) const {
+        const double F = conductor_fresnel(wo.z, eta_, 0.0);
+        return 2.0 * F / (1.0 + F);
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const ThinDielectric& white() const { return *this; }

@@ -36,6 +36,26 @@ inline std::optional<CameraEdge> edge_to_lens(const Scene& scene, std::uint32_t 
     return edge;
 }
 
+// Calls each(pixel, weight) for the pixels of the crop whose filter covers a position on the film, row by row, where the weight is
+// not 0.
+template <class Each>
+void for_pixels_reached(const Film& film, const Vec2& position, const Each& each) {
+    const double reach = radius(film.filter);
+    const auto reached = [&](double x, int crop, int size) {
+        return std::pair(std::max(static_cast<int>(std::floor(x - reach)), crop),
+                         std::min(static_cast<int>(std::floor(x + reach)), crop + size - 1));
+    };
+    const auto [left, right] = reached(position.x, film.crop_x, film.crop_width);
+    const auto [top, bottom] = reached(position.y, film.crop_y, film.crop_height);
+    for (int y = top; y <= bottom; ++y) {
+        const double down = film.weight_down(position.y, y);
+        for (int x = left; down != 0.0 && x <= right; ++x) {
+            const double weight = down * film.weight_across(position.x, x);
+            if (weight != 0.0) each(static_cast<std::uint32_t>((y - film.crop_y) * film.crop_width + x - film.crop_x), weight);
+        }
+    }
+}
+
 // The edge from a vertex that reflects.
 template <class Sampler>
 CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalker& v, Sampler& sampler) {

@@ -14,11 +14,16 @@ namespace neumann {
 struct FacetRay {
     Vec2 point, direction;
 };
+// What a ray meets.
+struct Sight {
+    std::uint32_t unknown;    // PatchSpace::nothing() if there is none
+    const SurfacePoint* hit;  // null if it meets no surface
+    Vec3 w;                   // direction of the ray
+};
 // All rays of a facet, one for each Sobol' point, ordered so that neighbours have similar directions: Embree is faster then.
 std::vector<FacetRay> facet_rays(const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number);
 
-// Casts the rays and calls f(u, unknown) for each in order: u is the direction on its square, `unknown` is what it sees, or
-// PatchSpace::nothing().
+// Casts the rays and calls f(u, sight) for each in order; u is the direction on its square.
 template <class F>
 void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number, const F& f) {
     struct Departure {
@@ -46,7 +51,8 @@ void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::u
             n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(from[i].x, from[i].w); },
             [&](std::size_t i) -> SurfacePoint& { return hit[i]; });
         for (std::size_t i = 0; i < n; ++i)
-            f(rays[begin + i].direction, found >> i & 1u ? space.unknown(hit[i], -from[i].w) : space.nothing());
+            f(rays[begin + i].direction, found >> i & 1u ? Sight{space.unknown(hit[i], -from[i].w), &hit[i], from[i].w}
+                                                         : Sight{space.nothing(), nullptr, from[i].w});
     }
 }
 

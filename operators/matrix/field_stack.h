@@ -5,6 +5,7 @@
 #include "operators/matrix/patch_field.h"
 #include "operators/patches/patch_space.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace neumann {
@@ -28,6 +29,16 @@ public:
                 values_[u * stride_ + 3 * static_cast<std::size_t>(quantity) + static_cast<std::size_t>(c)] =
                     static_cast<float>(value[c]);
         }
+    }
+
+    // Subtracts a quantity of another stack on the same space.
+    void subtract(std::size_t quantity, const FieldStack& other) {
+        for (std::size_t i = 3 * quantity; i < values_.size(); i += stride_)
+            for (std::size_t c = 0; c < 3; ++c) values_[i + c] -= other.values_[i + c];
+    }
+
+    void set_to_zero(std::size_t quantity) {
+        for (std::size_t i = 3 * quantity; i < values_.size(); i += stride_) std::fill_n(values_.data() + i, 3, 0.0f);
     }
 
     // Replaces the values of a facet's unknowns by their mean.

@@ -88,16 +88,16 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
 }
 
 template <int C>
-ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed) {
+IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed) {
     const PatchSpace& space = R.space();
     IncidentVector<C> means = IncidentVector<C>::zero(space.size());
-    if (scene.emitters.empty()) return R(std::move(means));
+    if (scene.emitters.empty()) return means;
     const SobolPoints points(samples);
     const LightSampler lights(scene.geometry, scene.emitters);
     for_facets(space, [&](std::uint32_t f) {
         if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(lights, space, points, seed, f, means);
     });
-    return R(std::move(means));
+    return means;
 }
 
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
@@ -114,7 +114,7 @@ double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
 
 template ExitantVector<1> emitted_light<1>(const Scene&, const PatchSpace&);
 template ExitantVector<4> emitted_light<4>(const Scene&, const PatchSpace&);
-template ExitantVector<1> direct_light<1>(const Scene&, const ReflectionMatrix<1>&, std::uint32_t, std::uint64_t);
-template ExitantVector<4> direct_light<4>(const Scene&, const ReflectionMatrix<4>&, std::uint32_t, std::uint64_t);
+template IncidentVector<1> arriving_light<1>(const Scene&, const ReflectionMatrix<1>&, std::uint32_t, std::uint64_t);
+template IncidentVector<4> arriving_light<4>(const Scene&, const ReflectionMatrix<4>&, std::uint32_t, std::uint64_t);
 
 }  // namespace neumann

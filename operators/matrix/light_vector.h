@@ -10,10 +10,10 @@ namespace neumann {
 template <int C>
 ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space);
 
-// K Le = R (T Le). The means of T Le over the cells are estimated with `samples` pairs of a point on the facet and one on a light:
-// Σ Le V G / pdf / (projected solid angle of the cell).
+// T Le, the g in K Le = R g, where R is not 0. Its means over the cells are estimated with `samples` pairs of a point on the facet
+// and one on a light: Σ Le V G / pdf / (projected solid angle of the cell).
 template <int C>
-ExitantVector<C> direct_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed);
+IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed);
 
 // Expected number of a facet's rays that hit a light, if every point of the scene were hit with equal probability.
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays);

@@ -1,7 +1,6 @@
 #include "operators/matrix/ray_table.h"
 
 #include "core/base/hot.h"
-#include "operators/matrix/facet_rays.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <map>
@@ -12,19 +11,24 @@ namespace {
 
 // Fills the row of one facet.
 NEUMANN_HOT void trace_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
-                             std::uint32_t* row) {
-    const DirectionCells cells = space.facets()[number].cells;
+                             const std::function<void(const BlindRay&)>& on_blind_ray, std::uint32_t* row) {
+    const Facet& facet = space.facets()[number];
+    const DirectionCells cells = facet.cells;
     const std::uint32_t each = sobol.size() / cells.size();
     std::vector<std::uint32_t> filled(cells.size());
-    for_rays_of_facet(space, sobol, seed, number, [&](const Vec2& u, std::uint32_t unknown) {
-        const std::uint32_t cell = cells.cell_of_square(u);
-        row[cell * each + filled[cell]++] = unknown;
+    for_rays_of_facet(space, sobol, seed, number, [&](const Vec2& u, const Sight& sight) {
+        const std::uint32_t cell = cells.cell_of_square(u), place = cell * each + filled[cell]++;
+        row[place] = sight.unknown;
+        if (on_blind_ray && sight.hit && sight.unknown == space.nothing())
+            on_blind_ray({number, place, facet.first + cell, 1.0 / each, sight});
     });
 }
 
 }  // namespace
 
-RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch) : space_(&space) {
+RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
+                   const std::function<void(const BlindRay&)>& on_blind_ray)
+    : space_(&space) {
     std::map<std::uint32_t, SobolPoints> sobol;  // by number of rays
     first_.push_back(0);
     for (const Facet& facet : space.facets()) {
@@ -37,7 +41,7 @@ RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t se
                               [&](const auto& range) {
                                   if (watch.stop()) throw Stopped();
                                   for (std::uint32_t f = range.begin(); f < range.end(); ++f)
-                                      trace_facet(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f,
+                                      trace_facet(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f, on_blind_ray,
                                                   seen_.get() + first_[f]);
                               });
 }

@@ -4,20 +4,32 @@
 #pragma once
 
 #include "core/base/large_array.h"
+#include "operators/matrix/facet_rays.h"
 #include "operators/patches/patch_space.h"
 #include "operators/watch.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace neumann {
 
+// A ray that meets a surface without unknowns.
+struct BlindRay {
+    std::uint32_t facet, number;  // of the facet's rays
+    std::uint32_t from;           // the unknown in whose cell of directions the ray lies
+    double share;                 // of the ray in the mean over that cell
+    const Sight& sight;
+};
+
 class RayTable {
 public:
     // `rays`: per facet; a power of two. Facets with more cells of directions than that have one ray per cell. Keeps a reference to
-    // the space. Throws Stopped if `watch` stops it.
-    RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch = {});
+    // the space. `on_blind_ray` is called for the rays of a facet in order, and for those of other facets at the same time. Throws
+    // Stopped if `watch` stops it.
+    RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch = {},
+             const std::function<void(const BlindRay&)>& on_blind_ray = {});
     // The number of rays that such a table has in all.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 

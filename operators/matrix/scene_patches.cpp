@@ -17,13 +17,16 @@ namespace {
 constexpr std::uint32_t rays = 256;
 
 // Throws InputError unless the side `met` by a ray along w faces a medium of index 1. `what` names the ray's origin in the message.
-void check(const Scene& scene, const PatchSpace& space, const SurfacePoint& met, const Vec3& w, const std::string& what) {
-    const bool front = glm::dot(met.normal, w) < 0.0;
-    const std::uint32_t f = space.facet(space.patches().locate(met), front);
-    if (f == space.facets().size() || space.facets()[f].index == 1.0) return;
+void check(const Scene& scene, const SurfacePoint& met, const Vec3& w, const std::string& what) {
+    if (refractive_index(scene.materials.at(met.shape, glm::dot(met.normal, w) < 0.0)) == 1.0) return;
     const std::string why = what + " stands within glass, which patches do not hold; 'render --method walk' can";
     if (met.shape >= scene.origins.size()) throw InputError(why);
     throw InputError(scene.origins[met.shape].place, fmt::format("{}: in {}", why, scene.origins[met.shape].shape));
+}
+
+bool has_glass(const Scene& scene) {
+    const auto& bsdfs = scene.materials.bsdfs();
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return refractive_index(&b) > 1.0; });
 }
 
 }  // namespace
@@ -32,9 +35,9 @@ bool has_glass(const PatchSpace& space) {
     return std::any_of(space.facets().begin(), space.facets().end(), [](const Facet& f) { return f.index > 1.0; });
 }
 
-PatchSpace scene_patches(const Scene& scene, const Patching& patching) {
-    PatchSpace space(scene.geometry, patching, side_directions(scene));
-    if (scene.emitters.empty() || !has_glass(space)) return space;
+PatchSpace scene_patches(const Scene& scene, const Patching& patching, Glossy glossy) {
+    PatchSpace space(scene.geometry, patching, side_directions(scene, glossy));
+    if (scene.emitters.empty() || !has_glass(scene)) return space;
     const EmissionSampler lights(scene.geometry, scene.emitters);
     const SobolPoints points(rays);
     Sampler sampler(points, 0, 0);
@@ -46,13 +49,13 @@ PatchSpace scene_patches(const Scene& scene, const Patching& patching) {
         if (light.from.is_infinite()
                 ? scene.geometry.first_hit(light.from.position, light.w, std::numeric_limits<double>::infinity(), met)
                 : scene.geometry.first_hit(light.from, light.w, met))
-            check(scene, space, met, light.w, "a light");
+            check(scene, met, light.w, "a light");
     }
     return space;
 }
 
-void check_camera(const Scene& scene, const PatchSpace& space) {
-    if (!has_glass(space)) return;
+void check_camera(const Scene& scene) {
+    if (!has_glass(scene)) return;
     const SobolPoints points(rays);
     Sampler sampler(points, 0, 0);
     for (std::uint32_t i = 0; i < rays; ++i) {
@@ -64,8 +67,7 @@ void check_camera(const Scene& scene, const PatchSpace& space) {
                           film.crop_y + std::min(static_cast<int>(u.y * film.crop_height), film.crop_height - 1), sampler)
                 .ray;
         SurfacePoint met;
-        if (scene.geometry.first_hit(ray.origin, ray.direction, ray.length, met))
-            check(scene, space, met, ray.direction, "the camera");
+        if (scene.geometry.first_hit(ray.origin, ray.direction, ray.length, met)) check(scene, met, ray.direction, "the camera");
     }
 }
 

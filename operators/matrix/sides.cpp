@@ -26,44 +26,59 @@ bool passes_as_glass(const Bsdf& bsdf) {
     return !transmits(bsdf) || (is_lawful(bsdf) && !(mixes && refractive_ratio(bsdf) != 1.0));
 }
 
-// The refractive index of the medium that a side faces; 1 if that is the thinner one.
-double refractive_index(const Bsdf* bsdf) { return bsdf ? std::max(1.0, 1.0 / refractive_ratio(*bsdf)) : 1.0; }
-
 [[noreturn]] void refuse(const Scene& scene, std::uint32_t shape, const std::string& why) {
     if (shape >= scene.origins.size()) throw InputError(fmt::format("the material of shape {} {}", shape, why));
     const Origin& origin = scene.origins[shape];
     throw InputError(origin.place, fmt::format("{} of {} {}", origin.bsdf, origin.shape, why));
 }
 
-void check(const Scene& scene) {
-    for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
-        for (const bool front : {true, false}) {
-            const Bsdf* bsdf = scene.materials.at(shape, front);
-            if (!bsdf) continue;
-            if (!passes_as_glass(*bsdf))
-                refuse(scene, shape,
-                       "lets light through otherwise than glass does, which patches do not hold; 'render --method walk' can");
-            if (!factors(*bsdf))
-                refuse(scene, shape,
-                       "varies by more than a factor of its reflectance, which patches do not hold; 'render --method walk' can");
-            if (needs_coordinates(white(*bsdf)))
-                refuse(scene, shape, "is anisotropic, which patches do not hold; 'render --method walk' can");
-        }
+void check(const Scene& scene, std::uint32_t shape, const Bsdf& bsdf) {
+    if (!passes_as_glass(bsdf))
+        refuse(scene, shape, "lets light through otherwise than glass does, which patches do not hold; 'render --method walk' can");
+    if (!factors(bsdf))
+        refuse(scene, shape,
+               "varies by more than a factor of its reflectance, which patches do not hold; 'render --method walk' can");
+    if (needs_coordinates(white(bsdf)))
+        refuse(scene, shape, "is anisotropic, which patches do not hold; 'render --method walk' can");
 }
 
 }  // namespace
 
-std::vector<SideDirections> side_directions(const Scene& scene) {
-    check(scene);
+double refractive_index(const Bsdf* side) { return side ? std::max(1.0, 1.0 / refractive_ratio(*side)) : 1.0; }
+
+bool is_glossy(const Bsdf* side) { return side && lobe(*side).kind != Lobe::Kind::diffuse; }
+
+namespace {
+
+template <class Predicate>
+bool any_side(const Scene& scene, const Predicate& holds) {
+    for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
+        for (const bool front : {true, false})
+            if (const Bsdf* bsdf = scene.materials.at(shape, front); bsdf && holds(bsdf)) return true;
+    return false;
+}
+
+}  // namespace
+
+Glossy glossy_of_pictures(const Scene& scene) {
+    const bool some_go_on = any_side(scene, [](const Bsdf*bsdf) { return is_glossy(bsdf); }),
+               some_end = any_side(scene, [](const Bsdf*bsdf) { return !is_glossy(bsdf); });
+    return some_go_on && some_end ? Glossy::by_rays : Glossy::in_cells;
+}
+
+std::vector<SideDirections> side_directions(const Scene& scene, Glossy glossy) {
     std::vector<SideDirections> sides;
     const bool lit_from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights();
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {
         const bool emits = scene.emitters.is_emitter(shape);
         const Bsdf *front = scene.materials.at(shape, true), *back = scene.materials.at(shape, false);
-        sides.push_back({front   ? directions_of(*front)
-                         : emits ? 1u
-                                 : 0u,
-                         back ? directions_of(*back) : 0u, emits, lit_from_elsewhere, refractive_index(front),
+        const auto directions = [&](const Bsdf* bsdf, bool shines) -> std::uint32_t {
+            if (!bsdf) return shines ? 1 : 0;
+            if (glossy == Glossy::by_rays && !shines && is_glossy(bsdf)) return 0;
+            check(scene, shape, *bsdf);
+            return directions_of(*bsdf);
+        };
+        sides.push_back({directions(front, emits), directions(back, false), emits, lit_from_elsewhere, refractive_index(front),
                          refractive_index(back)});
     }
     return sides;

@@ -1,13 +1,16 @@
 #include "operators/matrix/traced_series.h"
 
 #include "operators/matrix/camera_vector.h"
+#include "operators/matrix/chains.h"
 #include "operators/matrix/light_vector.h"
+#include "operators/matrix/link_light.h"
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/transport_matrix.h"
-#include "operators/series/neumann_series.h"
 
+#include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -58,79 +61,184 @@ private:
     std::span<const std::uint32_t> around_;
 };
 
-// An operator that asks a Watch before every use whether to stop.
-template <Operator A>
-class Stoppable {
+// One of the two series. `product(field)` applies K to what field(m) points to: the field that rays see after m links (chains.h),
+// or null for 0. `lift` turns a term into a field on the finer patches, and `lower` turns such a field into a term.
+template <int C, class Product, class Lift, class Lower>
+class Terms {
 public:
-    using Domain = typename A::Domain;
-    using Range = typename A::Range;
+    using Term = ExitantVector<C>;
 
-    Stoppable(A a, const Watch& watch) : a_(std::move(a)), watch_(&watch) {}
-    Range operator()(const Domain& f) const {
-        if (watch_->stop()) throw Stopped();
-        return a_(f);
+    // The terms from `first` on. `links`: the most that a ray meets.
+    Terms(const Product& product, Lift lift, Lower lower, int links, Term first)
+        : product_(product),
+          lift_(std::move(lift)),
+          lower_(std::move(lower)),
+          links_(static_cast<std::size_t>(links)),
+          term_(std::move(first)) {
+        keep();
+    }
+
+    const Term& term() const { return term_; }
+    // The next term, f_{k+1} = R Σ_m T_m f_{k−m} + given.
+    void advance(const Term* given) {
+        term_ = lower_(product_([&](int m) { return past(static_cast<std::size_t>(m)); }));
+        if (given) term_ = std::move(term_) + *given;
+        keep();
+    }
+
+    // The sum of all later terms, S = K S + R Σ_m T_m Σ_{j≤m} f_{k−j} + given.
+    SeriesRest<C> rest(const Term* given) const {
+        const auto K = [&](const Term& f) {
+            const Term lifted = lift_(f);
+            return lower_(product_([&](int) { return &lifted; }));
+        };
+        if (links_ == 0 && !given) return rest_of_series<C>(K, term_);
+        std::vector<Term> sums{past_.front()};
+        for (std::size_t j = 1; j < past_.size(); ++j) sums.push_back(sums.back() + past_[j]);
+        Term begun = lower_(product_([&](int m) { return &sums[std::min(static_cast<std::size_t>(m), sums.size() - 1)]; }));
+        if (given) begun = std::move(begun) + *given;
+        SeriesRest<C> rest = rest_of_series<C>(K, begun);
+        rest.sum = std::move(rest.sum) + begun;
+        return rest;
     }
 
 private:
-    A a_;
-    const Watch* watch_;
+    void keep() {
+        past_.push_front(lift_(term_));
+        if (past_.size() > links_ + 1) past_.pop_back();
+    }
+    const Term* past(std::size_t m) const { return m < past_.size() ? &past_[m] : nullptr; }
+
+    const Product& product_;
+    Lift lift_;
+    Lower lower_;
+    std::size_t links_;
+    Term term_;
+    std::deque<Term> past_;  // lifted: f_k, f_{k−1}, …
 };
 
-// Le, K Le, K² Le, … and the rest; calls look(series, term) for each term. `direct`: a sampled b = K Le, which begins the series of
-// L − Le.
-template <int C, class Op, class Look>
-TracedSeries series_of(const Op& product, const ExitantVector<C>& Le, const std::optional<ExitantVector<C>>& direct,
+// What the lights give to a bounce without T: b = K Le in bounce 1, and light that comes by links (link_light.h) in later ones; the
+// last entry is for all bounces beyond N. Empty if all light comes by T.
+template <int C>
+using Given = std::vector<ExitantVector<C>>;
+
+// Le, K Le, K² Le, … and the rest; calls look(k, term) for each term.
+template <int C, class Product, class Look>
+TracedSeries series_of(const Product& product, int links, const ExitantVector<C>& Le, const Given<C>& given,
                        const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings, const Watch& watch,
                        const Look& look) {
     const std::vector<std::uint32_t> around = space.coarser_of_each(coarser);
     const CoarseMeans<C> M(space, coarser, around);
-    const Stoppable K(product, watch);
-    const auto K_coarse = M * K * Prolongation<C>(space, around);
-
-    const int N = settings.bounces, first = direct ? 1 : 0;
-    TracedSeries series{FieldStack(space, N), FieldStack(coarser, N)};
-    const auto keep = [&](int i, const ExitantVector<C>& term, const ExitantVector<C>& coarse_term) {
-        series.fine.set<C>(i, term);
-        series.coarse.set<C>(i, coarse_term);
-        look(series, term);
+    const Prolongation<C> P(space, around);
+    const auto K = [&](const auto& field) {
+        if (watch.stop()) throw Stopped();
+        return product(field);
     };
-    if (direct) keep(0, Le, M(Le));
-    NeumannSeries terms(K, direct ? *direct : Le);
-    NeumannSeries coarse_terms(K_coarse, M(terms.term()));
+    const int N = settings.bounces;
+    TracedSeries series{FieldStack(space, N), FieldStack(coarser, N)};
+    if (given.size() > 2) {
+        series.fine_by_links.emplace(space, N);
+        series.coarse_by_links.emplace(coarser, N);
+    }
+    const auto same = [](ExitantVector<C> f) { return f; };
+    // Of a bounce, without b.
+    const auto by_links = [&](int i) -> const ExitantVector<C>* {
+        return i > 1 && given.size() > 2 ? &given[static_cast<std::size_t>(i)] : nullptr;
+    };
+    const auto coarse_by_links = [&](int i) {
+        const ExitantVector<C>* light = by_links(i);
+        if (!light) return std::optional<ExitantVector<C>>();
+        std::optional coarse(M(*light));
+        series.fine_by_links->set<C>(i, *light);
+        series.coarse_by_links->set<C>(i, *coarse);
+        return coarse;
+    };
+    const auto pointer = [](const auto& optional) { return optional ? &*optional : nullptr; };
+
+    const int first = given.empty() ? 0 : 1;
+    if (first == 1) {
+        series.fine.set<C>(0, Le);
+        series.coarse.set<C>(0, M(Le));
+        look(0, Le);
+    }
+    const ExitantVector<C>& begin = first == 1 ? given[1] : Le;
+    Terms<C, decltype(K), decltype(same), decltype(same)> terms(K, same, same, links, begin);
+    Terms<C, decltype(K), Prolongation<C>, CoarseMeans<C>> coarse_terms(K, P, M, links, M(begin));
     for (int i = first; i <= N; ++i) {
+        const auto coarse_light = coarse_by_links(i);
         if (i > first) {
-            terms.advance();
-            coarse_terms.advance();
+            terms.advance(by_links(i));
+            coarse_terms.advance(pointer(coarse_light));
         }
-        keep(i, terms.term(), coarse_terms.term());
+        series.fine.set<C>(i, terms.term());
+        series.coarse.set<C>(i, coarse_terms.term());
+        look(i, terms.term());
     }
     if (!settings.rest) return series;
-    const auto rest_after = [&](const auto& op, const ExitantVector<C>& term) {
-        auto rest = rest_of_series<C>(op, term);
-        if (first > N) rest.sum = rest.sum + term;  // b itself has no picture
+    const auto rest_after = [&](const auto& last, const ExitantVector<C>* light) {
+        SeriesRest<C> rest = last.rest(light);
+        if (first > N) rest.sum = rest.sum + last.term();  // b itself has no picture
         return rest;
     };
-    const SeriesRest<C> rest = rest_after(K, terms.term());
+    const auto coarse_light = coarse_by_links(N + 1);
+    const SeriesRest<C> rest = rest_after(terms, by_links(N + 1));
     series.fine.set<C>(N + 1, rest.sum);
     series.rest_converges = rest.converges;
-    if (rest.converges) series.coarse.set<C>(N + 1, rest_after(K_coarse, coarse_terms.term()).sum);
+    if (rest.converges) series.coarse.set<C>(N + 1, rest_after(coarse_terms, pointer(coarse_light)).sum);
     return series;
 }
 
 template <int C>
 TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                          const TracedSeriesSettings& settings, const Watch& watch) {
-    const RayTable table(space, settings.rays, settings.seed, watch);
+    Chains chains(scene, space, settings.rays, settings.seed, settings.bounces);
+    std::function<void(const BlindRay&)> go_on;
+    if (settings.glossy == Glossy::by_rays) go_on = [&](const BlindRay& ray) { chains.follow(ray); };
+    const RayTable table(space, settings.rays, settings.seed, watch, go_on);
+    chains.finish();
     const ReflectionMatrix<C> R(scene.materials, space);
-    const bool sample_lights = rays_that_meet_lights(scene, settings.rays) < enough_rays;
-    std::optional<ExitantVector<C>> direct;
-    if (sample_lights) direct = direct_light<C>(scene, R, settings.light_samples, settings.seed);
-    const PowerBalance<C> balance(table, R);
-    TracedSeries series =
-        series_of<C>(R * TransportMatrix<C>(table), emitted_light<C>(scene, space), direct, space, coarser, settings, watch,
-                     [&](TracedSeries& s, const ExitantVector<C>& term) { s.power.push_back(balance.of(term)); });
-    if (sample_lights) series.light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
-    series.rays = table.seen().size() + series.light_rays;
+    const TransportMatrix<C> T(table);
+    const PowerBalance<C> balance(table, R, chains);
+    const ExitantVector<C> Le = emitted_light<C>(scene, space);
+    std::vector<PowerOfTerm> power(static_cast<std::size_t>(settings.bounces) + 1);
+    std::uint64_t light_rays = 0, link_rays = 0;
+    Given<C> given;
+    // Of lights that are not surfaces, only what arrives is known.
+    const bool from_afar = scene.emitters.has_environment() || scene.emitters.has_delta_lights();
+    const auto arrives = [&](std::size_t k, const IncidentVector<C>& means) {
+        if (from_afar) power[k - 1] += balance.arriving(means);
+    };
+    if (rays_that_meet_lights(scene, settings.rays) < enough_rays) {
+        IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed);
+        light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
+        given.resize(2, ExitantVector<C>::zero(0));
+        if (settings.glossy == Glossy::by_rays) {
+            ArrivingByLinks<C> by_links =
+                arriving_by_links<C>(scene, space, static_cast<double>(table.seen().size()), settings.seed, settings.bounces);
+            for (std::size_t k = 2; k < by_links.radiance.size(); ++k) {
+                arrives(k, by_links.radiance[k]);
+                given.push_back(R(std::move(by_links.radiance[k])));
+            }
+            if (settings.bounces == 0) arriving = std::move(arriving) + by_links.radiance[1];
+            for (std::size_t k = 0; from_afar && k < power.size(); ++k) power[k] += by_links.power[k];
+            link_rays = by_links.rays;
+        }
+        arrives(1, arriving);
+        given[1] = R(std::move(arriving));
+        power[0].emitted = power[0].caught;
+    }
+    const auto product = [&](const auto& field) {
+        IncidentVector<C> means = T(*field(0));
+        chains.add<C>(field, means);
+        return R(std::move(means));
+    };
+    TracedSeries series = series_of<C>(product, chains.longest(), Le, given, space, coarser, settings, watch,
+                                       [&](int k, const ExitantVector<C>& term) {
+                                           if (k > 0 || !from_afar) balance.add(static_cast<std::size_t>(k), term, power);
+                                       });
+    series.power = std::move(power);
+    series.light_rays = light_rays;
+    series.rays = table.seen().size() + chains.rays() + light_rays + link_rays;
     return series;
 }
 
@@ -139,9 +247,10 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
                            const TracedSeriesSettings& settings, const Watch& watch) {
     const RayTable table(space, settings.rays, settings.seed, watch);
     const ReflectionMatrix<C> R(scene.materials, space);
-    TracedSeries series = series_of<C>(adjoint(R * TransportMatrix<C>(table)),
+    const auto K = adjoint(R * TransportMatrix<C>(table));
+    TracedSeries series = series_of<C>([&](const auto& field) { return K(*field(0)); }, 0,
                                        camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space,
-                                       coarser, settings, watch, [](TracedSeries&, const ExitantVector<C>&) {});
+                                       coarser, settings, watch, [](int, const ExitantVector<C>&) {});
     series.fine.average_over_directions();
     series.coarse.average_over_directions();
     series.rays = table.seen().size() + std::uint64_t{settings.camera_samples} * static_cast<std::uint64_t>(scene.film.crop_width) *

@@ -7,9 +7,11 @@
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
 #include "operators/matrix/power_balance.h"
+#include "operators/matrix/sides.h"
 #include "operators/watch.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace neumann {
@@ -20,11 +22,14 @@ struct TracedSeriesSettings {
     std::uint32_t light_samples = 16;  // per facet; a power of two
     std::uint64_t seed = 0;
     bool rest = true;                  // also compute Σ_{k>N}
+    Glossy glossy = Glossy::in_cells;  // as the space was made
     std::uint32_t camera_samples = 2;  // per pixel, for We; a power of two
 };
 
 struct TracedSeries {
     FieldStack fine, coarse;
+    // Part of these: what was reflected once after it came from the lights by links (link_light.h), where that is not from T.
+    std::optional<FieldStack> fine_by_links = {}, coarse_by_links = {};
     std::uint64_t rays = 0;        // number of rays cast
     std::uint64_t light_rays = 0;  // part of `rays`, cast for b
     bool rest_converges = false;

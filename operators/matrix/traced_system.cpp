@@ -45,7 +45,7 @@ void TracedSystem::fill() {
     for (int c = 0; c < channels; ++c) R_.push_back(R.channel(c));
     emitted_ = emitted_light<C>(*scene_, space_).values().topLeftCorner(channels, n).matrix();
     if (samples_lights_) {
-        direct_ = direct_light<C>(*scene_, R, settings_.rays, settings_.seed).values().topLeftCorner(channels, n).matrix();
+        direct_ = R(arriving_light<C>(*scene_, R, settings_.rays, settings_.seed)).values().topLeftCorner(channels, n).matrix();
         return;
     }
     direct_.resize(channels, n);

@@ -1,7 +1,7 @@
 #include "operators/pictures/energy_balance.h"
 
 #include "core/sampling/warp.h"
-#include "operators/bidirectional/adjoint_reflection.h"
+#include "operators/pointwise/adjoint_reflection.h"
 #include "operators/statistics/student_t.h"
 
 #include <algorithm>

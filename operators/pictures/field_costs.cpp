@@ -31,6 +31,7 @@ void FieldCosts::add(const FieldSettings& settings, const FieldPictures& picture
     sides_ = pictures.sides;
     patches_ = pictures.patches;
     unknowns_ = pictures.unknowns;
+    has_links_ = pictures.has_links;
     asked_ = settings.patching.patches;
     fields_.add(table(settings), pictures.field_seconds);
     pictures_.add(settings.samples, pictures.picture_seconds);
@@ -39,7 +40,7 @@ void FieldCosts::add(const FieldSettings& settings, const FieldPictures& picture
 
 FieldCost FieldCosts::predict(const FieldSettings& settings) const {
     const FieldSizes sizes{static_cast<double>(patches_) * scale(settings), static_cast<double>(unknowns_) * scale(settings),
-                           table(settings)};
+                           table(settings), has_links_};
     return {fields_.at(table(settings)) + pictures_.at(settings.samples) + other_,
             bytes_of_fields(settings, sizes) + 2.0 * bytes_of_pictures(settings, *film_)};
 }

@@ -34,6 +34,7 @@ private:
     const Film* film_;
     std::map<std::uint32_t, std::size_t> sides_;
     std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;  // of the last render; `asked_`: the number of patches in its settings
+    bool has_links_ = false;
     Line fields_, pictures_;
     double other_ = 0.0;
 };

@@ -9,10 +9,12 @@ namespace neumann {
 
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
     // Importance also needs T* and R* of four channels.
-    const double bytes_of_ray = settings.reading == FieldReading::importance ? 48.0 : 4.0;
+    // A ray that goes on by links (operators/matrix/chains.h) takes 60 with its links; half of them is a room of mirrors.
+    const double bytes_of_ray = settings.reading == FieldReading::importance ? 48.0 : sizes.has_links ? 34.0 : 4.0;
     // About ten vectors of four channels while a series is computed; then three floats per quantity, and a quarter of that for the
-    // coarser patches.
-    const double bytes_of_unknown = 320.0 + 15.0 * settings.replicates * (settings.bounces + 2.0);
+    // coarser patches; and three times as many for light that comes by links.
+    const double stacks = sizes.has_links ? 45.0 : 15.0;
+    const double bytes_of_unknown = 320.0 + stacks * settings.replicates * (settings.bounces + 2.0);
     return 300.0 * sizes.patches + bytes_of_ray * sizes.rays + bytes_of_unknown * sizes.unknowns;
 }
 

@@ -7,6 +7,7 @@ namespace neumann {
 
 struct FieldSizes {
     double patches = 0.0, unknowns = 0.0, rays = 0.0;  // `rays`: rays of T in one replicate
+    bool has_links = false;                            // some rays of T go on by links
 };
 
 // Bytes of the fields: patches, T, the fields of all replicates and work space. Bytes of the pictures: the values of all

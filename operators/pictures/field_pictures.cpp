@@ -6,6 +6,7 @@
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/pictures/field_memory.h"
+#include "operators/pictures/link_pictures.h"
 #include "operators/plan/half_spaces.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -28,6 +29,33 @@ struct Workspace {
     std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
     std::array<std::uint64_t, 3> rays{};
 };
+
+// How much finer and coarser patches differ in the light of a bounce that comes by links, relative to it.
+struct Blur {
+    double with_noise = 0.0, without = 0.0;
+};
+Blur blur(const std::vector<TracedSeries>& replicates, std::size_t quantity) {
+    const PatchSpace &fine = replicates.front().fine_by_links->space(), &coarse = replicates.front().coarse_by_links->space();
+    const std::vector<std::uint32_t> around = fine.coarser_of_each(coarse);
+    const auto n = static_cast<double>(replicates.size());
+    double differences = 0.0, noise = 0.0, all = 0.0;
+    for (std::uint32_t u = 0; u < fine.size(); ++u)
+        for (std::size_t c = 3 * quantity; c < 3 * quantity + 3; ++c) {
+            double value = 0.0, difference = 0.0, squares = 0.0;
+            for (const TracedSeries& series : replicates) {
+                const double here = (*series.fine_by_links)[u][c], d = here - (*series.coarse_by_links)[around[u]][c];
+                value += here / n;
+                difference += d / n;
+                squares += d * d / n;
+            }
+            const double measure = fine.measure(fine.facets()[fine.facet_of(u)]);
+            differences += measure * difference * difference;
+            noise += measure * (squares - difference * difference) / (n - 1.0);
+            all += measure * value * value;
+        }
+    if (!(all > 0.0)) return {};
+    return {std::sqrt(differences / all), n > 1.0 ? std::sqrt(std::max(differences - noise, 0.0) / all) : 0.0};
+}
 
 EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
     std::vector<std::vector<EnergyShares>> all;
@@ -82,6 +110,37 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
         }
     });
     return result;
+}
+
+void FieldPictures::set_replicate(std::uint32_t replicate, std::span<const Rgb> picture) {
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        float* const to = values(i / quantities_) + 3 * (quantities_ * replicate + i % quantities_);
+        for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(picture[i][c]);
+    }
+}
+
+double FieldPictures::relative_noise(std::size_t quantity) const {
+    const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    const double n = replicates_;
+    double errors = 0.0, means = 0.0;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+        for (std::size_t c = 0; c < 3; ++c) {
+            double sum = 0.0, squares = 0.0;
+            for (std::size_t r = 0; r < replicates_; ++r) {
+                const double x = values_[pixel * stride_ + 3 * (quantities_ * r + quantity) + c];
+                sum += x;
+                squares += x * x;
+            }
+            errors += (squares - sum * sum / n) / (n * (n - 1.0));
+            means += sum * sum / (n * n);
+        }
+    return means > 0.0 && n > 1.0 ? std::sqrt(errors / means) : std::numeric_limits<double>::infinity();
+}
+
+void FieldPictures::set_to_zero(std::size_t quantity) {
+    const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+        for (std::size_t r = 0; r < replicates_; ++r) std::fill_n(values(pixel) + 3 * (quantities_ * r + quantity), 3, 0.0f);
 }
 
 void FieldPictures::find_means(std::size_t begin, std::size_t end) {
@@ -139,13 +198,16 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     const Stopwatch field_watch;
     const auto asked = static_cast<double>(settings.patching.patches);
     check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
-    const PatchSpace space = scene_patches(scene, settings.patching), coarser = space.coarser();
-    check_camera(scene, space);
+    const Glossy glossy = shows_patches(settings.reading) ? Glossy::in_cells : glossy_of_pictures(scene);
+    const PatchSpace space = scene_patches(scene, settings.patching, glossy), coarser = space.coarser();
+    check_camera(scene);
     const auto patches = static_cast<double>(space.patches().size());
     const auto table_rays = static_cast<double>(RayTable::size(space, settings.rays));
     const double n_replicates = settings.replicates;
-    check_field_memory(settings, scene.film, {patches, static_cast<double>(space.size()), table_rays});
+    const bool has_links = glossy == Glossy::by_rays;
+    check_field_memory(settings, scene.film, {patches, static_cast<double>(space.size()), table_rays, has_links});
     FieldPictures result(scene.film, settings);
+    result.has_links = has_links;
     result.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
     const std::size_t later = std::min<std::size_t>(2, result.rays.size() - 1);
     std::vector<TracedSeries> series;
@@ -155,7 +217,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
         try {
             series.push_back(trace(scene, space, coarser,
                                    {settings.bounces, settings.rays, settings.light_samples, settings.seed * 0x10001 + r,
-                                    settings.rest, settings.samples},
+                                    settings.rest, glossy, settings.samples},
                                    watch));
         } catch (const Stopped&) {
             return std::nullopt;
@@ -183,8 +245,32 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     result.set_resolution(RayResolution(series, counts));
 
     const Stopwatch picture_watch;
-    const int width = scene.film.crop_width, height = scene.film.crop_height;
-    const auto pixels = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
+    const auto pixels = static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height);
+    std::vector<LinkFields> by_links;
+    if (series.front().fine_by_links && shows_links(scene)) {
+        const double rays = std::max(table_rays, static_cast<double>(pixels) * settings.samples);
+        for (std::uint32_t r = 0; r < settings.replicates; ++r) try {
+                LinkPictures links = picture_links(scene, space, rays, settings.seed * 0x10001 + r, settings.bounces, watch);
+                result.rays[later] += links.rays;
+                result.set_replicate(r, links.picture);
+                by_links.emplace_back(series[r], std::move(links.raster));
+            } catch (const Stopped&) {
+                return std::nullopt;
+            }
+        // Patches blur; points and the raster are noisy: each bounce is shown by what errs less.
+        // A cell of the raster has a quarter of enough_ends at least.
+        const double noise_of_raster = 2.0 / std::sqrt(0.25 * static_cast<double>(LinkRaster::enough_ends) * settings.replicates);
+        for (std::size_t k = 2; k < result.quantities(); ++k) {
+            const Blur of_patches = blur(series, k);
+            const bool by_points = result.relative_noise(k) < of_patches.with_noise;
+            if (!by_points) result.set_to_zero(k);
+            for (std::uint32_t r = 0; r < settings.replicates; ++r) {
+                if (by_points) by_links[r].show_as_points(k, series[r]);
+                if (of_patches.without < noise_of_raster) by_links[r].read_from_fields(k);
+            }
+        }
+    }
+    const int width = scene.film.crop_width;
     const std::size_t stride = 3 * result.quantities(), all = stride * settings.replicates;
     const SobolPoints sobol(settings.samples), gather_sobol(settings.samples * settings.gather_rays);
     // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With gather all
@@ -223,7 +309,8 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
                                         difference_weight, &sampler, &work.gather_samplers[offset],
                                         sample_number * settings.gather_rays});
             }
-            const auto rays = reader.read({series[r].fine, series[r].coarse}, work.samples);
+            const TracedSeries& s = series[r];
+            const auto rays = reader.read({s.fine, s.coarse, by_links.empty() ? nullptr : &by_links[r]}, work.samples);
             for (std::size_t k = 0; k < 3; ++k) work.rays[k] += rays[k];
         }
         const float scale = 1.0f / static_cast<float>(settings.samples);
@@ -232,7 +319,7 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
             const float *found = work.values.data() + (pixel - begin) * all,
                         *difference = work.difference.data() + (pixel - begin) * stride;
             float* const values = result.values(pixel);
-            for (std::size_t k = 0; k < all; ++k) values[k] = found[k] * scale;
+            for (std::size_t k = 0; k < all; ++k) values[k] = (by_links.empty() ? 0.0f : values[k]) + found[k] * scale;
             std::copy_n(difference, stride, values + all);
             for (std::size_t q = 0; q < sums_of_group / each; ++q) {
                 for (std::size_t c = 0; c < 3; ++c) group_sums[each * q + c] += double{values[3 * q + c]};

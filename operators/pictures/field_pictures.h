@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace neumann {
@@ -66,6 +67,7 @@ public:
     std::vector<std::uint64_t> rays;  // cast for each bounce and the rest; rays for all of them are counted for bounce 2, or for
                                       // the rest if N < 2
     std::size_t patches = 0, unknowns = 0;
+    bool has_links = false;                      // rays of T may go on by links
     std::map<std::uint32_t, std::size_t> sides;  // number of sides of patches by their number of cells of directions
     std::uint64_t samples = 0;                   // camera samples per pixel
     double field_seconds = 0.0, picture_seconds = 0.0;
@@ -73,6 +75,11 @@ public:
     // For the code that fills in the values: a pixel has three floats per quantity, replicate by replicate, and then the mean
     // difference to the values from coarser patches.
     float* values(std::size_t pixel) { return values_.get() + pixel * stride_; }
+    // Sets a replicate's values, all quantities of each pixel.
+    void set_replicate(std::uint32_t replicate, std::span<const Rgb> picture);
+    // Of what is set so far: √(Σ SE² / Σ mean²) of a quantity, over all pixels.
+    double relative_noise(std::size_t quantity) const;
+    void set_to_zero(std::size_t quantity);
     // Call when the values of pixels [begin, end) are complete.
     void find_means(std::size_t begin, std::size_t end);
     std::size_t quantities() const { return quantities_; }

@@ -4,6 +4,8 @@
 #include "core/base/hot.h"
 #include "core/sampling/heuristic.h"
 #include "core/scene/pass_lights.h"
+#include "operators/matrix/sides.h"
+#include "operators/pointwise/basic_reflection.h"
 
 #include <algorithm>
 
@@ -12,7 +14,11 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t packet = RayCaster::packet_size;
-constexpr std::uint32_t most_mirrors = 16;  // a gather ray follows at most so many mirrors, and then reads the patches
+// A gather ray follows at most so many mirrors if these have unknowns, and then reads the patches; without unknowns it goes on, by
+// Russian roulette beyond the last bounce.
+constexpr std::uint32_t most_mirrors_with_unknowns = 16, most_links = 1000;
+// A ray that takes all directions takes part in Russian roulette below this part of its sample.
+constexpr double least_share = 0.01;
 
 // Casts n rays in packets and calls each(i); from(i) and hit(i) are as in Geometry::first_hits. The point is at infinity if nothing
 // is hit.
@@ -61,6 +67,26 @@ void add_reflected(const Rgb& weight, const float* __restrict from, std::size_t 
 
 }  // namespace
 
+LinkFields::LinkFields(const TracedSeries& series, LinkRaster raster)
+    : fine(series.fine),
+      coarse(series.coarse),
+      kept(*series.fine_by_links),
+      fine_replaced(*series.fine_by_links),
+      coarse_replaced(*series.coarse_by_links),
+      raster(std::move(raster)) {}
+
+void LinkFields::show_as_points(std::size_t bounce, const TracedSeries& series) {
+    fine.subtract(bounce, *series.fine_by_links);
+    coarse.subtract(bounce, *series.coarse_by_links);
+    kept.set_to_zero(bounce);
+}
+
+void LinkFields::read_from_fields(std::size_t bounce) {
+    fine_replaced.set_to_zero(bounce);
+    coarse_replaced.set_to_zero(bounce);
+    raster.set_to_zero(bounce);
+}
+
 struct FieldReader::Look {
     const PixelSample* sample;
     SurfacePoint x, y;  // the point that is seen, and the point that lights it
@@ -69,20 +95,50 @@ struct FieldReader::Look {
     bool diffuse;
     Rgb weight;
     double pdf;
-    // For a gather ray: its throughput, and the number of mirrors that it has met.
+    // For a gather ray: its throughput, and the number of links (operators/matrix/links.h): of mirrors and other sides from which
+    // it went on.
     Rgb through;
-    std::uint32_t mirrors = 0;
+    std::uint32_t links = 0;
     bool goes_on;
+    // All vertices so far send light in two directions at most, and the ray has taken all of them, in copies of itself.
+    bool takes_all = false;
+    double compared_part = 1.0;  // of its rays, that are compared with coarser patches: the inverse
+
+    void go_on_with_probability(double p, Sampler& sampler) {
+        if (p >= 1.0) return;
+        goes_on = goes_on && sampler.next() < p;
+        through /= p;
+    }
+    double rays(double of_others) const { return takes_all ? 1.0 : of_others; }
 
     // Samples wi from the BSDF, with its pdf and the weight for basic radiance; false if nothing is reflected.
     bool choose_direction(const Materials& materials, Sampler& sampler) {
         const SurfaceSide side = materials.side(x, wo);
-        const BsdfSample sampled = neumann::sample(*side.bsdf, side.p, side.p.frame.to_local(wo), sampler.next2());
-        wi = side.p.frame.to_world(sampled.wi);
-        const double ratio = sampled.wi.z < 0.0 ? refractive_ratio(*side.bsdf) : 1.0;
-        weight = sampled.weight * (ratio * ratio);
-        pdf = sampled.pdf;
+        if (!side.bsdf) return false;
+        set(BasicReflection::sample(materials, side, wo, sampler.next2()));
         return pdf != 0.0;
+    }
+    void set(const BasicReflection& sampled) {
+        wi = sampled.wi;
+        weight = sampled.weight;
+        pdf = sampled.pdf;
+    }
+    // Takes the directions of a material that has two at most: the first itself, and the second by a copy in `others`.
+    bool take_all(const Materials& materials, std::vector<Look>& others) {
+        const SurfaceSide side = materials.side(x, wo);
+        const auto first = side.bsdf ? choice(*side.bsdf, side.p.frame.to_local(wo)) : std::nullopt;
+        if (!first) return takes_all = false;
+        constexpr double last = 1.0 - 0x1p-53;
+        if (*first > 0.0 && *first < 1.0) {
+            Look& other = others.emplace_back(*this);
+            other.set(BasicReflection::sample(materials, side, wo, {last, 0.5}));
+            other.weight *= 1.0 - *first;
+            other.through *= other.weight;
+        }
+        set(BasicReflection::sample(materials, side, wo, {0.0, 0.5}));
+        if (*first > 0.0) weight *= *first;
+        through *= weight;
+        return true;
     }
 };
 
@@ -134,14 +190,21 @@ NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fiel
     const auto to_gather = reading_ == FieldReading::gather
                                ? looks.begin()
                                : std::stable_partition(looks.begin(), looks.end(), [](const Look& l) { return l.diffuse; });
+    const FieldStack &fine = fields.by_links ? fields.by_links->fine : fields.fine,
+                     &coarse = fields.by_links ? fields.by_links->coarse : fields.coarse;
     for (const Look& l : std::span(looks.begin(), to_gather)) {
         const Patches::Place place = fields.fine.space().patches().place(l.x);
         const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
-        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, weight, l.sample->values);
+        add_interpolated(fine, l.x, place, l.wo, from_field_, weight, l.sample->values);
         if (!l.sample->difference) continue;
-        add_interpolated(fields.fine, l.x, place, l.wo, from_field_, of_difference, l.sample->difference);
-        add_interpolated(fields.coarse, l.x, place, l.wo, from_field_, -of_difference, l.sample->difference);
+        add_interpolated(fine, l.x, place, l.wo, from_field_, of_difference, l.sample->difference);
+        add_interpolated(coarse, l.x, place, l.wo, from_field_, -of_difference, l.sample->difference);
     }
+    // Gather rays from diffuse points leave out what comes to these by links.
+    for (const Look& l : std::span(to_gather, looks.end()))
+        if (fields.by_links && l.diffuse)
+            add_interpolated(fields.by_links->kept, l.x, fields.fine.space().patches().place(l.x), l.wo, from_field_,
+                             static_cast<float>(l.sample->weight), l.sample->values);
     rays[2] = gather(fields, std::span(to_gather, looks.end()));
     return rays;
 }
@@ -172,6 +235,7 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
             l.wo = -rays[i].direction;
             l.bsdf = scene_.materials.side(l.x, l.wo).bsdf;
             l.diffuse = l.bsdf && lobe(*l.bsdf).kind == Lobe::Kind::diffuse;
+            l.takes_all = l.bsdf && !l.diffuse && choice(*l.bsdf, Vec3(0.0, 0.0, 1.0));
         }
     }
     return cast;
@@ -181,18 +245,27 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
 std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
     if (lights_.empty()) return 0;
     std::vector<Look*> asking;
-    for (Look& l : looks) {
-        const LightSample light = lights_.sample(l.x.position, l.sample->sampler->next2());
-        if (!(light.pdf > 0.0)) continue;
-        const SurfaceSide side = scene_.materials.side(l.x, l.wo);
-        const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
-        const double pdf_other = looks_for_lights(l) ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
-        l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight *
-                   (l.sample->weight * std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
-        if (is_black(l.weight)) continue;
-        l.y = light.point;
-        asking.push_back(&l);
-    }
+    for (Look& l : looks)
+        if (ask_light(l, *l.sample->sampler, Rgb(l.sample->weight), looks_for_lights(l))) asking.push_back(&l);
+    add_visible(asking);
+    return asking.size();
+}
+
+// Chooses a point on a light and sets y and the weight of what it brings; false if it brings nothing.
+bool FieldReader::ask_light(Look& l, Sampler& sampler, const Rgb& scale, bool asks_directions_too) const {
+    const LightSample light = lights_.sample(l.x.position, sampler.next2());
+    if (!(light.pdf > 0.0)) return false;
+    const SurfaceSide side = scene_.materials.side(l.x, l.wo);
+    if (!side.bsdf) return false;
+    const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
+    const double pdf_other = asks_directions_too ? pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+    l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight * scale * (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
+    l.y = light.point;
+    return !is_black(l.weight);
+}
+
+// Adds the light that is asked for, where it is visible.
+void FieldReader::add_visible(std::span<Look* const> asking) const {
     for (std::size_t begin = 0; begin < asking.size(); begin += packet) {
         const std::size_t n = std::min(packet, asking.size() - begin);
         const std::uint32_t seen = scene_.geometry.visible(
@@ -202,9 +275,11 @@ std::uint64_t FieldReader::find_lights(std::vector<Look>& looks) const {
             },
             RayCaster::Rays::alike);
         for (std::size_t i = 0; i < n; ++i)
-            if (seen >> i & 1u) add(asking[begin + i]->sample->values, 1, asking[begin + i]->weight);
+            if (seen >> i & 1u) {
+                const Look& l = *asking[begin + i];
+                add(l.sample->values, bounce_of(l), l.weight);
+            }
     }
-    return asking.size();
 }
 
 // Direct light by BSDF sampling.
@@ -212,7 +287,8 @@ std::uint64_t FieldReader::find_lights_by_chance(std::vector<Look>& looks) const
     const Emitters& emitters = scene_.emitters;
     std::vector<Look*> asking;
     for (Look& l : looks) {
-        if (!emitters.empty() && looks_for_lights(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
+        // The others find theirs when they take all directions.
+        if (!emitters.empty() && !l.takes_all && looks_for_lights(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
             asking.push_back(&l);
     }
     for_hits(
@@ -238,8 +314,9 @@ bool FieldReader::looks_for_lights(const Look& l) const {
 NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span<const Look> looks) const {
     std::vector<float> arriving(stride_);
     const std::size_t rest = stride_ - 3;
-    // Bounce i is K times bounce i − 1, and the rest is K times the sum of bounce N and the rest.
-    const auto arrive = [&](const FieldStack& field, const Look& l, const Patches::Place& place) {
+    // Bounce i is K times bounce i − 1, and the rest is K times the sum of bounce N and the rest. `by_links` adds to the field.
+    const auto arrive = [&](const FieldStack& field, const Look& l, const Patches::Place& place, const FieldStack* replaced,
+                            std::span<const float> by_links) {
         std::fill(arriving.begin(), arriving.end(), 0.0f);
         // Linear interpolation between the patches' centres does not preserve their means; it would lose up to some percent of a
         // bounce. A diffuse surface can gather the piecewise constant field, because patches do not show there.
@@ -247,10 +324,19 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
             add_constant(field, l.y, -l.wi, 1.0f, arriving.data());
         else
             add_interpolated(field, l.y, place, -l.wi, 0, 1.0f, arriving.data());
+        if (replaced) {
+            add_interpolated(*replaced, l.y, place, -l.wi, 6, -1.0f, arriving.data());
+            const SurfaceSide side = scene_.materials.side(l.y, -l.wi);
+            const Rgb rho = reflectance(*side.bsdf, side.p);
+            for (std::size_t k = 0; k < by_links.size(); ++k)
+                arriving[6 + k] += static_cast<float>(rho[static_cast<int>(k % 3)]) * by_links[k];
+        }
         const auto take_in_last = [&] {
             for (std::size_t c = 0; c < 3; ++c) arriving[rest - 3 + c] += arriving[rest + c];
         };
-        for (std::uint32_t mirror = 0; mirror < l.mirrors; ++mirror) {
+        // Lights at the end of links are found without the field.
+        if (l.links > 0) std::fill_n(arriving.begin(), 3, 0.0f);
+        for (std::uint32_t link = 0; link < std::min<std::uint32_t>(l.links, static_cast<std::uint32_t>(stride_)); ++link) {
             take_in_last();
             std::copy_backward(arriving.begin(), arriving.end() - 3, arriving.end());
             std::fill_n(arriving.begin(), 3, 0.0f);
@@ -258,53 +344,73 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
         take_in_last();
     };
     std::uint64_t rays = 0;
-    std::vector<Look> asking;
+    std::vector<Look> asking, others;
     bool compare = true;
+    const auto skips_lights = [&](const Look& l) { return l.diffuse && fields.by_links; };
     const auto read_or_go_on = [&](std::size_t i) {
         Look& l = asking[i];
-        if (l.y.is_infinite()) {
-            if (l.mirrors > 0)
-                add(l.sample->values, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1),
-                    l.through * scene_.emitters.emitted(l.y, -l.wi));
-            return;
+        // The direct light at other first vertices is already sampled (bounce 1).
+        if (const Rgb emitted = (l.links > 0 || (l.takes_all && from_field_ > 3)) && !skips_lights(l)
+                                    ? scene_.emitters.emitted(l.y, -l.wi)
+                                    : Rgb(0.0);
+            !is_black(emitted)) {
+            const double weight = l.pdf == delta_pdf ? 1.0 : power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y));
+            add(l.sample->values, bounce_of(l), l.through * emitted * weight);
         }
+        if (l.y.is_infinite()) return;
         const Bsdf* bsdf = scene_.materials.side(l.y, -l.wi).bsdf;
-        if (l.mirrors < most_mirrors && bsdf && lobe(*bsdf).kind == Lobe::Kind::specular) {
-            // The direct light at the first vertex is already sampled (bounce 1).
-            if (l.mirrors > 0)
-                add(l.sample->values, std::min<std::size_t>(l.mirrors + 1, stride_ / 3 - 1),
-                    l.through * scene_.emitters.emitted(l.y, -l.wi));
+        const bool has_unknown = fields.fine.space().unknown(l.y, -l.wi) != fields.fine.space().nothing();
+        if (has_unknown ? l.links < most_mirrors_with_unknowns && bsdf && lobe(*bsdf).kind == Lobe::Kind::specular
+                        : l.links < most_links && is_glossy(bsdf)) {
             l.x = l.y;
             l.wo = -l.wi;
             l.bsdf = bsdf;
-            ++l.mirrors;
+            ++l.links;
             l.goes_on = true;
             return;
         }
+        if (!has_unknown) return;
         const Patches::Place place = fields.fine.space().patches().place(l.y);
-        arrive(fields.fine, l, place);
+        const bool reads_raster = !l.diffuse && fields.by_links && bsdf && !is_glossy(bsdf);
+        LinkRaster::Reading by_links;
+        if (reads_raster) by_links = fields.by_links->raster.read(place.chart, glm::dot(l.y.normal, l.wi) < 0.0, place.st);
+        arrive(fields.fine, l, place, reads_raster ? &fields.by_links->fine_replaced : nullptr, by_links.fine);
         add_reflected(l.through, arriving.data(), from_field_, stride_, l.sample->values);
         if (!compare || !l.sample->difference) return;
-        const Rgb weight = l.through * (l.sample->difference_weight * static_cast<double>(gather_rays_) / compared_);
+        const Rgb weight = l.through * (l.sample->difference_weight * l.compared_part);
         add_reflected(weight, arriving.data(), from_field_, stride_, l.sample->difference);
-        arrive(fields.coarse, l, place);
+        arrive(fields.coarse, l, place, reads_raster ? &fields.by_links->coarse_replaced : nullptr, by_links.coarse);
         add_reflected(-weight, arriving.data(), from_field_, stride_, l.sample->difference);
     };
     for (std::uint32_t r = 0; r < gather_rays_; ++r) {
         compare = r < compared_;
-        asking.assign(looks.begin(), looks.end());
-        for (Look& l : asking) {
+        asking.clear();
+        for (const Look& look : looks) {
+            if (r > 0 && look.takes_all) continue;  // all its rays would be the same
+            Look& l = asking.emplace_back(look);
             l.goes_on = true;
-            l.through = Rgb(l.sample->weight / gather_rays_);
+            l.through = Rgb(l.sample->weight / l.rays(gather_rays_));
+            l.compared_part = l.takes_all ? 1.0 : static_cast<double>(gather_rays_) / compared_;
         }
         for (;;) {
+            rays += find_lights_at_links(asking, skips_lights);
+            others.clear();
+            std::erase_if(asking, [](const Look& l) { return !l.goes_on; });
             for (Look& l : asking) {
-                if (!l.goes_on) continue;
-                // Mirrors use no random numbers.
-                if (l.mirrors == 0) l.sample->gather_sampler->start(l.sample->first_gather_ray + r);
-                l.goes_on = l.choose_direction(scene_.materials, *l.sample->gather_sampler);
+                Sampler& sampler = *l.sample->gather_sampler;
+                if (l.links == 0) sampler.start(l.sample->first_gather_ray + r);
+                const bool beyond = l.links >= stride_ / 3 - 1;
+                if (l.takes_all && !beyond && l.take_all(scene_.materials, others)) continue;
+                l.goes_on = l.choose_direction(scene_.materials, sampler);
                 l.through *= l.weight;
+                if (beyond) l.go_on_with_probability(std::min(max_component(l.weight), 1.0), sampler);
             }
+            asking.insert(asking.end(), others.begin(), others.end());
+            for (Look& l : asking)
+                if (l.takes_all)
+                    l.go_on_with_probability(
+                        std::min(max_component(glm::abs(l.through)) / (least_share * std::abs(l.sample->weight)), 1.0),
+                        *l.sample->gather_sampler);
             std::erase_if(asking, [](const Look& l) { return !l.goes_on; });
             if (asking.empty()) break;
             rays += asking.size();
@@ -317,5 +423,21 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
     }
     return rays;
 }
+
+// Direct light at links that are not mirrors; chance finds it too, when the next ray meets a light.
+template <class Skips>
+std::uint64_t FieldReader::find_lights_at_links(std::span<Look> looks, const Skips& skips) const {
+    if (lights_.empty()) return 0;
+    std::vector<Look*> asking;
+    for (Look& l : looks)
+        if (l.goes_on && l.links > 0 && !skips(l) && lobe(*l.bsdf).kind == Lobe::Kind::rough &&
+            ask_light(l, *l.sample->gather_sampler, l.through, true))
+            asking.push_back(&l);
+    add_visible(asking);
+    return asking.size();
+}
+
+// The bounce of the light that a gather ray finds at its last vertex.
+std::size_t FieldReader::bounce_of(const Look& l) const { return std::min<std::size_t>(l.links + 1, stride_ / 3 - 1); }
 
 }  // namespace neumann

@@ -4,7 +4,8 @@
 #include "core/emitter/light_sampler.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
-#include "operators/matrix/field_stack.h"
+#include "operators/matrix/traced_series.h"
+#include "operators/pictures/link_raster.h"
 
 #include <array>
 #include <span>
@@ -23,10 +24,23 @@ namespace neumann {
 enum class FieldReading { patches, matrix, gather, importance };
 inline bool shows_patches(FieldReading reading) { return reading == FieldReading::patches || reading == FieldReading::importance; }
 
+// How one replicate's light that comes by links (link_pictures.h) is shown: in each bounce by the fields like all other light, or
+// at pixels as points, and through mirrors and glass from the raster.
+struct LinkFields {
+    FieldStack fine, coarse;                    // all light but for what pixels have as points
+    FieldStack kept;                            // of what comes by links, the rest
+    FieldStack fine_replaced, coarse_replaced;  // what the raster has in place of the fields
+    LinkRaster raster;
+
+    LinkFields(const TracedSeries& series, LinkRaster raster);
+    void show_as_points(std::size_t bounce, const TracedSeries& series);
+    void read_from_fields(std::size_t bounce);  // and not from the raster
+};
+
 // One replicate of a series, on patches and on patches of four times the area.
 struct FieldPair {
-    const FieldStack& fine;
-    const FieldStack& coarse;
+    const FieldStack &fine, &coarse;
+    const LinkFields* by_links = nullptr;
 };
 
 // A camera ray, and where its sample times `weight` is added: `values` has three floats for each quantity of FieldStack.
@@ -60,6 +74,11 @@ private:
     std::uint64_t find_lights(std::vector<Look>& looks) const;
     std::uint64_t find_lights_by_chance(std::vector<Look>& looks) const;
     std::uint64_t gather(const FieldPair& fields, std::span<const Look> looks) const;
+    template <class Skips>
+    std::uint64_t find_lights_at_links(std::span<Look> looks, const Skips& skips) const;
+    bool ask_light(Look& l, Sampler& sampler, const Rgb& scale, bool asks_directions_too) const;
+    void add_visible(std::span<Look* const> asking) const;
+    std::size_t bounce_of(const Look& l) const;
     bool looks_for_lights(const Look& l) const;
 
     const Scene& scene_;

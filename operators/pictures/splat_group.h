@@ -22,7 +22,6 @@ struct SplatSampler::Workspace {
     PathGroup group;
     LightTracingWork light;
     BidirectionalWork bidirectional;
-    std::vector<double> across;
     Tally tally;
 };
 

@@ -36,8 +36,7 @@ SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
       lights_(scene.geometry, scene.emitters),
       bidirectional_(scene, settings.walk, pixels_),
       camera_points_(settings.replicate_size),
-      light_points_(light_net),
-      filter_radius_(radius(scene.film.filter)) {}
+      light_points_(light_net) {}
 
 // Adds a contribution to the pixels whose filter covers `position`. `value` is radiance times the number of pixels, for one path
 // per pixel.
@@ -50,25 +49,11 @@ void SplatSampler::spread(const Vec2& position, std::size_t quantity, const Rgb&
         work.tally.keep({static_cast<int>(quantity), place});
         return;
     }
-    const auto reached = [&](double x, int crop, int size) {
-        return std::pair(std::max(static_cast<int>(std::floor(x - filter_radius_)), crop),
-                         std::min(static_cast<int>(std::floor(x + filter_radius_)), crop + size - 1));
-    };
-    const auto [left, right] = reached(position.x, film.crop_x, film.crop_width);
-    const auto [top, bottom] = reached(position.y, film.crop_y, film.crop_height);
-    work.across.clear();
-    for (int x = left; x <= right; ++x) work.across.push_back(film.weight_across(position.x, x));
     double largest = 0.0;
-    for (int y = top; y <= bottom; ++y) {
-        const double down = film.weight_down(position.y, y);
-        for (int x = left; x <= right; ++x) {
-            const double weight = down * work.across[static_cast<std::size_t>(x - left)];
-            if (weight == 0.0) continue;
-            largest = std::max(largest, std::abs(weight));
-            const int pixel = (y - film.crop_y) * film.crop_width + x - film.crop_x;
-            chunk.shares.push_back({static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(quantity), each * weight});
-        }
-    }
+    for_pixels_reached(film, position, [&](std::uint32_t pixel, double weight) {
+        largest = std::max(largest, std::abs(weight));
+        chunk.shares.push_back({pixel, static_cast<std::uint32_t>(quantity), each * weight});
+    });
     work.tally.largest[quantity].add(max_component(each) * largest, place);
 }
 

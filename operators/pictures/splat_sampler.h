@@ -53,7 +53,6 @@ private:
     LightSampler lights_;
     Bidirectional bidirectional_;
     SobolPoints camera_points_, light_points_;
-    double filter_radius_;
 };
 
 }  // namespace neumann

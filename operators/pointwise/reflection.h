@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/material/materials.h"
-#include "operators/bidirectional/adjoint_reflection.h"
+#include "operators/pointwise/adjoint_reflection.h"
 #include "operators/pointwise/field.h"
 
 namespace neumann {

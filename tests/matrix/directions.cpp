@@ -157,7 +157,7 @@ TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
     const ReflectionMatrix<1> R = ReflectionMatrix<4>(scene.materials, space).channel(1);
     const RayTable table(space, 65536, 3);
     const ExitantVector<1> by_rays = R(TransportMatrix<1>(table)(emitted_light<1>(scene, space)));
-    const ExitantVector<1> by_lights = direct_light<1>(scene, R, 65536, 3);
+    const ExitantVector<1> by_lights = R(arriving_light<1>(scene, R, 65536, 3));
     double difference = 0.0, all = 0.0;
     for (const Facet& facet : space.facets())
         for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) {

@@ -98,8 +98,12 @@ TEST(Importance, MeasuresTheMeansOfThePictures) {
     Le.set<4>(0, emitted_light<4>(scene, space));
     std::array<double, N + 1> sum{}, squares{}, mean{};
     for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-        const TracedSeriesSettings traced{N,     settings.rays,   settings.light_samples, settings.seed * 0x10001 + r,
-                                          false, settings.samples};
+        const TracedSeriesSettings traced{.bounces = N,
+                                          .rays = settings.rays,
+                                          .light_samples = settings.light_samples,
+                                          .seed = settings.seed * 0x10001 + r,
+                                          .rest = false,
+                                          .camera_samples = settings.samples};
         const FieldStack importance = trace_importance(scene, space, coarser, traced).fine;
         for (int i = 0; i <= N; ++i) {
             double worth = 0.0;

@@ -109,7 +109,7 @@ TEST(MatrixSeries, SumsSolveTheEquationUpToTheNextTerm) {
     const Scene scene = colourful_room();
     const System<4> s(scene, 800, 32);
     const auto K = s.R * s.T;
-    for (const ExitantVector<4>& source : {s.Le, direct_light<4>(scene, s.R, 64, 1)}) {
+    for (const ExitantVector<4>& source : {s.Le, s.R(arriving_light<4>(scene, s.R, 64, 1))}) {
         NeumannSeries series(K, source);
         for (int i = 0; i < 12; ++i) {
             const ExitantVector<4> residual = source + K(series.sum()) - series.sum();
@@ -148,7 +148,7 @@ TEST(Adjoint, ImportanceMeasuresEveryBounce) {
     const auto K_adjoint = adjoint(K);
     ExitantVector<4> We = ExitantVector<4>::zero(s.space.size());
     for (std::uint32_t u = 0; u < 40; ++u) We.col(u).head(3).setConstant(1.0 + u);
-    for (const ExitantVector<4>& source : {s.Le, direct_light<4>(scene, s.R, 64, 1)}) {
+    for (const ExitantVector<4>& source : {s.Le, s.R(arriving_light<4>(scene, s.R, 64, 1))}) {
         NeumannSeries light(K, source);
         NeumannSeries importance(K_adjoint, We);
         for (int i = 0; i <= 8; ++i, light.advance(), importance.advance()) {

@@ -2,7 +2,7 @@
 #include "core/emitter/emission_sampler.h"
 #include "core/reader/read_scene.h"
 #include "core/sampling/sampler.h"
-#include "operators/bidirectional/adjoint_reflection.h"
+#include "operators/pointwise/adjoint_reflection.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>

@@ -98,7 +98,8 @@ Cases extreme_camera_cases() {
                          maker.parts.camera.fov = 1.0;
                          const Scene scene = maker.make();
                          try {
-                             check_camera(scene, scene_patches(scene, {.patches = 100}));
+                             scene_patches(scene, {.patches = 100});
+                             check_camera(scene);
                              figures.fail("patches", "were made");
                          } catch (const InputError& error) {
                              figures.holds("refused by what needs patches",

@@ -1,0 +1,97 @@
+#include "operators/matrix/link_light.h"
+
+#include <bit>
+
+namespace neumann {
+
+// What the paths of a part bring.
+struct LinkShares {
+    struct Share {
+        std::uint32_t unknown;
+        std::size_t bounce;
+        Rgb radiance;
+    };
+    std::vector<Share> shares;
+    std::vector<PowerOfTerm> power;
+    std::uint64_t rays = 0;
+};
+
+namespace {
+
+// Independent random numbers for each use of the seed.
+constexpr std::uint64_t pilot_stream = 0x6c696e6b70696cull, light_stream = 0x6c696e6b6c69ull;
+constexpr std::uint32_t pilot_samples = 8, largest_net = 4096;
+// Rays of a sample: to the light, and of the links.
+constexpr double rays_of_sample = 4.0;
+
+LinkShares trace(const LinkLight& light, std::size_t part, const PatchSpace& space, int bounces) {
+    LinkShares found;
+    found.power.resize(static_cast<std::size_t>(bounces) + 1);
+    found.rays = light.trace(part, found.power, [&](const LinkArrival& a) {
+        const Facet& facet = space.facets()[space.facet_of(a.unknown)];
+        const double etendue = space.patches().area(facet.patch) * pi / facet.cells.size() * a.index * a.index;
+        found.shares.push_back({a.unknown, std::min(a.bounce, static_cast<std::size_t>(bounces) + 1), a.power / etendue});
+    });
+    return found;
+}
+
+}  // namespace
+
+LinkLight::LinkLight(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces)
+    : space_(&space),
+      geometry_(&scene.geometry),
+      lights_(scene.geometry, scene.emitters),
+      links_(scene, space, bounces),
+      seed_(seed ^ light_stream) {
+    if (lights_.empty()) return;
+    find_reflectors(scene);
+    divide(rays / rays_of_sample, seed);
+}
+
+void LinkLight::find_reflectors(const Scene& scene) {
+    for (std::uint32_t patch = 0; patch < space_->patches().size(); ++patch)
+        for (const bool front : {true, false})
+            if (space_->facet(patch, front) == space_->facets().size() &&
+                is_glossy(scene.materials.at(space_->patches().chart(patch).shape(), front)))
+                reflectors_.push_back({patch, front});
+}
+
+// Samples in proportion to the power that a few of them find; at least these few.
+void LinkLight::divide(double samples, std::uint64_t seed) {
+    const SobolPoints points(pilot_samples);
+    std::vector<double> power(reflectors_.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, reflectors_.size(), [&](std::size_t i) {
+        Sampler sampler(points, seed ^ pilot_stream, static_cast<std::uint32_t>(i));
+        light(reflectors_[i], sampler, 0, pilot_samples, pilot_samples,
+              [&](const SurfacePoint&, const Vec3&, const Rgb& begun) { power[i] += mean_component(begun); });
+    });
+    double sum = 0.0;
+    for (const double p : power) sum += p;
+    for (std::uint32_t i = 0; i < reflectors_.size(); ++i) {
+        const auto wanted = static_cast<std::uint32_t>(std::max(sum > 0.0 ? samples * power[i] / sum : 0.0, double{pilot_samples}));
+        const std::uint32_t net = std::min(std::bit_ceil(wanted), largest_net), nets = (wanted + net - 1) / net;
+        points_.try_emplace(net, net);
+        for (std::uint32_t n = 0; n < nets; ++n) parts_.push_back({i, n * net, net, nets * net});
+    }
+}
+
+template <int C>
+ArrivingByLinks<C> arriving_by_links(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces) {
+    ArrivingByLinks<C> result;
+    result.radiance.assign(static_cast<std::size_t>(bounces) + 2, IncidentVector<C>::zero(space.size()));
+    result.power.resize(static_cast<std::size_t>(bounces) + 1);
+    const LinkLight light(scene, space, rays, seed, bounces);
+    light.for_parts([&](std::size_t part) { return trace(light, part, space, bounces); },
+                    [&](const LinkShares& found) {
+                        result.rays += found.rays;
+                        for (const LinkShares::Share& s : found.shares)
+                            result.radiance[s.bounce].col(s.unknown) += to_channels<C>(s.radiance);
+                        for (std::size_t k = 0; k < result.power.size(); ++k) result.power[k] += found.power[k];
+                    });
+    return result;
+}
+
+template ArrivingByLinks<1> arriving_by_links<1>(const Scene&, const PatchSpace&, double, std::uint64_t, int);
+template ArrivingByLinks<4> arriving_by_links<4>(const Scene&, const PatchSpace&, double, std::uint64_t, int);
+
+}  // namespace neumann

@@ -1,0 +1,232 @@
+// Rays that go on from mirrors, glass and rough metal: as parts of T, as light from the lamps, and in pictures.
+#include "operators/matrix/link_light.h"
+
+#include "core/base/error.h"
+#include "core/sampling/sampler.h"
+#include "operators/known/scene_maker.h"
+#include "operators/matrix/light_vector.h"
+#include "operators/matrix/scene_patches.h"
+#include "operators/matrix/transport_matrix.h"
+#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/link_raster.h"
+#include "operators/pictures/rendered_series.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numeric>
+
+namespace neumann::links_test {
+
+using namespace known;
+
+struct Ball {
+    std::string name;
+    Surface surface;
+    friend std::ostream& operator<<(std::ostream& out, const Ball& ball) { return out << ball.name; }
+};
+std::vector<Ball> balls() {
+    return {{"glass", boundary(Dielectric(1.5), Dielectric(1.0 / 1.5))},
+            {"mirror", made_of(Conductor())},
+            {"film", boundary(ThinDielectric(1.5), ThinDielectric(1.5))},
+            {"rough_metal", made_of(RoughConductor<Ggx>(Ggx(0.2)))}};
+}
+
+// Along y, at the ball and the walls behind it.
+void look(SceneMaker& maker, int size) {
+    maker.parts.camera = {
+        .to_world = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0.05, -0.95, -0.1, 1}), .fov = 0.5 * pi, .near_clip = 1e-3};
+    maker.parts.film = {size, size, 0, 0, size, size};
+}
+
+// A closed room in which only the ball is not diffuse. The lamp is the ceiling, or hangs below it.
+Scene room_with(const Ball& ball, bool small_lamp, double rho = 0.5) {
+    SceneMaker maker;
+    const auto walls = room({-1, -1, -1}, {1, 1, 1});
+    for (const std::size_t face : {left, right, front, back, floor}) maker.add(walls[face], matte(rho));
+    maker.add(walls[ceiling], small_lamp ? matte(rho) : glowing(rho, 1.0));
+    if (small_lamp) maker.add(parallelogram({-0.1, -0.1, 0.9}, {0, 0.2, 0}, {0.2, 0, 0}), lamp(50.0));
+    maker.add(Sphere{{0.1, -0.2, -0.3}, 0.5, false}, ball.surface);
+    look(maker, 16);
+    return maker.make();
+}
+
+class Links : public testing::TestWithParam<Ball> {};
+INSTANTIATE_TEST_SUITE_P(Balls, Links, testing::ValuesIn(balls()), [](const auto& ball) { return ball.param.name; });
+
+// The power that comes to the walls by m links is the same from the walls' rays and from the lamp's: |z| ≤ 4.5 in each of 6
+// bounces, a false alarm in 1 of 20,000 runs.
+TEST_P(Links, BringTheSamePowerFromBothEnds) {
+    constexpr int N = 6, seeds = 12;
+    const Scene scene = room_with(GetParam(), false);
+    const PatchSpace space = scene_patches(scene, {.patches = 300}, Glossy::by_rays);
+    const ExitantVector<1> Le = emitted_light<1>(scene, space);
+    const auto power = [&](const IncidentVector<1>& means) {
+        double sum = 0.0;
+        for (std::uint32_t u = 0; u < space.size(); ++u) sum += means(0, u) * space.measure(space.facets()[space.facet_of(u)]);
+        return sum;
+    };
+    std::array<std::array<std::vector<double>, 2>, N + 1> found;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        Chains chains(scene, space, 256, seed, N);
+        const RayTable table(space, 256, seed, {}, [&](const BlindRay& ray) { chains.follow(ray); });
+        chains.finish();
+        const ArrivingByLinks<1> light = arriving_by_links<1>(scene, space, 4e5, seed, N);
+        for (int m = 1; m < N; ++m) {
+            IncidentVector<1> means = IncidentVector<1>::zero(space.size());
+            chains.add<1>([&](int links) { return links == m ? &Le : nullptr; }, means);
+            found[static_cast<std::size_t>(m)][0].push_back(power(means));
+            found[static_cast<std::size_t>(m)][1].push_back(power(light.radiance[static_cast<std::size_t>(m) + 1]));
+        }
+    }
+    double all = 0.0;
+    for (int m = 1; m < N; ++m) {
+        double mean[2], variance = 0.0;
+        for (const std::size_t end : {0u, 1u}) {
+            const std::vector<double>& x = found[static_cast<std::size_t>(m)][end];
+            mean[end] = std::accumulate(x.begin(), x.end(), 0.0) / seeds;
+            for (const double v : x) variance += (v - mean[end]) * (v - mean[end]) / (seeds * (seeds - 1.0));
+        }
+        all += mean[1];
+        // Of so few seeds t would be wider; the sum of two spreads makes up for it.
+        EXPECT_NEAR(mean[0], mean[1], 5.5 * std::sqrt(variance) + 1e-12) << m << " links";
+    }
+    EXPECT_GT(all, 0.01) << "something comes by links";
+}
+
+// Where all walls shine alike and the ball takes nothing, L = Le / (1 − ρ) from everywhere, also in the ball and through it.
+TEST_P(Links, LeaveAFurnaceAsItIs) {
+    SceneMaker maker;
+    maker.add(room({-1, -1, -1}, {1, 1, 1}), glowing(0.5, 1.0));
+    maker.add(Sphere{{0.1, -0.2, -0.3}, 0.5, false}, GetParam().surface);
+    look(maker, 12);
+    const Scene scene = maker.make();
+    for (const FieldReading reading : {FieldReading::matrix, FieldReading::gather}) {
+        FieldSettings settings;
+        settings.reading = reading;
+        settings.bounces = 10;
+        settings.patching.patches = 100;
+        settings.samples = 16;
+        const FieldPictures found = *render_fields(scene, settings);
+        const MeanWithError sum = found.mean_of_sum(10), rest = found.mean_of_rest();
+        // Bounce 1 is sampled at pixels: t of 3 degrees of freedom is below 12.9 in 99.9%. Rough metal loses what its microfacets
+        // would reflect a second time: the walk tells how much.
+        double expected = 2.0, error = 1e-4;
+        if (GetParam().name == "rough_metal") {
+            PictureSampler::Settings walk;
+            walk.walk.bounces = 10;
+            walk.replicate_size = replicate_size(1024);
+            const RenderedSeries walked = render_series(scene, walk, {1024, {}, {}});
+            const MeanWithError all = walked.moments.result().mean_of_sum(10);
+            expected = all.mean + rest.mean;
+            error = 4.5 * all.standard_error;
+        }
+        EXPECT_NEAR(sum.mean + rest.mean, expected, 12.9 * sum.standard_error + error);
+        EXPECT_LT(sum.standard_error, 0.01);
+        EXPECT_FALSE(found.power.is_sick());
+    }
+}
+
+// A lamp that the rays of T do not find: the pictures' means are those of a room without patches, by the walk in
+// agreement_fields.cpp; here the two readings, which find caustics in different ways, agree, and the power balances.
+TEST_P(Links, OfASmallLampBalance) {
+    const Scene scene = room_with(GetParam(), true);
+    FieldSettings settings;
+    settings.bounces = 6;
+    settings.patching.patches = 1500;
+    settings.rays = 128;
+    settings.light_samples = 64;
+    settings.samples = 64;
+    const FieldPictures read = *render_fields(scene, settings);
+    settings.reading = FieldReading::gather;
+    settings.seed = 1;
+    const FieldPictures gathered = *render_fields(scene, settings);
+    for (std::size_t i = 2; i <= 6; ++i) {
+        const MeanWithError a = read.mean_of_term(i), b = gathered.mean_of_term(i);
+        // Patches may make 2%; t of 3 degrees of freedom is below 12.9 in 99.9%.
+        EXPECT_NEAR(a.mean, b.mean, 12.9 * std::hypot(a.standard_error, b.standard_error) + 0.02 * a.mean) << "bounce " << i;
+    }
+    EXPECT_FALSE(read.power.is_sick());
+}
+
+// What a light from afar brings counts as what arrives.
+TEST(LinksFromAfar, Balance) {
+    SceneMaker maker;
+    maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.6));
+    maker.add(Sphere{{0, 0, 0.5}, 0.4, false}, made_of(Conductor()));
+    maker.parts.lights.environment = ConstantEnvironment(grey(1.0));
+    const Scene scene = maker.make();
+    FieldSettings settings;
+    settings.bounces = 5;
+    settings.patching.patches = 500;
+    const FieldPictures found = *render_fields(scene, settings);
+    EXPECT_FALSE(found.power.is_sick());
+    EXPECT_GT(found.power.bounces[0].arrived.mean, 1.0);
+}
+
+// Anisotropic metal has no cells of directions, and needs none.
+TEST(LinksOfAnyMaterial, NeedNoCells) {
+    const Scene scene = room_with({"brushed", made_of(RoughConductor<Ggx>(Ggx(Vec2(0.1, 0.3))))}, false);
+    FieldSettings settings;
+    settings.bounces = 3;
+    settings.patching.patches = 100;
+    EXPECT_TRUE(render_fields(scene, settings).has_value());
+    settings.reading = FieldReading::patches;
+    EXPECT_THROW(render_fields(scene, settings), InputError);
+}
+
+class LinkRasters : public testing::Test {
+protected:
+    LinkRasters() {
+        SceneMaker maker;
+        maker.add(parallelogram({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), matte(0.5));
+        maker.add(Sphere{{0, 0, 5}, 1.0, false}, matte(0.5));
+        scene.emplace(maker.make());
+        patches.emplace(scene->geometry, Patching{.patches = 50});
+    }
+    std::optional<Scene> scene;
+    std::optional<Patches> patches;
+};
+
+// Cells keep the power, whatever their sizes, and so do those one size larger.
+TEST_F(LinkRasters, KeepPower) {
+    for (const std::size_t n : {0u, 10u, 100000u}) {
+        std::vector<LinkRaster::End> ends;
+        Sampler random(1, 0);
+        for (std::size_t i = 0; i < n; ++i) {
+            random.start(i);
+            const Vec2 u = random.next2();
+            ends.emplace_back(0, true, Vec2(u.x, u.y * u.y), 2, Rgb(1.0));
+        }
+        const LinkRaster raster(*patches, ends, 3);
+        double fine = 0.0, coarse = 0.0;
+        constexpr int k = 1024;
+        for (int i = 0; i < k; ++i)
+            for (int j = 0; j < k; ++j) {
+                const auto reading = raster.read(0, true, {(i + 0.5) / k, (j + 0.5) / k});
+                fine += double{reading.fine[0]};
+                coarse += double{reading.coarse[0]};
+            }
+        const double to_power = pi * 6.0 / (k * k);
+        EXPECT_NEAR(fine * to_power, static_cast<double>(n), 1e-4 * static_cast<double>(n));
+        EXPECT_NEAR(coarse * to_power, static_cast<double>(n), 1e-4 * static_cast<double>(n));
+        EXPECT_EQ(raster.read(0, false, {0.5, 0.5}).fine[0], 0.0f);
+        EXPECT_EQ(raster.read(1, true, {0.5, 0.5}).fine[0], 0.0f);
+    }
+}
+
+// A spot a hundredth wide is found at its own density, and darkness beside it.
+TEST_F(LinkRasters, AreSharp) {
+    std::vector<LinkRaster::End> ends;
+    Sampler random(2, 0);
+    for (std::size_t i = 0; i < 200000; ++i) {
+        random.start(i);
+        ends.emplace_back(0, true, Vec2(0.5) + 0.01 * random.next2(), 4, Rgb(1.0));
+    }
+    const LinkRaster raster(*patches, ends, 3);
+    const double density = 200000.0 / (pi * 6.0 * 1e-4);
+    EXPECT_NEAR(raster.read(0, true, {0.505, 0.505}).fine[6], density, 0.3 * density);
+    EXPECT_EQ(raster.read(0, true, {0.48, 0.505}).fine[6], 0.0f);
+}
+
+}  // namespace neumann::links_test
