@@ -35,6 +35,9 @@ void for_hits(const Geometry& geometry, std::size_t n, const From& from, const H
     }
 }
 
+// Mirrors and smooth glass: all light goes in one direction or two.
+bool has_few_directions(const Bsdf& bsdf) { return choice(bsdf, Vec3(0.0, 0.0, 1.0)).has_value(); }
+
 void add(float* to, std::size_t bounce, const Rgb& x) {
     for (int c = 0; c < 3; ++c) to[3 * bounce + static_cast<std::size_t>(c)] += static_cast<float>(x[c]);
 }
@@ -235,7 +238,7 @@ std::uint64_t FieldReader::find_first_points(std::span<const PixelSample> sample
             l.wo = -rays[i].direction;
             l.bsdf = scene_.materials.side(l.x, l.wo).bsdf;
             l.diffuse = l.bsdf && lobe(*l.bsdf).kind == Lobe::Kind::diffuse;
-            l.takes_all = l.bsdf && !l.diffuse && choice(*l.bsdf, Vec3(0.0, 0.0, 1.0));
+            l.takes_all = l.bsdf && has_few_directions(*l.bsdf);
         }
     }
     return cast;
@@ -424,13 +427,14 @@ NEUMANN_HOT std::uint64_t FieldReader::gather(const FieldPair& fields, std::span
     return rays;
 }
 
-// Direct light at links that are not mirrors; chance finds it too, when the next ray meets a light.
+// Direct light at links that have other directions than those of mirrors and glass; chance finds it too, when the next ray meets a
+// light.
 template <class Skips>
 std::uint64_t FieldReader::find_lights_at_links(std::span<Look> looks, const Skips& skips) const {
     if (lights_.empty()) return 0;
     std::vector<Look*> asking;
     for (Look& l : looks)
-        if (l.goes_on && l.links > 0 && !skips(l) && lobe(*l.bsdf).kind == Lobe::Kind::rough &&
+        if (l.goes_on && l.links > 0 && !skips(l) && !has_few_directions(*l.bsdf) &&
             ask_light(l, *l.sample->gather_sampler, l.through, true))
             asking.push_back(&l);
     add_visible(asking);
