@@ -4,8 +4,8 @@
 #include "core/emitter/light_sampler.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
-#include "operators/matrix/traced_series.h"
-#include "operators/pictures/link_raster.h"
+#include "operators/matrix/field_stack.h"
+#include "operators/pictures/link_fields.h"
 
 #include <array>
 #include <span>
@@ -23,19 +23,6 @@ namespace neumann {
 //     importance  as patches, for K*^i We in place of K^i Le
 enum class FieldReading { patches, matrix, gather, importance };
 inline bool shows_patches(FieldReading reading) { return reading == FieldReading::patches || reading == FieldReading::importance; }
-
-// How one replicate's light that comes by links (link_pictures.h) is shown: in each bounce by the fields like all other light, or
-// at pixels as points, and through mirrors and glass from the raster.
-struct LinkFields {
-    FieldStack fine, coarse;                    // all light but for what pixels have as points
-    FieldStack kept;                            // of what comes by links, the rest
-    FieldStack fine_replaced, coarse_replaced;  // what the raster has in place of the fields
-    LinkRaster raster;
-
-    LinkFields(const TracedSeries& series, LinkRaster raster);
-    void show_as_points(std::size_t bounce, const TracedSeries& series);
-    void read_from_fields(std::size_t bounce);  // and not from the raster
-};
 
 // One replicate of a series, on patches and on patches of four times the area.
 struct FieldPair {
