@@ -21,6 +21,19 @@ public:
     std::size_t stride() const { return stride_; }
     const float* operator[](std::uint32_t unknown) const { return values_.data() + unknown * stride_; }
 
+    // Adds `scale` times an unknown's quantities to `to`, from the `first`-th float on.
+    void add(std::uint32_t unknown, std::size_t first, float scale, float* __restrict to) const {
+        const float* __restrict from = (*this)[unknown];
+        for (std::size_t k = first; k < stride_; ++k) to[k] += scale * from[k];
+    }
+    void add(const PatchSpace::Reading& reading, std::size_t first, float scale, float* __restrict to) const {
+        const float *__restrict a = (*this)[reading.unknown[0]], *__restrict b = (*this)[reading.unknown[1]],
+                    *__restrict c = (*this)[reading.unknown[2]], *__restrict d = (*this)[reading.unknown[3]];
+        const auto wa = scale * static_cast<float>(reading.weight[0]), wb = scale * static_cast<float>(reading.weight[1]),
+                   wc = scale * static_cast<float>(reading.weight[2]), wd = scale * static_cast<float>(reading.weight[3]);
+        for (std::size_t k = first; k < stride_; ++k) to[k] += (wa * a[k] + wb * b[k]) + (wc * c[k] + wd * d[k]);
+    }
+
     template <int C>
     void set(int quantity, const ExitantVector<C>& term) {
         for (std::uint32_t u = 0; u < space_->size(); ++u) {

@@ -208,7 +208,8 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
     const auto arrives = [&](std::size_t k, const IncidentVector<C>& means) {
         if (from_afar) power[k - 1] += balance.arriving(means);
     };
-    if (rays_that_meet_lights(scene, settings.rays) < enough_rays) {
+    // Rays that go on by links find lamps by chance however many there are: a caustic is as rare for a patch as for a pixel.
+    if (settings.glossy == Glossy::by_rays || rays_that_meet_lights(scene, settings.rays) < enough_rays) {
         IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed);
         light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
         given.resize(2, ExitantVector<C>::zero(0));
