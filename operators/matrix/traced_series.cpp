@@ -188,6 +188,14 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
     return series;
 }
 
+// Whether points on lights are sampled, and not found by the rays of T. What a small lamp throws by way of a mirror is rare for
+// rays from patches however many they are.
+bool samples_lights(const Scene& scene, const TracedSeriesSettings& settings) {
+    constexpr double small_part = 0.1;
+    return rays_that_meet_lights(scene, settings.rays) < enough_rays ||
+           (settings.glossy == Glossy::by_rays && rays_that_meet_lights(scene, 1) < small_part);
+}
+
 template <int C>
 TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                          const TracedSeriesSettings& settings, const Watch& watch) {
@@ -208,8 +216,7 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
     const auto arrives = [&](std::size_t k, const IncidentVector<C>& means) {
         if (from_afar) power[k - 1] += balance.arriving(means);
     };
-    // Rays that go on by links find lamps by chance however many there are: a caustic is as rare for a patch as for a pixel.
-    if (settings.glossy == Glossy::by_rays || rays_that_meet_lights(scene, settings.rays) < enough_rays) {
+    if (samples_lights(scene, settings)) {
         IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed);
         light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
         given.resize(2, ExitantVector<C>::zero(0));
