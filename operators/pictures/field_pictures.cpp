@@ -30,33 +30,6 @@ struct Workspace {
     std::array<std::uint64_t, 3> rays{};
 };
 
-// How much finer and coarser patches differ in the light of a bounce that comes by links, relative to it.
-struct Blur {
-    double with_noise = 0.0, without = 0.0;
-};
-Blur blur(const std::vector<TracedSeries>& replicates, std::size_t quantity) {
-    const PatchSpace &fine = replicates.front().fine_by_links->space(), &coarse = replicates.front().coarse_by_links->space();
-    const std::vector<std::uint32_t> around = fine.coarser_of_each(coarse);
-    const auto n = static_cast<double>(replicates.size());
-    double differences = 0.0, noise = 0.0, all = 0.0;
-    for (std::uint32_t u = 0; u < fine.size(); ++u)
-        for (std::size_t c = 3 * quantity; c < 3 * quantity + 3; ++c) {
-            double value = 0.0, difference = 0.0, squares = 0.0;
-            for (const TracedSeries& series : replicates) {
-                const double here = (*series.fine_by_links)[u][c], d = here - (*series.coarse_by_links)[around[u]][c];
-                value += here / n;
-                difference += d / n;
-                squares += d * d / n;
-            }
-            const double measure = fine.measure(fine.facets()[fine.facet_of(u)]);
-            differences += measure * difference * difference;
-            noise += measure * (squares - difference * difference) / (n - 1.0);
-            all += measure * value * value;
-        }
-    if (!(all > 0.0)) return {};
-    return {std::sqrt(differences / all), n > 1.0 ? std::sqrt(std::max(differences - noise, 0.0) / all) : 0.0};
-}
-
 EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
     std::vector<std::vector<EnergyShares>> all;
     for (const TracedSeries& series : replicates) {
@@ -249,26 +222,18 @@ std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettin
     std::vector<LinkFields> by_links;
     if (series.front().fine_by_links && shows_links(scene)) {
         const double rays = std::max(table_rays, static_cast<double>(pixels) * settings.samples);
+        std::vector<LinkRaster> rasters;
         for (std::uint32_t r = 0; r < settings.replicates; ++r) try {
                 LinkPictures links = picture_links(scene, space, rays, settings.seed * 0x10001 + r, settings.bounces, watch);
                 result.rays[later] += links.rays;
                 result.set_replicate(r, links.picture);
-                by_links.emplace_back(series[r], std::move(links.raster));
+                rasters.push_back(std::move(links.raster));
             } catch (const Stopped&) {
                 return std::nullopt;
             }
-        // Patches blur; points and the raster are noisy: each bounce is shown by what errs less.
-        // A cell of the raster has a quarter of enough_ends at least.
-        const double noise_of_raster = 2.0 / std::sqrt(0.25 * static_cast<double>(LinkRaster::enough_ends) * settings.replicates);
-        for (std::size_t k = 2; k < result.quantities(); ++k) {
-            const Blur of_patches = blur(series, k);
-            const bool by_points = result.relative_noise(k) < of_patches.with_noise;
-            if (!by_points) result.set_to_zero(k);
-            for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-                if (by_points) by_links[r].show_as_points(k, series[r]);
-                if (of_patches.without < noise_of_raster) by_links[r].read_from_fields(k);
-            }
-        }
+        by_links = divide_by_links(series, std::move(rasters), [&](std::size_t k) { return result.relative_noise(k); });
+        for (std::size_t k = 2; k < result.quantities(); ++k)
+            if (!by_links.front().shown_as_points[k]) result.set_to_zero(k);
     }
     const int width = scene.film.crop_width;
     const std::size_t stride = 3 * result.quantities(), all = stride * settings.replicates;
