@@ -4,6 +4,7 @@
 #include "core/sampling/heuristic.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace neumann {
 

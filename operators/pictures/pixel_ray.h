@@ -6,7 +6,7 @@
 #include "core/scene/scene.h"
 #include "operators/pointwise/basic_reflection.h"
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
