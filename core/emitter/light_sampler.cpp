@@ -49,8 +49,11 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
       choice_(choice),
       place_(place),
       table_(geometry, emitters, share,
-             place == LightPlace::solid_angle ? LightTable::Rectangles::whole : LightTable::Rectangles::as_triangles) {
-    for (const Part& part : table_.parts()) places_.push_back(geometry.place(part.shape, part.primitive));
+             place == LightPlace::area ? LightTable::Rectangles::as_triangles : LightTable::Rectangles::whole) {
+    for (const Part& part : table_.parts()) {
+        places_.push_back(geometry.place(part.shape, part.primitive));
+        second_places_.push_back(geometry.place(part.shape, part.primitive + (part.is_rectangle() ? 1 : 0)));
+    }
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
                                                         : (choice == LightChoice::all ? 1.0 : share[shape]) / geometry.area(shape));
@@ -70,37 +73,48 @@ LightSample LightSampler::on_distant(std::size_t index, double probability, cons
     return light;
 }
 
-LightSample LightSampler::on_part_as_seen(const Part& part, double density, const Vec3& x, const Vec2& uv) const {
-    const double angle = sampled_solid_angle(part, x);
+LightSample LightSampler::on_part_as_seen(std::size_t index, double density, const Receiver& x, const Vec2& uv) const {
+    const Part& part = table_.parts()[index];
     LightSample light;
-    if (part.is_rectangle()) {
+    if (const auto polygon = projected(part, x)) {
+        light.w = polygon->sample(uv);
+        light.point = point_towards(part, x.position, light.w);
+        light.pdf = polygon->pdf(light.w);
+    } else if (const double angle = sampled_solid_angle(part, x.position); angle == 0.0) {
+        return at_point(evenly_on(index, uv), density, x.position);
+    } else if (part.is_rectangle()) {
         const Rectangle& r = table_.rectangle(part);
-        if (angle == 0.0) return at_point(point_on_rectangle(part, r.corner + uv.x * r.a + uv.y * r.b), density, x);
-        const Vec3 d = SphericalRectangle(r.corner - x, r.a, r.b).sample(uv);
+        const Vec3 d = SphericalRectangle(r.corner - x.position, r.a, r.b).sample(uv);
         light.w = glm::normalize(d);
-        light.point = point_on_rectangle(part, x + d);
+        light.point = point_on(part, x.position + d);
+        light.pdf = 1.0 / angle;
     } else {
-        if (angle == 0.0) return at_point(geometry_->point(part.shape, part.primitive, uv), density, x);
-        const auto [a, b, c] = corners(part, x);
+        const auto [a, b, c] = corners(part, x.position);
         light.w = sample_spherical_triangle(a, b, c, angle, uv);
-        const Vec3 n = glm::cross(b - a, c - a);
-        const double distance = glm::dot(a, n) / glm::dot(light.w, n);
-        light.point = geometry_->point_on_triangle(part.shape, part.primitive, x + light.w * distance);
+        light.point = point_towards(part, x.position, light.w);
+        light.pdf = 1.0 / angle;
     }
-    light.pdf = density * table_.area(part) / angle;
-    light.weight = emitters_->emitted(light.point, -light.w) / light.pdf;
+    light.pdf *= density * table_.area(part);
+    if (light.pdf > 0.0) light.weight = emitters_->emitted(light.point, -light.w) / light.pdf;
     return light;
 }
 
-SurfacePoint LightSampler::point_on_rectangle(const Part& part, const Vec3& position) const {
+SurfacePoint LightSampler::point_on(const Part& part, const Vec3& position) const {
+    if (!part.is_rectangle()) return geometry_->point_on_triangle(part.shape, part.primitive, position);
     const Rectangle& r = table_.rectangle(part);
     const Vec3 d = position - r.corner;
     const bool in_first = glm::dot(d, r.a) / glm::dot(r.a, r.a) + glm::dot(d, r.b) / glm::dot(r.b, r.b) <= 1.0;
     return geometry_->point_on_triangle(part.shape, part.primitive + (in_first ? 0 : 1), position);
 }
 
-LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) const {
-    const std::vector<double> sums = contributions(x);
+SurfacePoint LightSampler::point_towards(const Part& part, const Vec3& x, const Vec3& w) const {
+    const auto [a, b, c] = corners(part, x);
+    const Vec3 n = glm::cross(b - a, c - a);
+    return point_on(part, x + w * (glm::dot(a, n) / glm::dot(w, n)));
+}
+
+LightSample LightSampler::sample_by_contribution(const Receiver& x, const Vec2& uv) const {
+    const std::vector<double> sums = contributions(x.position);
     const double all = sums.back(), u = uv.x * all;
     if (!(all > 0.0)) return {};
     const auto found = std::upper_bound(sums.begin(), sums.end() - 1, u);
@@ -108,25 +122,25 @@ LightSample LightSampler::sample_by_contribution(const Vec3& x, const Vec2& uv) 
     const double below = chosen == 0 ? 0.0 : sums[chosen - 1], share = *found - below;
     if (!(share > 0.0)) return {};
     const Vec2 left(std::min((u - below) / share, 0x1.fffffffffffffp-1), uv.y);
-    if (table_.is_distant(chosen)) return on_distant(table_.distant(chosen), share / all, x, left);
+    if (table_.is_distant(chosen)) return on_distant(table_.distant(chosen), share / all, x.position, left);
     return on_part(chosen, share / all / table_.area(table_.parts()[chosen]), x, left);
 }
 
-double LightSampler::pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const {
+double LightSampler::pdf_in_general(const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
     const bool by_contribution = choice_ == LightChoice::contribution;
     if (y.is_infinite()) {
         if (empty() || !emitters_->has_environment()) return 0.0;
-        return probability_of_distant(0, x) * emitters_->environment_pdf(w);
+        return probability_of_distant(0, x.position) * emitters_->environment_pdf(w);
     }
     if (density_of_shape_[y.shape] == 0.0) return 0.0;
     const Part part = table_.part_at(y);
     const double area = table_.area(part);
     const double probability =
-        by_contribution ? contribution(part, x) / contributions(x).back() : density_of_shape_[y.shape] * area;
+        by_contribution ? contribution(part, x.position) / contributions(x.position).back() : density_of_shape_[y.shape] * area;
     if (!(probability > 0.0)) return 0.0;
-    if (place_ == LightPlace::solid_angle)
-        if (const double angle = sampled_solid_angle(part, x); angle > 0.0) return probability / angle;
-    return probability / area * per_solid_angle(y.position - x, y.normal, w);
+    if (const auto polygon = projected(part, x)) return probability * polygon->pdf(w);
+    if (const double angle = sampled_solid_angle(part, x.position); angle > 0.0) return probability / angle;
+    return probability / area * per_solid_angle(y.position - x.position, y.normal, w);
 }
 
 double LightSampler::probability_of_distant(std::size_t distant, const Vec3& x) const {
@@ -141,23 +155,67 @@ std::array<Vec3, 3> LightSampler::corners(const Part& part, const Vec3& x) const
     return {mesh.vertices[t[0]] - x, mesh.vertices[t[1]] - x, mesh.vertices[t[2]] - x};
 }
 
-// The solid angle of a part of a mesh; 0 from behind.
-double LightSampler::solid_angle_from_front(const Part& part, const Vec3& x) const {
+// Closer to its middle than twice the radius of a ball around it.
+bool LightSampler::is_near(const Part& part, const Vec3& x) const {
+    if (!std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape])) return false;
+    constexpr double times = 2.0;
     if (part.is_rectangle()) {
         const Rectangle& r = table_.rectangle(part);
-        return glm::dot(r.corner - x, glm::cross(r.a, r.b)) < 0.0 ? SphericalRectangle(r.corner - x, r.a, r.b).solid_angle() : 0.0;
+        const Vec3 d = r.corner + 0.5 * (r.a + r.b) - x;
+        return glm::dot(d, d) < times * times * 0.25 * (glm::dot(r.a, r.a) + glm::dot(r.b, r.b));
     }
     const auto [a, b, c] = corners(part, x);
-    return glm::dot(a, glm::cross(b - a, c - a)) < 0.0 ? solid_angle(a, b, c) : 0.0;
+    const Vec3 middle = (a + b + c) / 3.0;
+    const double radius2 =
+        std::max({glm::dot(a - middle, a - middle), glm::dot(b - middle, b - middle), glm::dot(c - middle, c - middle)});
+    return glm::dot(middle, middle) < times * times * radius2;
 }
 
-// Parts with a small solid angle are sampled by area: that is nearly uniform, and their solid angle is a difference with few
-// digits.
+bool LightSampler::is_seen_from_front(const Part& part, const Vec3& x) const {
+    if (part.is_rectangle()) {
+        const Rectangle& r = table_.rectangle(part);
+        return glm::dot(r.corner - x, glm::cross(r.a, r.b)) < 0.0;
+    }
+    const auto [a, b, c] = corners(part, x);
+    return glm::dot(a, glm::cross(b - a, c - a)) < 0.0;
+}
+
+// The solid angle of a part of a mesh; 0 from behind.
+double LightSampler::solid_angle_from_front(const Part& part, const Vec3& x) const {
+    if (!is_seen_from_front(part, x)) return 0.0;
+    if (part.is_rectangle()) {
+        const Rectangle& r = table_.rectangle(part);
+        return SphericalRectangle(r.corner - x, r.a, r.b).solid_angle();
+    }
+    const auto [a, b, c] = corners(part, x);
+    return solid_angle(a, b, c);
+}
+
+// Parts that are seen small are sampled by area: that is nearly uniform, and their measures are differences with few digits.
 double LightSampler::sampled_solid_angle(const Part& part, const Vec3& x) const {
     constexpr double smallest = 1e-4;
-    if (!std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape])) return 0.0;
+    const bool wanted = place_ == LightPlace::solid_angle || place_ == LightPlace::projected;
+    if (!wanted || !std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape])) return 0.0;
     const double angle = solid_angle_from_front(part, x);
     return angle > smallest ? angle : 0.0;
+}
+
+std::optional<ProjectedPolygon> LightSampler::projected(const Part& part, const Receiver& x) const {
+    constexpr double smallest = 1e-6;
+    std::optional<ProjectedPolygon> polygon;
+    const bool wanted = place_ == LightPlace::projected || (place_ == LightPlace::near_projected && is_near(part, x.position));
+    if (!wanted || !x.has_side() || !std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape]) ||
+        !is_seen_from_front(part, x.position))
+        return polygon;
+    if (part.is_rectangle()) {
+        const Rectangle& r = table_.rectangle(part);
+        const Vec3 corner = r.corner - x.position;
+        polygon.emplace(std::array{corner, corner + r.a, corner + r.a + r.b, corner + r.b}, x.normal);
+    } else {
+        polygon.emplace(corners(part, x.position), x.normal);
+    }
+    if (!(polygon->area() > smallest)) polygon.reset();
+    return polygon;
 }
 
 // For round shapes this is an estimate, positive wherever they may be seen.

@@ -3,8 +3,10 @@
 
 #include "core/emitter/light_table.h"
 #include "core/sampling/delta_pdf.h"
+#include "core/sampling/projected_polygon.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace neumann {
@@ -36,8 +38,23 @@ enum class LightChoice {
     all            // every light once
 };
 
-// How a light is sampled: uniformly by area, or uniformly by solid angle.
-enum class LightPlace { area, solid_angle };
+// How a light is sampled. Round shapes, and what is seen too small, are sampled by area whatever this says.
+enum class LightPlace {
+    area,            // uniformly
+    solid_angle,     // uniformly in solid angle
+    projected,       // in proportion to the cosine at the receiver; without a normal there, as solid_angle
+    near_projected,  // as `projected` from nearby, where the variance of points may be infinite, and by area from afar
+};
+
+// Where light is wanted.
+struct Receiver {
+    Vec3 position;
+    Vec3 normal{0.0};  // of the surface, on the side that receives light; 0 if both do
+
+    Receiver() = default;
+    Receiver(const Vec3& position, const Vec3& normal = Vec3(0.0)) : position(position), normal(normal) {}
+    bool has_side() const { return normal != Vec3(0.0); }
+};
 
 // Keeps references to the geometry and the emitters.
 class LightSampler {
@@ -50,9 +67,9 @@ public:
     // Number of samples per point; their contributions add up.
     std::size_t asks() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
-    // Samples light for the point x: the first number chooses the light and is then reused, with the second, for the point on it.
-    // The density is that of pdf().
-    LightSample sample(const Vec3& x, const Vec2& uv, std::size_t ask = 0) const {
+    // Samples light for the receiver x: the first number chooses the light and is then reused, with the second, for the point on
+    // it. The density is that of pdf().
+    LightSample sample(const Receiver& x, const Vec2& uv, std::size_t ask = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
         const LightTable::Choice chosen =
@@ -71,9 +88,9 @@ public:
                 density_of_shape_[place.shape]};
     }
     // The pdf, per solid angle, with which a sample for x finds y, the hit of a ray from x along w; y may be infinitely far away.
-    double pdf(const Vec3& x, const Vec3& w, const SurfacePoint& y) const {
+    double pdf(const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
         if (choice_ != LightChoice::contribution && place_ == LightPlace::area && !y.is_infinite())
-            return density_of_shape_[y.shape] * per_solid_angle(y.position - x, y.normal, w);
+            return density_of_shape_[y.shape] * per_solid_angle(y.position - x.position, y.normal, w);
         return pdf_in_general(x, w, y);
     }
 
@@ -91,9 +108,16 @@ private:
     }
 
     // `part`: its index in the table.
-    LightSample on_part(std::size_t part, double density, const Vec3& x, const Vec2& uv) const {
-        if (place_ == LightPlace::solid_angle) return on_part_as_seen(table_.parts()[part], density, x, uv);
-        return at_point(geometry_->point(places_[part], uv), density, x);
+    LightSample on_part(std::size_t part, double density, const Receiver& x, const Vec2& uv) const {
+        const bool as_seen =
+            place_ == LightPlace::near_projected ? is_near(table_.parts()[part], x.position) : place_ != LightPlace::area;
+        if (as_seen) return on_part_as_seen(part, density, x, uv);
+        return at_point(evenly_on(part, uv), density, x.position);
+    }
+    SurfacePoint evenly_on(std::size_t part, const Vec2& uv) const {
+        if (!table_.parts()[part].is_rectangle()) return geometry_->point(places_[part], uv);
+        const double u = 2.0 * uv.x;
+        return u < 1.0 ? geometry_->point(places_[part], {u, uv.y}) : geometry_->point(second_places_[part], {u - 1.0, uv.y});
     }
     LightSample at_point(const SurfacePoint& point, double density, const Vec3& x) const {
         LightSample light;
@@ -107,33 +131,41 @@ private:
         light.weight = emitters_->emitted(light.point, -light.w) / light.pdf;
         return light;
     }
-    LightSample sample_chosen(const LightTable::Choice& chosen, const Vec3& x, double v) const {
+    LightSample sample_chosen(const LightTable::Choice& chosen, const Receiver& x, double v) const {
         const Vec2 left(chosen.left, v);
         if (table_.is_distant(chosen.index))
-            return on_distant(table_.distant(chosen.index), choice_ == LightChoice::all ? 1.0 : chosen.probability, x, left);
+            return on_distant(table_.distant(chosen.index), choice_ == LightChoice::all ? 1.0 : chosen.probability, x.position,
+                              left);
         return on_part(chosen.index, density_of_shape_[places_[chosen.index].shape], x, left);
     }
     LightSample on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const;
-    LightSample on_part_as_seen(const Part& part, double density, const Vec3& x, const Vec2& uv) const;
-    SurfacePoint point_on_rectangle(const Part& part, const Vec3& position) const;
-    LightSample sample_by_contribution(const Vec3& x, const Vec2& uv) const;
-    double pdf_in_general(const Vec3& x, const Vec3& w, const SurfacePoint& y) const;
+    LightSample on_part_as_seen(std::size_t part, double density, const Receiver& x, const Vec2& uv) const;
+    // The point of a part at this position, or in this direction from x.
+    SurfacePoint point_on(const Part& part, const Vec3& position) const;
+    SurfacePoint point_towards(const Part& part, const Vec3& x, const Vec3& w) const;
+    LightSample sample_by_contribution(const Receiver& x, const Vec2& uv) const;
+    double pdf_in_general(const Receiver& x, const Vec3& w, const SurfacePoint& y) const;
 
+    bool is_near(const Part& part, const Vec3& x) const;
+    bool is_seen_from_front(const Part& part, const Vec3& x) const;
     double solid_angle_from_front(const Part& part, const Vec3& x) const;
-    // The solid angle of a part if it is sampled by solid angle, or 0 if it is sampled by area.
+    // The solid angle of a part if it is sampled by solid angle, or 0.
     double sampled_solid_angle(const Part& part, const Vec3& x) const;
     double contribution(const Part& part, const Vec3& x) const;
     // Cumulative contributions of all parts and distant lights.
     std::vector<double> contributions(const Vec3& x) const;
     std::array<Vec3, 3> corners(const Part& part, const Vec3& x) const;
+    // If a part is sampled by projected solid angle.
+    std::optional<ProjectedPolygon> projected(const Part& part, const Receiver& x) const;
 
     const Geometry* geometry_;
     const Emitters* emitters_;
     LightChoice choice_;
     LightPlace place_;
     LightTable table_;
-    std::vector<Geometry::Place> places_;   // of the table's parts
-    std::vector<double> density_of_shape_;  // density of a sample, per area
+    std::vector<Geometry::Place> places_;         // of the table's parts
+    std::vector<Geometry::Place> second_places_;  // of the second triangles of its rectangles
+    std::vector<double> density_of_shape_;        // density of a sample, per area
 };
 
 }  // namespace neumann

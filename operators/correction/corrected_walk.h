@@ -47,7 +47,6 @@ struct CorrectedWalker : Walker {
     double directions = 1.0;  // walks for each light sample at its last vertex
     double clamp = 0.0;       // c there, per scene unit squared
     double survival = 1.0;    // roulette of the share that goes on
-    Vec3 from_normal{0.0};    // of the side that it left
     // For how many of the walks from its last vertex it asks a shared point; the point, and the weight of its errors.
     double asks_for = 1.0;
     std::uint32_t point = 0;
@@ -115,8 +114,7 @@ private:
         w.reflected = max_component(sampled.weight);
         w.pdf = sampled.pdf;
         w.w = side.p.frame.to_world(sampled.wi);
-        w.from = w.x.position;
-        w.from_normal = side.p.frame.n;
+        w.from = receiver(side);
         return true;
     }
     // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.
@@ -124,7 +122,7 @@ private:
     bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
         if (!w.reads || !fields_->covers(w.x, front)) return true;
-        const double g = kernel(w.from, w.from_normal, w.x.position, front ? w.x.normal : -w.x.normal);
+        const double g = kernel(w.from.position, w.from.normal, w.x.position, front ? w.x.normal : -w.x.normal);
         const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
         const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
         const Rgb weight = on ? w.beta * (1.0 - 1.0 / w.survival) : w.beta;

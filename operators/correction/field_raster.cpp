@@ -112,7 +112,7 @@ NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& ligh
     };
     for (std::uint32_t i = 0; i < light_samples; ++i) {
         sampler.start(i);
-        waiting[count] = lights.sample(p.position, sampler.next2());
+        waiting[count] = lights.sample({p.position, n}, sampler.next2());
         if (!(waiting[count].pdf > 0.0)) continue;
         cosine[count] = glm::dot(n, waiting[count].w);
         if (cosine[count] > 0.0 && ++count == waiting.size()) look();
@@ -125,7 +125,7 @@ NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& ligh
 
 void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed) {
     if (scene.emitters.empty()) return;
-    const LightSampler lights(scene.geometry, scene.emitters);
+    const LightSampler lights(scene.geometry, scene.emitters, LightChoice::mixed, LightPlace::near_projected);
     const SobolPoints points(light_samples);
     struct Row {
         std::uint32_t chart, row;

@@ -51,7 +51,7 @@ NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space
         sampler.start(i);
         const Vec2 u = sampler.next2();
         const SurfacePoint x = space.patches().point(facet.patch, sampler.next2());
-        const LightSample y = lights.sample(x.position, u);
+        const LightSample y = lights.sample({x.position, facet.front ? x.normal : -x.normal}, u);
         const Vec3 wi = PatchSpace::frame(facet, x).to_local(y.w);
         if (!(y.pdf > 0.0) || !(wi.z > 0.0)) continue;
         segments[waiting] = {x, y.point};
@@ -93,7 +93,7 @@ IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& 
     IncidentVector<C> means = IncidentVector<C>::zero(space.size());
     if (scene.emitters.empty()) return means;
     const SobolPoints points(samples);
-    const LightSampler lights(scene.geometry, scene.emitters);
+    const LightSampler lights(scene.geometry, scene.emitters, LightChoice::mixed, LightPlace::near_projected);
     for_facets(space, [&](std::uint32_t f) {
         if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(lights, space, points, seed, f, means);
     });

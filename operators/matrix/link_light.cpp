@@ -40,7 +40,7 @@ LinkShares trace(const LinkLight& light, std::size_t part, const PatchSpace& spa
 LinkLight::LinkLight(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces)
     : space_(&space),
       geometry_(&scene.geometry),
-      lights_(scene.geometry, scene.emitters),
+      lights_(scene.geometry, scene.emitters, LightChoice::mixed, LightPlace::near_projected),
       links_(scene, space, bounces),
       seed_(seed ^ light_stream) {
     if (lights_.empty()) return;

@@ -116,7 +116,7 @@ private:
             sampler.start(i);
             const Vec2 u = sampler.next2();
             const SurfacePoint x = space_->patches().point(reflector.patch, sampler.next2());
-            const LightSample y = lights_.sample(x.position, u);
+            const LightSample y = lights_.sample({x.position, reflector.front ? x.normal : -x.normal}, u);
             const double cosine = (reflector.front ? 1.0 : -1.0) * glm::dot(x.normal, y.w);
             if (!(y.pdf > 0.0) || !(cosine > 0.0) || !geometry_->visible(x, y.point)) continue;
             each(x, y.w, y.weight * (cosine * area));

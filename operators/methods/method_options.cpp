@@ -60,9 +60,11 @@ const Named<Strategy> strategies{{"hemisphere", {DirectLight::hemisphere}},
                                  {"surfaces", {DirectLight::surfaces}},
                                  {"light", {DirectLight::light}},
                                  {"solid-angle", {DirectLight::light, LightPlace::solid_angle}},
+                                 {"projected", {DirectLight::light, LightPlace::projected}},
                                  {"mis", {}},
                                  {"mis-balance", {.heuristic = Heuristic::balance}},
-                                 {"mis-solid-angle", {.place = LightPlace::solid_angle}}};
+                                 {"mis-solid-angle", {.place = LightPlace::solid_angle}},
+                                 {"mis-projected", {.place = LightPlace::projected}}};
 Strategy strategy(const DirectLightSettings& direct) { return {direct.direct, direct.place, direct.heuristic}; }
 bool asks_lights(const DirectLightSettings& s) { return s.direct == DirectLight::light || s.direct == DirectLight::mis; }
 
@@ -174,9 +176,9 @@ std::vector<MethodOption> make_options() {
         choice(
             "direct", "HOW",
             "How a walk samples direct light. By directions: hemisphere (uniform), cosine, bsdf (of the material). By points: "
-            "surfaces (on all surfaces), light (on lights), solid-angle (on lights, uniform in solid angle). By both: mis (bsdf "
-            "and "
-            "light with the power heuristic, the default), mis-balance, mis-solid-angle",
+            "surfaces (on all surfaces), light (on lights), solid-angle (on lights, uniform in solid angle), projected "
+            "(on lights, in proportion to the cosine). By both: mis (bsdf and light with the power heuristic, the default), "
+            "mis-balance, mis-solid-angle, mis-projected",
             strategies, [](const auto& m) requires requires { m.direct; } { return strategy(m.direct); },
             [](auto& m, const Strategy& s) {
                 m.direct = {s.direct, m.direct.lights, s.place, s.heuristic};
@@ -252,7 +254,7 @@ void expect_sense(const method::Walk& walk, bool lights) {
                                      name(strategies, strategy(walk.direct))));
 }
 void expect_sense(const method::Bidirectional& both, bool) {
-    if (both.direct.direct != DirectLight::mis)
+    if (both.direct.direct != DirectLight::mis || both.direct.place == LightPlace::projected)
         throw InputError(
             fmt::format("--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or "
                         "mis-solid-angle, not {}",

@@ -46,7 +46,7 @@ public:
         u_[0][j] = u.x;
         u_[1][j] = u.y;
         w.reflected = max_component(albedo);
-        w.from = w.x.position;
+        w.from = {w.x.position, front ? w.x.normal : -w.x.normal};
     }
     // R for the walks that were added; then the packet is empty. `directions`: as in choose_question().
     void reflect(const DirectLightSampler& direct, double directions) {

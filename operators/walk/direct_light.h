@@ -3,6 +3,7 @@
 
 #include "core/geometry/area_sampler.h"
 #include "core/material/materials.h"
+#include "core/scene/receiver.h"
 #include "core/scene/scene.h"
 #include "operators/walk/walk_settings.h"
 
@@ -40,7 +41,7 @@ public:
                 return ask_surface(side.p, choice, sampler.next2());
             }
             default:
-                return lights_.sample(side.p.position, sampler.next2(), question);
+                return lights_.sample(receiver(side), sampler.next2(), question);
         }
     }
     // Whether ask() finds points that do not depend on the vertex, on surfaces that shine evenly; such a point.
@@ -51,7 +52,7 @@ public:
     double weight_of_answer(double pdf, double pdf_of_material) const {
         return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf, pdf_of_material) : 1.0;
     }
-    double weight_of_hit(double pdf_of_material, const Vec3& x, const Vec3& w, const SurfacePoint& y) const {
+    double weight_of_hit(double pdf_of_material, const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
         return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf_of_material, lights_.pdf(x, w, y)) : 1.0;
     }
     bool is_weighted() const { return settings_.direct == DirectLight::mis; }

@@ -78,7 +78,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                     w.reflected = max_component(sampled.weight);
                     w.pdf = sampled.pdf;
                     w.w = side.p.frame.to_world(sampled.wi);
-                    w.from = w.x.position;
+                    w.from = receiver(side);
                     return true;
                 };
                 if (std::is_same_v<Continuation, MaterialContinuation> && questions == 1 && DiffusePacket::fits(direct)) {

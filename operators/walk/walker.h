@@ -1,6 +1,7 @@
 // The state of a walk from the camera, and of walks that advance together.
 #pragma once
 
+#include "core/emitter/light_sampler.h"
 #include "operators/walk/path_end.h"
 #include "operators/walk/together.h"
 
@@ -18,7 +19,7 @@ struct AskedLight {
 struct Walker : PathEnd {
     static constexpr bool from_light = false;
     Vec3 wo;                 // towards the previous vertex
-    Vec3 from;               // position of the previous vertex
+    Receiver from;           // the previous vertex
     double reflected = 0.0;  // largest channel of the last reflection's weight
     AskedLight asked;
 };
