@@ -3,6 +3,7 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
+#include "apps/commands/preview.h"
 #include "apps/commands/progress_line.h"
 #include "apps/files/reference.h"
 #include "apps/files/series_files.h"
@@ -125,7 +126,12 @@ int render_command(const RenderRequest& given) {
     ProgressLine line(request.quiet);
     Watch watch;
     watch.stop = interrupted;
-    watch.progress = [&](const RenderProgress& so_far) { line.show(so_far); };
+    Preview preview(*folder);
+    watch.progress = [&](const RenderProgress& so_far) {
+        line.show([&] { return progress_text(so_far) + (preview.is_there() ? "   so far: preview.png" : ""); });
+    };
+    if (files.sheets || files.strips)
+        watch.show = [&](std::size_t bounces, const auto& term) { preview.show(bounces, term); };
     watch.chosen = [&](int bounces) {
         expect_pictures();  // before anything is sampled
         folder->expect_space(estimated_bytes(scene->film, bounces, fields, files));

@@ -75,7 +75,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
         {"any", {"run.json", "index.html"}},
         {"render",
          {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
-          "strip-terms.gif", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
+          "strip-terms.gif", "preview.png", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
         {"study", {"study.csv", "study.json"}},
         {"compare", {"compare.json"}},
         {"export",
@@ -164,6 +164,8 @@ void OutputFolder::remove_leftovers() {
 void OutputFolder::discard() noexcept {
     for (const std::string& name : written_) ::unlink(partial(name).c_str());
     written_.clear();
+    for (const std::string& name : shown_) ::unlink((path_ / name).c_str());
+    shown_.clear();
     // Folders that are not empty stay.
     for (auto folder = created_.rbegin(); folder != created_.rend() && ::rmdir(folder->c_str()) == 0; ++folder) {
     }
@@ -184,6 +186,18 @@ void OutputFolder::write(const std::string& name, std::string_view bytes) {
     throw RunError(cannot_be_written(path_ / name, error));
 }
 
+void OutputFolder::show(const std::string& name, std::string_view bytes) {
+    write(name, bytes);
+    put(name);
+    shown_.push_back(name);
+}
+
+void OutputFolder::put(const std::string& name) {
+    if (::rename(partial(name).c_str(), (path_ / name).c_str()) != 0) throw RunError(cannot_be_written(path_ / name, errno));
+    const std::scoped_lock lock(written_by_one_);
+    std::erase(written_, name);
+}
+
 void OutputFolder::expect_space(double bytes) const {
     std::error_code unknown;
     const fs::space_info space = fs::space(path_, unknown);
@@ -195,10 +209,6 @@ void OutputFolder::expect_space(double bytes) const {
 
 void OutputFolder::commit() {
     const std::vector<std::string> names = written_;
-    const auto put = [&](const std::string& name) {
-        if (::rename(partial(name).c_str(), (path_ / name).c_str()) != 0) throw RunError(cannot_be_written(path_ / name, errno));
-        std::erase(written_, name);
-    };
     const auto is_new = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
     const std::string last = "run.json";
 
@@ -211,6 +221,7 @@ void OutputFolder::commit() {
     }
     if (is_new(last)) put(last);
     ::fsync(descriptor_);
+    shown_.clear();
     created_.clear();
 }
 

@@ -32,6 +32,9 @@ public:
     // device".
     void write(const std::string& name, std::string_view bytes);
 
+    // Puts a file in place at once, for a look at what is on its way; commit() and the destructor remove it. As write().
+    void show(const std::string& name, std::string_view bytes);
+
     // Throws InputError if fewer bytes are free, before time is spent on results that cannot be written.
     void expect_space(double bytes) const;
 
@@ -43,6 +46,7 @@ public:
 
 private:
     std::filesystem::path partial(const std::string& name) const { return path_ / ("." + name + ".partial"); }
+    void put(const std::string& name);
     void expect_no_other_files(std::string_view command) const;
     void create();
     void lock();
@@ -52,7 +56,7 @@ private:
     std::filesystem::path path_;
     std::vector<std::filesystem::path> created_;  // folders that were missing, outermost first
     std::mutex written_by_one_;
-    std::vector<std::string> written_;
+    std::vector<std::string> written_, shown_;
     int descriptor_ = -1;  // of the folder; it holds the lock
 };
 

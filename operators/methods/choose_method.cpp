@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "operators/correction/diffuse_sides.h"
+#include "operators/methods/ahead.h"
 #include "operators/methods/render.h"
 #include "operators/pictures/missing_paths.h"
 
@@ -22,10 +23,6 @@ constexpr int trial_width = 48, trial_bounces = 6;       // at most
 constexpr std::uint64_t trial_samples = 64;
 constexpr std::uint32_t trial_replicates = 4;
 
-// Rays of a render by the walk: of two a bounce where samples are given, of 10 million a second where seconds are.
-constexpr double rays_per_second = 1e7, rays_per_bounce = 2.0;
-// A pilot takes some 15 million rays; a render that is not several times as long does without one.
-constexpr double fewest_rays = 3e7;
 // Part of the work of the methods before it that a method may take to replace them: the pilot is no more exact than that.
 constexpr double clearly_better = 0.8;
 // The largest Σ_i E|error|² / |K^i Le|² of a pilot that is believed.
@@ -43,27 +40,6 @@ std::vector<Candidate> candidates(const method::Auto& open, const Scene& scene) 
     std::vector<Candidate> all{{method::Walk{open}, 1.0}, {method::Corrected{open}, 1.3}, {method::Guided{open}, 1.2}};
     if (!scene.hide_emitters) all.push_back({method::Bidirectional{open}, 1.4});
     return all;
-}
-
-Film small_film(const Film& film) {
-    const double scale = std::min(1.0, static_cast<double>(trial_width) / std::max(film.crop_width, film.crop_height));
-    const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(size * scale))); };
-    Film small = film;
-    small.width = scaled(film.width);
-    small.height = scaled(film.height);
-    small.crop_width = std::min(scaled(film.crop_width), small.width);
-    small.crop_height = std::min(scaled(film.crop_height), small.height);
-    small.crop_x = std::min(static_cast<int>(film.crop_x * scale), small.width - small.crop_width);
-    small.crop_y = std::min(static_cast<int>(film.crop_y * scale), small.height - small.crop_height);
-    return small;
-}
-
-double expected_rays(const Goal& goal, const Film& film, int bounces) {
-    double rays = std::numeric_limits<double>::infinity();
-    if (goal.samples)
-        rays = static_cast<double>(*goal.samples) * film.crop_width * film.crop_height * rays_per_bounce * (bounces + 1.0);
-    if (goal.seconds) rays = std::min(rays, *goal.seconds * rays_per_second);
-    return rays;
 }
 
 double square(const Image& image) {
@@ -151,9 +127,9 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
         return {method::Bidirectional{open},
                 "what mirrors and glass throw on from a light without extent is found from the light alone"};
     const double affordable = expected_rays(with_default_limits(goal), scene.film, bounces);
-    if (affordable < fewest_rays) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
+    if (affordable < rays_of_a_long_render) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
-    const Scene small = scene.with(small_film(scene.film));
+    const Scene small = scene.with(small_film(scene.film, trial_width));
     std::vector<Candidate> all;
     std::vector<Result> results;
     for (Candidate& candidate : candidates(open, scene)) {

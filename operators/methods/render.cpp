@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "operators/methods/choose_method.h"
+#include "operators/methods/first_pictures.h"
 #include "operators/methods/method_plan.h"
 #include "operators/methods/render_job.h"
 
@@ -41,6 +42,7 @@ BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, 
 }  // namespace
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
+    show_first_pictures(scene, method, goal, watch);
     return render(scene, method, goal, watch, PilotOnDemand(scene, direct_of_pilot(method), goal.seed));
 }
 

@@ -203,9 +203,13 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
         progress.fraction = std::min(progress.fraction, 1.0);
         watch.progress(progress);
     };
+    const auto show = [&] {
+        if (watch.show) watch.show(run.pictures.bounces(), [&](std::size_t i) { return run.pictures.term_mean(i); });
+    };
     const double end = goal.seconds ? 1.1 * *goal.seconds + 1.0 : std::numeric_limits<double>::infinity();
     for (;;) {
         tell();
+        show();
         if (goal.relative_error && steps.worst().error <= *goal.relative_error) {
             run.outcome = Outcome::error_reached;
             return run;

@@ -26,7 +26,9 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
     const std::size_t terms = result.quantities() - 1;
     for (std::size_t i = 0; i < terms; ++i) checkpoint.term_error.push_back(relative_standard_error(result.term(i)));
     checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
-    if (watch.judge) watch.judge([&](std::size_t i) { return result.term(i).mean; }, result.sum(terms - 1).mean, checkpoint);
+    const auto term = [&](std::size_t i) { return result.term(i).mean; };
+    if (watch.judge) watch.judge(term, result.sum(terms - 1).mean, checkpoint);
+    if (watch.show) watch.show(terms - 1, term);
     return checkpoint;
 }
 

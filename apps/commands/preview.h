@@ -1,0 +1,31 @@
+// preview.png of a render that is on its way: the strip of the terms so far.
+#pragma once
+
+#include "apps/files/output_folder.h"
+#include "core/image/image.h"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+
+namespace neumann {
+
+class Preview {
+public:
+    // Keeps a reference to the folder.
+    explicit Preview(OutputFolder& folder) : folder_(folder) {}
+
+    // As Watch::show. Takes at most a small part of the time; what comes too soon is left out, and what cannot be written is not
+    // missed.
+    void show(std::size_t bounces, const std::function<Image(std::size_t)>& term);
+    // From any thread.
+    bool is_there() const { return is_there_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    OutputFolder& folder_;
+    std::atomic<bool> is_there_ = false;
+    Clock::time_point next_{};
+};
+
+}  // namespace neumann
