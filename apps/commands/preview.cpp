@@ -25,7 +25,7 @@ void Preview::show(std::size_t bounces, const std::function<Image(std::size_t)>&
     const double exposure = exposure_for(sums.back(), terms.front());
     const Strip strip = strip_of_terms({.terms = terms, .sums = sums}, terms.front(), exposure);
     try {
-        folder_.show("preview.png", strip_png(strip, exposure, find_label_font()));
+        folder_.show(strip_png(strip, exposure, find_label_font()));
         is_there_ = true;
     } catch (const RunError&) {
         // A full disk is reported when the pictures are written.

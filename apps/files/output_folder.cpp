@@ -15,11 +15,14 @@
 #include <regex>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace neumann {
 namespace {
 
 namespace fs = std::filesystem;
+
+const std::string preview_file = "preview.png";
 
 std::string cannot_be_written(const fs::path& path, int error) {
     return fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(error));
@@ -75,7 +78,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
         {"any", {"run.json", "index.html"}},
         {"render",
          {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
-          "strip-terms.gif", "preview.png", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
+          "strip-terms.gif", preview_file, "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
         {"study", {"study.csv", "study.json"}},
         {"compare", {"compare.json"}},
         {"export",
@@ -148,6 +151,7 @@ void OutputFolder::lock() {
     if (descriptor_ < 0) throw InputError(cannot_be_written(path_, errno));
     // File systems without locks are accepted.
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        ::close(std::exchange(descriptor_, -1));  // the preview there is not ours
         throw InputError(path_.string() + ": another run is writing there");
     }
 }
@@ -155,6 +159,7 @@ void OutputFolder::lock() {
 void OutputFolder::remove_leftovers() {
     constexpr std::string_view suffix = ".partial";
     const auto is_leftover = [&](std::string_view name) {
+        if (name == preview_file) return true;
         return name.starts_with('.') && name.ends_with(suffix) && name.size() > suffix.size() + 1 &&
                is_output_name(name.substr(1, name.size() - 1 - suffix.size()));
     };
@@ -164,8 +169,7 @@ void OutputFolder::remove_leftovers() {
 void OutputFolder::discard() noexcept {
     for (const std::string& name : written_) ::unlink(partial(name).c_str());
     written_.clear();
-    for (const std::string& name : shown_) ::unlink((path_ / name).c_str());
-    shown_.clear();
+    if (descriptor_ >= 0) ::unlink((path_ / preview_file).c_str());
     // Folders that are not empty stay.
     for (auto folder = created_.rbegin(); folder != created_.rend() && ::rmdir(folder->c_str()) == 0; ++folder) {
     }
@@ -186,10 +190,9 @@ void OutputFolder::write(const std::string& name, std::string_view bytes) {
     throw RunError(cannot_be_written(path_ / name, error));
 }
 
-void OutputFolder::show(const std::string& name, std::string_view bytes) {
-    write(name, bytes);
-    put(name);
-    shown_.push_back(name);
+void OutputFolder::show(std::string_view bytes) {
+    write(preview_file, bytes);
+    put(preview_file);
 }
 
 void OutputFolder::put(const std::string& name) {
@@ -221,7 +224,6 @@ void OutputFolder::commit() {
     }
     if (is_new(last)) put(last);
     ::fsync(descriptor_);
-    shown_.clear();
     created_.clear();
 }
 

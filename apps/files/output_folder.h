@@ -32,8 +32,9 @@ public:
     // device".
     void write(const std::string& name, std::string_view bytes);
 
-    // Puts a file in place at once, for a look at what is on its way; commit() and the destructor remove it. As write().
-    void show(const std::string& name, std::string_view bytes);
+    // Puts preview.png in place at once, for a look at what is on its way. commit() and the destructor remove it, and where the
+    // process was killed, the next run does. As write().
+    void show(std::string_view bytes);
 
     // Throws InputError if fewer bytes are free, before time is spent on results that cannot be written.
     void expect_space(double bytes) const;
@@ -56,7 +57,7 @@ private:
     std::filesystem::path path_;
     std::vector<std::filesystem::path> created_;  // folders that were missing, outermost first
     std::mutex written_by_one_;
-    std::vector<std::string> written_, shown_;
+    std::vector<std::string> written_;
     int descriptor_ = -1;  // of the folder; it holds the lock
 };
 

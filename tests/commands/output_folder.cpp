@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -96,6 +97,31 @@ TEST_F(OutputFolderTest, ACommitRemovesWhatAnEarlierRunLeftAndNothingElse) {
     Names expected = others;
     expected.insert("bounce_000.exr");
     EXPECT_EQ(names_in(base_), expected);
+}
+
+// What is on its way is there at once, and gone in the end: with a commit, without one, and after a process that was killed.
+TEST_F(OutputFolderTest, APreviewIsThereUntilTheFilesAre) {
+    for (const bool finished : {true, false}) {
+        std::optional<OutputFolder> folder(std::in_place, base_, "render");
+        folder->show("rough");
+        EXPECT_EQ(text_of(base_ / "preview.png"), "rough");
+        folder->show("better");
+        EXPECT_EQ(text_of(base_ / "preview.png"), "better");
+        folder->write("series.csv", "x");
+        EXPECT_EQ(names_in(base_).count(".preview.png.partial"), 0u);
+        if (finished) folder->commit();
+        folder.reset();
+        EXPECT_EQ(names_in(base_), Names{"series.csv"});
+    }
+    {
+        OutputFolder folder(base_, "render");
+        folder.show("of the first");
+        EXPECT_NE(refusal(base_), "accepted");
+        EXPECT_EQ(text_of(base_ / "preview.png"), "of the first");
+    }
+    put(base_ / "preview.png", "of a process that was killed");
+    const OutputFolder folder(base_, "render");
+    EXPECT_EQ(names_in(base_), Names{"series.csv"});
 }
 
 TEST_F(OutputFolderTest, WritingTwiceKeepsTheLast) {

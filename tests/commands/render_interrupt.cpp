@@ -38,6 +38,32 @@ TEST_F(RenderInterrupt, AfterAWhile) {
     }
 }
 
+// preview.png is there within a moment, whole, becomes better, and goes when the pictures come. A short render has none.
+TEST_F(RenderInterrupt, APreviewIsThereMeanwhile) {
+    for (const char* method : {"auto", "matrix"}) {
+        RunningCommand command =
+            start({"render", "scene.xml", "-o", "a", "-n", "2", "--time", "600", "-t", "1", "--method", method});
+        const std::string preview = path("a/preview.png");
+        const auto wait_for_other = [&](const std::string& last) {
+            std::string now = last;
+            for (int i = 0; i < 3000 && now == last; ++i) {
+                std::this_thread::sleep_for(milliseconds(10));
+                if (std::filesystem::exists(preview)) now = text_of(preview);
+            }
+            EXPECT_NE(now, last);
+            EXPECT_TRUE(now.starts_with("\x89PNG") && now.find("IEND") != std::string::npos) << method;
+            return now;
+        };
+        wait_for_other(wait_for_other(""));
+        command.signal(SIGINT);
+        expect_interrupted(command.wait());
+        std::filesystem::remove_all(path("a"));
+    }
+    RunningCommand command = start({"render", "scene.xml", "-o", "a", "-n", "2", "--spp", "64", "--files", "tables"});
+    EXPECT_EQ(command.wait().exit_code, 0);
+    EXPECT_EQ(names("a"), (Names{"convergence.csv", "run.json", "series.csv"}));
+}
+
 // While the scene is looked at and the first samples are taken.
 TEST_F(RenderInterrupt, AtTheBeginning) {
     for (const int wait : {0, 50, 200}) {
@@ -96,7 +122,7 @@ TEST_F(RenderInterruptSlow, LongBeforeTheFirstReplicateEnds) {
     EXPECT_EQ(run_json("a").at("samples").at("replicate_size"), 1);
 }
 
-// A second one ends the program at once, and what an earlier run left stays as it was.
+// A second one ends the program at once, and what an earlier run left stays as it was; a preview is removed by the next run.
 TEST_F(RenderInterrupt, TwiceLeavesAnEarlierRunAlone) {
     render("scene.xml", "a", {"-n", "1", "--spp", "4", "--quiet"});
     const auto before = contents("a");
@@ -108,6 +134,7 @@ TEST_F(RenderInterrupt, TwiceLeavesAnEarlierRunAlone) {
     command.signal(SIGTERM);
     command.signal(SIGINT);
     EXPECT_NE(command.wait().exit_code, 0);
+    std::filesystem::remove(path("a/preview.png"));
     EXPECT_EQ(contents("a"), before);
 }
 
