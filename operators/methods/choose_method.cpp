@@ -133,6 +133,7 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
     std::vector<Candidate> all;
     std::vector<Result> results;
     for (Candidate& candidate : candidates(open, scene)) {
+        if (watch.stop()) break;
         try {
             results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));
             all.push_back(std::move(candidate));
