@@ -96,10 +96,11 @@ Vec2 ProjectedPolygon::end_between(const Edge& outer, const Edge& inner, const V
         const double missing = share * area - (outer.sector(a, d) - inner.sector(a, d));
         (missing > 0.0 ? low : high) = angle;
         const double step = 2.0 * missing / (inner.height2(d) - outer.height2(d));
+        // At a corner both heights are the same, and the step is no number.
         const double next = angle + step;
+        angle = next >= low && next <= high ? next : 0.5 * (low + high);
         // The error after a step is about its square.
-        if (std::abs(step) < 1e-7 * whole || high - low < 1e-14 * whole) return turned(a, std::cos(next), std::sin(next));
-        angle = next > low && next < high ? next : 0.5 * (low + high);
+        if (std::abs(step) < 1e-7 * whole || high - low < 1e-14 * whole) return turned(a, std::cos(angle), std::sin(angle));
     }
     return d;
 }

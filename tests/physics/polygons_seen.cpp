@@ -194,6 +194,9 @@ TEST(PolygonsSeen, DirectionsGoByTheCosine) {
                                           std::array{Vec3(-1, -1, 1e-3), Vec3(2, 0, 0), Vec3(0, 2, 0), slanted}}) {
         const ProjectedPolygon polygon(corners(corner, a, b), n);
         const Vec3 across = glm::cross(a, b);
+        for (const double s : {0.0, 0x1.fffffffffffffp-1})
+            for (const double t : {0.0, 0x1.fffffffffffffp-1})
+                EXPECT_NEAR(glm::length(polygon.sample({s, t})), 1.0, 1e-12) << s << ' ' << t;
         EXPECT_GT(chi_squared_test(
                       corner, a, b,
                       [&](const Vec2& u) {
