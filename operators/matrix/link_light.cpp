@@ -1,6 +1,7 @@
 #include "operators/matrix/link_light.h"
 
 #include <bit>
+#include <cmath>
 
 namespace neumann {
 
@@ -20,7 +21,11 @@ namespace {
 
 // Independent random numbers for each use of the seed.
 constexpr std::uint64_t pilot_stream = 0x6c696e6b70696cull, light_stream = 0x6c696e6b6c69ull;
-constexpr std::uint32_t pilot_samples = 8, largest_net = 4096;
+constexpr std::uint32_t least_net = 8, largest_net = 4096;
+constexpr double pilot_share = 1.0 / 16.0;
+// Of the samples, which are spread evenly over all reflectors. A pilot can miss a spot of sun on one of them, and its light would
+// come as a few samples of any weight; so no sample weighs more than so many even ones.
+constexpr double even_share = 0.25;
 // Rays of a sample: to the light, and of the links.
 constexpr double rays_of_sample = 4.0;
 
@@ -56,20 +61,29 @@ void LinkLight::find_reflectors(const Scene& scene) {
                 reflectors_.push_back({patch, front});
 }
 
-// Samples in proportion to the power that a few of them find; at least these few.
+// Samples in proportion to the power that a few of them find, and a part by area.
 void LinkLight::divide(double samples, std::uint64_t seed) {
-    const SobolPoints points(pilot_samples);
+    const auto net_of = [](double wanted) {
+        return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(wanted, double{least_net}, double{largest_net})));
+    };
+    const std::uint32_t pilot = net_of(pilot_share * samples / static_cast<double>(std::max<std::size_t>(reflectors_.size(), 1)));
+    const SobolPoints points(pilot);
     std::vector<double> power(reflectors_.size());
     oneapi::tbb::parallel_for(std::size_t{0}, reflectors_.size(), [&](std::size_t i) {
         Sampler sampler(points, seed ^ pilot_stream, static_cast<std::uint32_t>(i));
-        light(reflectors_[i], sampler, 0, pilot_samples, pilot_samples,
+        light(reflectors_[i], sampler, 0, pilot, pilot,
               [&](const SurfacePoint&, const Vec3&, const Rgb& begun) { power[i] += mean_component(begun); });
     });
-    double sum = 0.0;
-    for (const double p : power) sum += p;
+    double all_power = 0.0, all_area = 0.0;
+    for (std::size_t i = 0; i < reflectors_.size(); ++i) {
+        all_power += power[i];
+        all_area += space_->patches().area(reflectors_[i].patch);
+    }
     for (std::uint32_t i = 0; i < reflectors_.size(); ++i) {
-        const auto wanted = static_cast<std::uint32_t>(std::max(sum > 0.0 ? samples * power[i] / sum : 0.0, double{pilot_samples}));
-        const std::uint32_t net = std::min(std::bit_ceil(wanted), largest_net), nets = (wanted + net - 1) / net;
+        const double even = space_->patches().area(reflectors_[i].patch) / all_area,
+                     share = all_power > 0.0 ? (1.0 - even_share) * power[i] / all_power + even_share * even : even,
+                     wanted = std::max(samples * share, double{least_net});
+        const std::uint32_t net = net_of(wanted), nets = static_cast<std::uint32_t>(std::ceil(wanted / net));
         points_.try_emplace(net, net);
         for (std::uint32_t n = 0; n < nets; ++n) parts_.push_back({i, n * net, net, nets * net});
     }
