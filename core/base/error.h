@@ -6,14 +6,15 @@
 
 namespace neumann {
 
-// A place in a text file; line and column count from 1, 0 means unknown.
+// A place in a file; line and column count from 1, 0 means unknown.
 struct Location {
     std::string file;
     int line = 0;
     int column = 0;
+    std::string pointer = {};  // RFC 6901, into JSON, in place of a line: "/materials/3/name"
 };
 
-// "file:line:column", leaving out what is unknown.
+// "file:line:column", leaving out what is unknown, or "file#/materials/3/name".
 std::string to_string(const Location& place);
 
 // The command or the scene is wrong (exit code 2): "file:line:column: what is wrong, what was expected".

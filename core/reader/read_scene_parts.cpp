@@ -1,4 +1,5 @@
 #include "core/reader/file_hash.h"
+#include "core/reader/import/read_raw_scene.h"
 #include "core/reader/plugins/area_lights.h"
 #include "core/reader/plugins/bsdfs.h"
 #include "core/reader/plugins/integrator.h"
@@ -92,7 +93,7 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     using namespace reader;
     SceneParts parts;
     Problems problems;
-    const Document document = read_document(path, definitions, parts.warnings, problems, optional);
+    const Document document = read_document(read_raw_scene(path), definitions, parts.warnings, problems, optional);
     const Objects objects(document.root, problems, document.lost);
     std::vector<std::string> mesh_files;
     TextureStore textures;

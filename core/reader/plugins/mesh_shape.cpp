@@ -70,10 +70,15 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
 
     p.refuse_rest();
     if (index < 0) throw Told();
-    const std::string path = context.document.find_file(filename);
-    context.mesh_files.push_back(path);
+    const auto& in_memory = context.document.in_memory.meshes;
+    const auto ready = in_memory.find(filename.value);
+    const bool is_on_disk = type != "ply" || ready == in_memory.end();
+    const std::string path = is_on_disk ? context.document.find_file(filename) : "";
+    if (is_on_disk) context.mesh_files.push_back(path);
     MeshFile file;
-    if (type == "serialized") {
+    if (!is_on_disk) {
+        file = *ready->second;
+    } else if (type == "serialized") {
         SerializedMesh serialized = read_serialized(path, static_cast<std::uint64_t>(index));
         face_normals = face_normals || serialized.face_normals;
         file = std::move(serialized);

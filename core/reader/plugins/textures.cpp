@@ -147,6 +147,8 @@ std::optional<SurfaceFunction> find_texture(Properties& p, const std::string& na
 }  // namespace
 
 std::shared_ptr<const Texels> read_texels(const Attribute& filename, const Context& context) {
+    const auto& in_memory = context.document.in_memory.pictures;
+    if (const auto found = in_memory.find(filename.value); found != in_memory.end()) return found->second;
     const std::string path = context.document.find_file(filename);
     auto& texels = context.textures.images[path];
     if (!texels) {

@@ -3,17 +3,17 @@
 #include "core/reader/xml/definitions.h"
 #include "core/reader/xml/grammar.h"
 #include "core/reader/xml/numbers.h"
-#include "core/reader/xml/source_text.h"
+#include "core/reader/xml/parse_xml.h"
 #include "core/reader/xml/spectra.h"
 #include "core/reader/xml/upgrade.h"
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <pugixml.hpp>
 
 namespace neumann::reader {
 
@@ -22,16 +22,18 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int max_include_depth = 15;  // as Mitsuba
-constexpr int max_element_depth = 100;
 
 class Loader {
 public:
     Loader(Document& document, const std::map<std::string, std::string>& definitions, Warnings& warnings, Problems& problems)
         : document_(document), definitions_(definitions), warnings_(warnings), problems_(problems) {}
 
-    void read_main(const std::string& path, bool optional) {
+    void read_main(RawScene scene, bool optional) {
+        const std::string path = scene.files.front();
         document_.folders.push_back(fs::path(path).parent_path().string());
-        document_.root = read_file(path);
+        document_.files = std::move(scene.files);
+        document_.in_memory = std::move(scene.in_memory);
+        document_.root = read_file(path, scene.root);
         if (document_.root.tag != "scene")
             throw InputError(document_.root.place,
                              fmt::format("the outermost element is <{}>, expected <scene>", document_.root.tag));
@@ -39,16 +41,17 @@ public:
     }
 
 private:
-    Element read_file(const std::string& path);
-    Element read_element(const SourceText& source, pugi::xml_node node, const std::string& parent_tag, int depth);
-    void read_children(const SourceText& source, pugi::xml_node node, Element& parent, int depth);
+    // The elements of a file.
+    Element read_file(const std::string& path, const Element& root);
+    Element read_element(const Element& raw, const std::string& parent_tag, int depth);
+    void read_children(const Element& raw, Element& parent, int depth);
     // Executes elements such as <include>; all others become children of `parent`.
     void place(Element e, Element& parent);
     void add_default(const Element& e);
     void add_folder(const Element& e);
     void include(const Element& e, Element& parent);
     // Puts a broken element in place of one that cannot be read, with its contents.
-    void drop(pugi::xml_node node, Element& parent, const Location& place);
+    void drop(const Element& raw, Element& parent);
     // Calls f; if it throws InputError, the problem is recorded and the element marked as broken.
     template <class F>
     void attempt(Element& e, F&& f) {
@@ -73,39 +76,16 @@ private:
     bool dropped_ = false;  // elements were dropped unread, and they may have used definitions
 };
 
-Element Loader::read_file(const std::string& path) {
-    const SourceText source(path);
-    document_.files.push_back(path);
+Element Loader::read_file(const std::string& path, const Element& root) {
     reading_.files.push_back(path);
     reading_.search.insert(reading_.search.begin(), fs::path(path).parent_path().string());
-    pugi::xml_document xml;
-    const pugi::xml_parse_result result =
-        xml.load_buffer(source.text().data(), source.text().size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!result)
-        throw InputError(source.place(static_cast<std::size_t>(result.offset)),
-                         fmt::format("broken XML: {}", result.description()));
-    pugi::xml_node root;
-    for (const pugi::xml_node node : xml.children()) {
-        if (node.type() != pugi::node_element) continue;
-        if (root)
-            throw InputError(source.place(static_cast<std::size_t>(node.offset_debug()) - 1),
-                             fmt::format("a second outermost element <{}>, expected the end of the file", node.name()));
-        root = node;
-    }
-    return read_element(source, root, "", 0);
+    return read_element(root, "", 0);
 }
 
-Element Loader::read_element(const SourceText& source, pugi::xml_node node, const std::string& parent_tag, int depth) {
-    const auto offset = static_cast<std::size_t>(node.offset_debug());
-    Element e;
-    e.tag = node.name();
-    e.place = source.place(offset - 1);
+Element Loader::read_element(const Element& raw, const std::string& parent_tag, int depth) {
+    Element e{raw.tag, raw.attributes, {}, raw.place};
     if (depth > max_element_depth)
         throw InputError(e.place, fmt::format("elements are nested more than {} deep", max_element_depth));
-    int index = 0;
-    for (const pugi::xml_attribute a : node.attributes())
-        e.attributes.push_back({a.name(), a.value(), source.attribute_place(offset, index++)});
-
     if (reading_.is_old && !parent_tag.empty()) upgrade_tag(e, warnings_);
     if (!parent_tag.empty()) check_place(e, parent_tag);
     if (parent_tag.empty() && e.tag != "scene" && !is_object(e.tag))
@@ -120,25 +100,23 @@ Element Loader::read_element(const SourceText& source, pugi::xml_node node, cons
     else
         attempt(e, [&] { check_attributes(e); });
     for (Attribute& a : e.attributes) attempt(e, [&] { definitions_.substitute(a); });
-    read_children(source, node, e, depth);
+    read_children(raw, e, depth);
     if (reading_.is_old) attempt(e, [&] { upgrade_parameters(e, warnings_); });
     if (e.tag == "spectrum" && !e.broken) attempt(e, [&] { write_out_spectrum(e, document_, problems_); });
     return e;
 }
 
-void Loader::read_children(const SourceText& source, pugi::xml_node node, Element& parent, int depth) {
-    for (const pugi::xml_node child : node.children()) {
-        if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-            problems_.add(InputError(parent.place, fmt::format("<{}> contains the text '{}', expected elements only", parent.tag,
-                                                               join(split(child.value())))),
-                          parent.place);
-        if (child.type() != pugi::node_element) continue;
-        std::optional<Element> e =
-            problems_.attempt(parent.place, [&] { return read_element(source, child, parent.tag, depth + 1); });
+void Loader::read_children(const Element& raw, Element& parent, int depth) {
+    if (!raw.text.empty())
+        problems_.add(InputError(parent.place, fmt::format("<{}> contains the text '{}', expected elements only", parent.tag,
+                                                           join(split(raw.text)))),
+                      parent.place);
+    for (const Element& child : raw.children) {
+        std::optional<Element> e = problems_.attempt(parent.place, [&] { return read_element(child, parent.tag, depth + 1); });
         if (e)
             place(std::move(*e), parent);
         else
-            drop(child, parent, parent.place);
+            drop(child, parent);
     }
 }
 
@@ -189,17 +167,16 @@ void Loader::add_folder(const Element& e) {
     throw InputError(value.place, fmt::format("there is no folder '{}'", fmt::join(tried, "' or '")));
 }
 
-void Loader::drop(pugi::xml_node node, Element& parent, const Location& place) {
-    const auto note_id = [&](const pugi::xml_node& n) {
-        if (const pugi::xml_attribute id = n.attribute("id")) document_.lost.ids.insert(id.value());
-        return false;
+void Loader::drop(const Element& raw, Element& parent) {
+    const std::function<void(const Element&)> note_ids = [&](const Element& e) {
+        if (const Attribute* id = e.find("id")) document_.lost.ids.insert(id->value);
+        for (const Element& child : e.children) note_ids(child);
     };
-    note_id(node);
-    node.find_node(note_id);
+    note_ids(raw);
     dropped_ = true;
     parent.broken = parent.broken || (!is_object(parent.tag) && parent.tag != "scene");
     Element e;  // without a tag
-    e.place = place;
+    e.place = parent.place;
     e.broken = true;
     parent.children.push_back(std::move(e));
 }
@@ -218,7 +195,9 @@ void Loader::include(const Element& e, Element& parent) {
     }
     if (open.size() > max_include_depth)
         throw InputError(name.place, fmt::format("includes are nested more than {} deep", max_include_depth));
-    Element root = read_file(path);
+    document_.files.push_back(path);
+    const Element raw = parse_xml(path);
+    Element root = read_file(path, raw);
     if (root.tag == "scene") {
         for (Element& child : root.children) {
             // A broken element may have an unknown tag; its problem is already reported.
@@ -268,10 +247,10 @@ std::string Document::find_file(const Attribute& name) const {
     throw InputError(name.place, fmt::format("there is no file '{}'; looked in: {}", name.value, join(shown)));
 }
 
-Document read_document(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
+Document read_document(RawScene scene, const std::map<std::string, std::string>& definitions, Warnings& warnings,
                        Problems& problems, bool optional) {
     Document document;
-    Loader(document, definitions, warnings, problems).read_main(path, optional);
+    Loader(document, definitions, warnings, problems).read_main(std::move(scene), optional);
     return document;
 }
 

@@ -1,4 +1,4 @@
-// The elements and attributes of an XML file with their places, after includes and parameters are resolved.
+// The elements and attributes of a scene with their places in its file.
 #pragma once
 
 #include "core/base/error.h"
@@ -19,6 +19,7 @@ struct Element {
     std::vector<Attribute> attributes;
     std::vector<Element> children;
     Location place;
+    std::string text = {};  // between the children, in an XML file: an error
     // Its error is already reported; the element is not used.
     bool broken = false;
 

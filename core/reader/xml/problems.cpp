@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t most_shown = 20;
 
-auto key(const Location& place) { return std::tie(place.file, place.line, place.column); }
+auto key(const Location& place) { return std::tie(place.file, place.line, place.column, place.pointer); }
 
-// Sort key: number of the file, line, column.
-using Order = std::tuple<std::size_t, int, int>;
+// Sort key: number of the file, line, column, pointer.
+using Order = std::tuple<std::size_t, int, int, std::string>;
 
 // The place of a message "file:12:3: what is wrong", if it is in this file.
 std::optional<Order> order_in(const std::string& text, const std::string& file, std::size_t number) {
@@ -27,14 +27,14 @@ std::optional<Order> order_in(const std::string& text, const std::string& file, 
         if (error != std::errc() || next == end || *next != ':') break;
         at = next + 1;
     }
-    return Order(number, places[0], places[1]);
+    return Order(number, places[0], places[1], "");
 }
 
 Order order_of(const std::string& text, const Location& near, const std::vector<std::string>& files) {
     for (std::size_t i = 0; i < files.size(); ++i)
         if (const auto found = order_in(text, files[i], i)) return *found;
     const auto file = std::find(files.begin(), files.end(), near.file);
-    return {static_cast<std::size_t>(file - files.begin()), near.line, near.column};
+    return {static_cast<std::size_t>(file - files.begin()), near.line, near.column, near.pointer};
 }
 
 }  // namespace
