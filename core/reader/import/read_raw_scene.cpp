@@ -6,7 +6,7 @@
 
 namespace neumann::reader {
 
-RawScene read_raw_scene(const std::string& path) {
+RawScene read_raw_scene(const std::string& path, Warnings&, Problems&) {
     switch (scene_format(path)) {
         case SceneFormat::mitsuba:
             return {parse_xml(path), {path}};

@@ -1,11 +1,14 @@
 // Reads a scene file of any format, by its ending.
 #pragma once
 
+#include "core/base/warnings.h"
 #include "core/reader/raw_scene.h"
+#include "core/reader/xml/problems.h"
 
 namespace neumann::reader {
 
-// Throws InputError where the file cannot be read as a scene at all, and says what it is if it is something else.
-RawScene read_raw_scene(const std::string& path);
+// Adds errors to `problems` and goes on without what is wrong. Throws InputError where the file cannot be read as a scene at all,
+// and says what it is if it is something else.
+RawScene read_raw_scene(const std::string& path, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

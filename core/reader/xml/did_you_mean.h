@@ -1,0 +1,13 @@
+// Names that were misspelt.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace neumann::reader {
+
+// "; did you mean 'radius'?" if one of the known names is close to the given one, and "" otherwise.
+std::string did_you_mean(std::string_view given, std::span<const std::string> known);
+
+}  // namespace neumann::reader
