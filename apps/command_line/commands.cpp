@@ -2,6 +2,7 @@
 
 #include "apps/commands/compare_command.h"
 #include "apps/commands/conform_command.h"
+#include "apps/commands/convert_command.h"
 #include "apps/commands/export_command.h"
 #include "apps/commands/plan_command.h"
 #include "apps/commands/render_command.h"
@@ -36,7 +37,8 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
             command(app, line, add_spectrum, spectrum_command), command(app, line, add_solve, solve_command),
             command(app, line, add_export, export_command),     command(app, line, add_conform, conform_command),
             command(app, line, add_study, study_command),       command(app, line, add_replay, replay_command),
-            command(app, line, add_stress, stress_command),     command(app, line, add_plan, plan_command)};
+            command(app, line, add_stress, stress_command),     command(app, line, add_plan, plan_command),
+            command(app, line, add_convert, convert_command)};
 }
 
 void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments) {

@@ -13,6 +13,7 @@ namespace neumann {
 
 struct CompareRequest;
 struct ConformRequest;
+struct ConvertRequest;
 struct ExportRequest;
 struct PlanRequest;
 struct RenderRequest;
@@ -36,6 +37,7 @@ void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::
 // Each adds one command with its options, which are parsed into the request.
 CLI::App* add_compare(CLI::App& app, CompareRequest& request);
 CLI::App* add_conform(CLI::App& app, ConformRequest& request);
+CLI::App* add_convert(CLI::App& app, ConvertRequest& request);
 CLI::App* add_export(CLI::App& app, ExportRequest& request);
 CLI::App* add_plan(CLI::App& app, PlanRequest& request);
 CLI::App* add_render(CLI::App& app, RenderRequest& request);

@@ -2,6 +2,7 @@
 
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/files/matrix_market.h"
 #include "apps/files/output_folder.h"
 #include "core/base/error.h"

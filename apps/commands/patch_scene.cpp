@@ -3,6 +3,7 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
+#include "apps/commands/print_warnings.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
@@ -81,19 +82,6 @@ std::optional<int> channel_number(const std::string& name) {
     for (int c = 0; c < 3; ++c)
         if (name == letters[c]) return c;
     throw InputError("--channel " + name + ": expected r, g or b");
-}
-
-void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
-    for (const std::string& text : warnings) {
-        if (!quiet) fmt::print(stderr, "warning: {}\n", text);
-    }
-}
-
-std::vector<std::string> texts(const Warnings& warnings) {
-    std::vector<std::string> result;
-    for (const auto& [text, count] : warnings.counts())
-        result.push_back(text + (count > 1 ? fmt::format(" ({} times)", count) : ""));
-    return result;
 }
 
 }  // namespace neumann

@@ -60,8 +60,4 @@ private:
 // The channel that --channel names: r, g or b; nothing if the name is empty. Throws InputError.
 std::optional<int> channel_number(const std::string& name);
 
-// Prints to stderr, unless `quiet`.
-void print_warnings(const std::vector<std::string>& warnings, bool quiet);
-std::vector<std::string> texts(const Warnings& warnings);
-
 }  // namespace neumann

@@ -1,6 +1,7 @@
 #include "apps/commands/solve_command.h"
 
 #include "apps/commands/interrupt.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
 #include "core/base/error.h"
 

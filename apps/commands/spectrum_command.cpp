@@ -1,6 +1,7 @@
 #include "apps/commands/spectrum_command.h"
 
 #include "apps/commands/interrupt.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/spectrum_print.h"
 #include "core/base/stopwatch.h"

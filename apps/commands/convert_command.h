@@ -1,0 +1,19 @@
+// `neumann convert SCENE OUT.xml`: a scene of any format as a Mitsuba 3 file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct ConvertRequest {
+    std::string scene, output;
+    std::vector<std::string> definitions;  // -D, as typed
+    bool quiet = false;
+};
+
+// Writes OUT.xml, and beside it the folders meshes and textures with what it names: all files or none. Exit code 0. Throws
+// InputError, and RunError if the disk is full.
+int convert_command(const ConvertRequest& request);
+
+}  // namespace neumann
