@@ -48,7 +48,8 @@ TEST_F(BadInputScene, Plugins) {
 
 TEST_F(BadInputScene, Parameters) {
     EXPECT_EQ(refusal_of("<shape type=\"sphere\"><float name=\"raduis\" value=\"2\"/></shape>"),
-              "scene.xml:2:29: unknown parameter 'raduis' of shape 'sphere'; allowed: flip_normals, to_world, center, radius\n");
+              "scene.xml:2:29: unknown parameter 'raduis' of shape 'sphere'; allowed: flip_normals, to_world, center, radius; did "
+              "you mean 'radius'?\n");
     EXPECT_EQ(refusal_of("<shape type=\"sphere\"><string name=\"radius\" value=\"2\"/></shape>"),
               "scene.xml:2:22: parameter 'radius' of shape 'sphere' is a string, expected float or integer\n");
 }

@@ -121,10 +121,10 @@ TEST_F(XmlProblems, NothingFollows) {
     // Files in a folder that is not there, and names that a <default> gives.
     alone("scene.xml:2:7: there is no folder 'meshes'",
           "<path value='meshes'/><shape type='obj'><string name='filename' value='a.obj'/></shape>");
-    alone("scene.xml:2:10: unknown attribute 'nam' of <default>; allowed: name, value",
+    alone("scene.xml:2:10: unknown attribute 'nam' of <default>; allowed: name, value; did you mean 'name'?",
           "<default nam='r' value='1'/><shape type='sphere'><float name='radius' value='$r'/></shape>");
     // What is missing, where it was there but not right.
-    alone("scene.xml:2:43: unknown attribute 'valu' of <string>; allowed: name, value",
+    alone("scene.xml:2:43: unknown attribute 'valu' of <string>; allowed: name, value; did you mean 'value'?",
           "<shape type='obj'><string name='filename' valu='a.obj'/></shape>");
     alone(
         "scene.xml:2:23: <material> is not supported in <bsdf>; allowed: boolean, bsdf, default, emitter, film, float, include, "
@@ -133,8 +133,9 @@ TEST_F(XmlProblems, NothingFollows) {
     alone("scene.xml:2:69: there is no file 'none.exr'; looked in: .",
           "<emitter type='area'><texture name='radiance' type='bitmap'><string value='none.exr' "
           "name='filename'/></texture></emitter>");
-    alone("scene.xml:2:7: unknown attribute 'typ' of <film>; allowed: type, id, name", "<film typ='hdrfilm'/>");
-    alone("scene.xml:2:7: unknown attribute 'typ' of <bsdf>; allowed: type, id, name",
+    alone("scene.xml:2:7: unknown attribute 'typ' of <film>; allowed: type, id, name; did you mean 'type'?",
+          "<film typ='hdrfilm'/>");
+    alone("scene.xml:2:7: unknown attribute 'typ' of <bsdf>; allowed: type, id, name; did you mean 'type'?",
           "<bsdf typ='diffuse' id='d'/><shape type='cube'><ref id='d'/></shape>");
     // Values that are compared with one that is wrong.
     alone("scene.xml:2:52: '-' is not a number",
@@ -166,18 +167,19 @@ TEST_F(XmlProblems, OfMeshes) {
 }
 
 TEST_F(XmlProblems, OfOldFiles) {
-    EXPECT_EQ(
-        file_error("<scene version='0.5.0'>\n<sensor type='perspective'><float name='fov' value='40'/></sensor>\n"
-                   "<shape type='sphere'>\n<boolean name='flipNormals' value='maybe'/>\n<float name='radios' value='1'/>"
-                   "<bsdf type='conductor'>\n<float name='extEta' value='1.5'/></bsdf></shape>\n"
-                   "<bsdf type='diffuse'><srgb name='reflectance' value='#ffffff'/>\n"
-                   "<rgb name='diffuseReflectance' value='1, 2'/></bsdf></scene>"),
-        "scene.xml:4:29: 'maybe' is not a boolean, expected true or false\n"
-        "scene.xml:5:8: unknown parameter 'radios' of shape 'sphere'; allowed: flip_normals, to_world, center, radius\n"
-        "scene.xml:6:22: extEta of bsdf 'conductor' is '1.5', expected 1 or air; eta and k divided by it say the same\n"
-        "scene.xml:7:22: <srgb> is not supported in <bsdf>; allowed: boolean, bsdf, default, emitter, film, float, include, "
-        "integer, integrator, point, ref, rfilter, rgb, sampler, sensor, shape, spectrum, string, texture, transform, vector\n"
-        "scene.xml:8:32: '1, 2' has 2 numbers, expected 1 or 3");
+    EXPECT_EQ(file_error("<scene version='0.5.0'>\n<sensor type='perspective'><float name='fov' value='40'/></sensor>\n"
+                         "<shape type='sphere'>\n<boolean name='flipNormals' value='maybe'/>\n<float name='radios' value='1'/>"
+                         "<bsdf type='conductor'>\n<float name='extEta' value='1.5'/></bsdf></shape>\n"
+                         "<bsdf type='diffuse'><srgb name='reflectance' value='#ffffff'/>\n"
+                         "<rgb name='diffuseReflectance' value='1, 2'/></bsdf></scene>"),
+              "scene.xml:4:29: 'maybe' is not a boolean, expected true or false\n"
+              "scene.xml:5:8: unknown parameter 'radios' of shape 'sphere'; allowed: flip_normals, to_world, center, radius; did "
+              "you mean 'radius'?\n"
+              "scene.xml:6:22: extEta of bsdf 'conductor' is '1.5', expected 1 or air; eta and k divided by it say the same\n"
+              "scene.xml:7:22: <srgb> is not supported in <bsdf>; allowed: boolean, bsdf, default, emitter, film, float, include, "
+              "integer, integrator, point, ref, rfilter, rgb, sampler, sensor, shape, spectrum, string, texture, transform, "
+              "vector; did you mean 'rgb'?\n"
+              "scene.xml:8:32: '1, 2' has 2 numbers, expected 1 or 3");
 }
 
 TEST_F(XmlProblems, ManyAreCounted) {

@@ -279,11 +279,13 @@ TEST_F(XmlTextures, Errors) {
     EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='negative.exr'/>"),
               "scene.xml:3:1: the texture is negative somewhere, down to -0.5, expected a reflectance of at least 0");
     EXPECT_EQ(texture_error("checkerboard", "<float name='color2' value='1'/>"),
-              "scene.xml:4:8: unknown parameter 'color2' of texture 'checkerboard'; allowed: color0, color1, to_uv");
+              "scene.xml:4:8: unknown parameter 'color2' of texture 'checkerboard'; allowed: color0, color1, to_uv; did you mean "
+              "'color0'?");
     EXPECT_EQ(error("<texture type='checkerboard' id='a'>\n<ref name='color0' id='a'/></texture>"),
               "scene.xml:2:1: the texture stands inside itself");
-    EXPECT_EQ(error("<bsdf type='diffuse'>\n<texture name='reflectanse' type='checkerboard'/></bsdf>"),
-              "scene.xml:3:10: unknown parameter 'reflectanse' of bsdf 'diffuse'; allowed: reflectance");
+    EXPECT_EQ(
+        error("<bsdf type='diffuse'>\n<texture name='reflectanse' type='checkerboard'/></bsdf>"),
+        "scene.xml:3:10: unknown parameter 'reflectanse' of bsdf 'diffuse'; allowed: reflectance; did you mean 'reflectance'?");
     EXPECT_EQ(error("<bsdf type='diffuse'>\n<float name='reflectance' value='1'/>\n"
                     "<texture name='reflectance' type='checkerboard'/></bsdf>"),
               "scene.xml:4:10: parameter 'reflectance' of bsdf 'diffuse' is given twice, first at scene.xml:3:8");

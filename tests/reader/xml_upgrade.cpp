@@ -97,7 +97,8 @@ TEST_F(XmlUpgrade, EachFileHasItsVersion) {
     const SceneParts parts = read("<include filename='old.xml'/><shape type='cube'><ref id='grey'/></shape>");
     EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(0.25));
     EXPECT_EQ(error("<include filename='old.xml'/><shape type='sphere'>\n<transform name='toWorld'/></shape>"),
-              "scene.xml:3:12: unknown parameter 'toWorld' of shape 'sphere'; allowed: flip_normals, to_world, center, radius");
+              "scene.xml:3:12: unknown parameter 'toWorld' of shape 'sphere'; allowed: flip_normals, to_world, center, radius; did "
+              "you mean 'to_world'?");
 }
 
 // Mitsuba 3 makes a transform to_uv of them; where nothing varies over the surface it is refused by its new name.
@@ -132,7 +133,8 @@ TEST_F(XmlUpgrade, WhatIsGone) {
                                                     {"old scene file: film 'ldrfilm' taken as 'hdrfilm'", 1},
                                                     {"old scene file: the texture filter 'trilinear' taken as 'bilinear'", 1},
                                                     {"old scene file: strictNormals of an integrator left out", 1}}));
-    EXPECT_EQ(error("<film type='ldrfilm'/>"), "scene.xml:2:7: film type 'ldrfilm' is not supported; allowed: hdrfilm");
+    EXPECT_EQ(error("<film type='ldrfilm'/>"),
+              "scene.xml:2:7: film type 'ldrfilm' is not supported; allowed: hdrfilm; did you mean 'hdrfilm'?");
 }
 
 // What exporters write: metals in air, opacities as colours, pictures with their gamma.

@@ -46,19 +46,21 @@ TEST_F(XmlValueErrors, UnknownTypes) {
 }
 
 TEST_F(XmlValueErrors, UnknownParameters) {
-    EXPECT_EQ(diffuse_error("<rgb name=\"reflectence\" value=\"0.5\"/>"),
-              "scene.xml:3:6: unknown parameter 'reflectence' of bsdf 'diffuse'; allowed: reflectance");
+    EXPECT_EQ(
+        diffuse_error("<rgb name=\"reflectence\" value=\"0.5\"/>"),
+        "scene.xml:3:6: unknown parameter 'reflectence' of bsdf 'diffuse'; allowed: reflectance; did you mean 'reflectance'?");
     EXPECT_EQ(error("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/><float name=\"alpha\" value=\"1\"/></bsdf>"),
               "scene.xml:2:52: unknown parameter 'alpha' of bsdf 'twosided'; it has none");
     EXPECT_EQ(error("<shape type=\"sphere\"><float name=\"radios\" value=\"1\"/></shape>"),
-              "scene.xml:2:29: unknown parameter 'radios' of shape 'sphere'; allowed: flip_normals, to_world, center, radius");
+              "scene.xml:2:29: unknown parameter 'radios' of shape 'sphere'; allowed: flip_normals, to_world, center, radius; did "
+              "you mean 'radius'?");
     EXPECT_EQ(error("<shape type=\"cube\"><float name=\"radius\" value=\"1\"/></shape>"),
               "scene.xml:2:27: unknown parameter 'radius' of shape 'cube'; allowed: flip_normals, to_world");
     EXPECT_EQ(error("<rfilter type=\"box\"><float name=\"radius\" value=\"1\"/></rfilter>"),
               "scene.xml:2:28: unknown parameter 'radius' of rfilter 'box'; it has none");
     EXPECT_EQ(error("<integrator type=\"path\"><integer name=\"maxdepth\" value=\"1\"/></integrator>"),
               "scene.xml:2:34: unknown parameter 'maxdepth' of integrator 'path'; allowed: max_depth, rr_depth, hide_emitters, "
-              "block_size, samples_per_pass, timeout");
+              "block_size, samples_per_pass, timeout; did you mean 'max_depth'?");
 }
 
 TEST_F(XmlValueErrors, NestedWhereItDoesNotBelong) {

@@ -7,6 +7,7 @@
 #include "core/reader/plugins/roughness_parameters.h"
 #include "core/reader/plugins/textures.h"
 #include "core/reader/plugins/transparent_bsdfs.h"
+#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/grammar.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,8 @@ ConductorFresnel read_fresnel(Properties& p, const Context& context) {
         if (metal.name == material) return {metal.eta, metal.k};
         names.emplace_back(metal.name);
     }
-    p.complain("material", fmt::format("material '{}' of {} is unknown; allowed: {}", material, p.title(), join(names)));
+    p.complain("material",
+               fmt::format("material '{}' of {} is unknown; {}", material, p.title(), allowed_instead(material, names)));
     return {Rgb(0.0), Rgb(1.0)};
 }
 

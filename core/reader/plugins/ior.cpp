@@ -1,5 +1,6 @@
 #include "core/reader/plugins/ior.h"
 
+#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/grammar.h"
 #include "core/reader/xml/numbers.h"
 
@@ -42,7 +43,8 @@ double read_ior(Properties& p, const std::string& name, const std::string& missi
         if (const Named* known = find(value.value)) return known->ior;
         std::vector<std::string> names;
         for (const Named& n : table) names.push_back(n.name);
-        p.complain(name, fmt::format("{} is '{}'; allowed: {}, or a number", name, value.value, join(names)));
+        p.complain(name, fmt::format("{} is '{}'; allowed: {}, or a number{}", name, value.value, join(names),
+                                     did_you_mean(value.value, names)));
         return find(missing)->ior;
     }
     const auto ior = p.attempt(name, [&] { return parse_number(value); });

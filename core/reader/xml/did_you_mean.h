@@ -9,5 +9,7 @@ namespace neumann::reader {
 
 // "; did you mean 'radius'?" if one of the known names is close to the given one, and "" otherwise.
 std::string did_you_mean(std::string_view given, std::span<const std::string> known);
+// "allowed: center, radius", and which of them may be meant.
+std::string allowed_instead(std::string_view given, std::span<const std::string> known);
 
 }  // namespace neumann::reader

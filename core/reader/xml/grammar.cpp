@@ -1,5 +1,7 @@
 #include "core/reader/xml/grammar.h"
 
+#include "core/reader/xml/did_you_mean.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -91,7 +93,7 @@ void check_place(const Element& element, const std::string& parent_tag) {
     for (const Rule& r : rules())
         if (allowed(r.kind, parent)) tags.push_back(r.tag);
     std::sort(tags.begin(), tags.end());
-    const std::string expected = tags.empty() ? "expected nothing inside" : "allowed: " + join(tags);
+    const std::string expected = tags.empty() ? "expected nothing inside" : allowed_instead(element.tag, tags);
     throw InputError(element.place, fmt::format("<{}> is not supported in <{}>; {}", element.tag, parent_tag, expected));
 }
 
@@ -102,7 +104,8 @@ void check_attributes(const Element& element) {
     std::vector<std::string> seen;
     for (const Attribute& a : element.attributes) {
         if (std::find(names.begin(), names.end(), a.name) == names.end())
-            throw InputError(a.place, fmt::format("unknown attribute '{}' of <{}>; allowed: {}", a.name, element.tag, join(names)));
+            throw InputError(
+                a.place, fmt::format("unknown attribute '{}' of <{}>; {}", a.name, element.tag, allowed_instead(a.name, names)));
         if (std::find(seen.begin(), seen.end(), a.name) != seen.end())
             throw InputError(a.place, fmt::format("attribute '{}' of <{}> is given twice", a.name, element.tag));
         seen.push_back(a.name);

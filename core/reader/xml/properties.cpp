@@ -1,5 +1,6 @@
 #include "core/reader/xml/properties.h"
 
+#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/grammar.h"
 #include "core/reader/xml/numbers.h"
 #include "core/reader/xml/transform.h"
@@ -109,7 +110,7 @@ std::optional<std::string> Properties::text(const std::string& name) {
 std::string Properties::choice(const std::string& name, const std::vector<std::string>& allowed, const std::string& missing) {
     const std::string value = text(name).value_or(missing);
     if (contains(allowed, value)) return value;
-    complain(name, fmt::format("{} is '{}'; allowed: {}", name, value, join(allowed)));
+    complain(name, fmt::format("{} is '{}'; {}", name, value, allowed_instead(value, allowed)));
     return missing;
 }
 
@@ -198,7 +199,7 @@ void Properties::refuse_rest() {
         if (e.broken || !read_.insert(&e).second) continue;
         const auto unknown = [&](const Attribute& name) {
             add(name.place, fmt::format("unknown parameter '{}' of {}; {}", name.value, title_,
-                                        asked_.empty() ? "it has none" : "allowed: " + join(asked_)));
+                                        asked_.empty() ? "it has none" : allowed_instead(name.value, asked_)));
         };
         if (is_parameter(e.tag)) {
             unknown(e.attribute("name"));
@@ -225,7 +226,8 @@ void Properties::finish() {
 void fail_type(const Element& e, const std::vector<std::string>& allowed) {
     if (e.broken) throw Told();
     const Attribute& type = e.attribute("type");
-    throw InputError(type.place, fmt::format("{} type '{}' is not supported; allowed: {}", e.tag, type.value, join(allowed)));
+    throw InputError(type.place,
+                     fmt::format("{} type '{}' is not supported; {}", e.tag, type.value, allowed_instead(type.value, allowed)));
 }
 
 }  // namespace neumann::reader
