@@ -1,5 +1,6 @@
 #include "apps/command_line/commands.h"
 
+#include "apps/commands/blame_command.h"
 #include "apps/commands/compare_command.h"
 #include "apps/commands/conform_command.h"
 #include "apps/commands/convert_command.h"
@@ -38,7 +39,7 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
             command(app, line, add_export, export_command),     command(app, line, add_conform, conform_command),
             command(app, line, add_study, study_command),       command(app, line, add_replay, replay_command),
             command(app, line, add_stress, stress_command),     command(app, line, add_plan, plan_command),
-            command(app, line, add_convert, convert_command)};
+            command(app, line, add_convert, convert_command),   command(app, line, add_blame, blame_command)};
 }
 
 void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments) {

@@ -11,6 +11,7 @@ class App;
 
 namespace neumann {
 
+struct BlameRequest;
 struct CompareRequest;
 struct ConformRequest;
 struct ConvertRequest;
@@ -35,6 +36,7 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line);
 void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments);
 
 // Each adds one command with its options, which are parsed into the request.
+CLI::App* add_blame(CLI::App& app, BlameRequest& request);
 CLI::App* add_compare(CLI::App& app, CompareRequest& request);
 CLI::App* add_conform(CLI::App& app, ConformRequest& request);
 CLI::App* add_convert(CLI::App& app, ConvertRequest& request);

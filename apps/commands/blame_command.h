@@ -1,0 +1,26 @@
+// `neumann blame PICTURES SCENE`: which bounce of another renderer is wrong, and in what way.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct BlameRequest {
+    std::vector<std::string> pictures;     // files and folders, and the scene as the last
+    std::vector<std::string> again;        // the same with another seed
+    std::optional<std::string> counts;     // mitsuba, pbrt, cycles or bounces
+    std::vector<std::string> definitions;  // -D, as typed
+    std::optional<double> seconds;
+    std::optional<std::uint64_t> samples;
+    std::uint64_t seed = 0;
+    int threads = 0;
+    bool json = false;
+};
+
+// Prints the verdict. Exit code 0, whatever it is. Throws InputError, and Stopped at Ctrl-C.
+int blame_command(const BlameRequest& request);
+
+}  // namespace neumann

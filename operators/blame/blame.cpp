@@ -1,0 +1,364 @@
+#include "operators/blame/blame.h"
+
+#include "operators/blame/path_mistakes.h"
+#include "operators/blame/picture_mistakes.h"
+#include "operators/methods/render.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+namespace {
+
+// A picture mistake is an alarm of its own, beside the tests of blocks, if it is so much likelier than none: moved edges fill few
+// pixels. In 100 seeds of a right renderer none was.
+constexpr double strong_evidence = 40.0;
+// A suspect is named alone if the next is so much less likely.
+constexpr double clear_lead = 10.0;
+constexpr std::size_t worst_places = 5;
+// For what the mistakes make of the scene: some ten microseconds each.
+constexpr double most_paths = 4e6;
+
+Scene on_their_film(const Scene& scene, const Image& picture) {
+    Film film = scene.film;
+    if (film.crop_width == picture.width && film.crop_height == picture.height) return scene;
+    const bool is_cropped = film.crop_width != film.width || film.crop_height != film.height;
+    if (is_cropped || std::int64_t{film.width} * picture.height != std::int64_t{film.height} * picture.width)
+        throw InputError(fmt::format("the pictures have {}×{} pixels, and the scene's film has {}×{}, which is another shape",
+                                     picture.width, picture.height, film.crop_width, film.crop_height));
+    film.width = film.crop_width = picture.width;
+    film.height = film.crop_height = picture.height;
+    return scene.with(film);
+}
+
+PictureNoise noise_of(const PixelEstimate& picture) {
+    Image variance = picture.standard_error;
+    for (Rgb& c : variance.pixels) c *= c;
+    return {picture.mean, std::move(variance)};
+}
+
+PictureNoise sum_of(const BounceSeries& ours, const BounceRange& bounces) {
+    PictureNoise sum = noise_of(ours.term(static_cast<std::size_t>(bounces.first)));
+    for (int i = bounces.first + 1; i <= bounces.last; ++i) {
+        const PictureNoise next = noise_of(ours.term(static_cast<std::size_t>(i)));
+        for (std::size_t p = 0; p < sum.mean.pixels.size(); ++p) {
+            sum.mean.pixels[p] += next.mean.pixels[p];
+            sum.variance.pixels[p] += next.variance.pixels[p];
+        }
+    }
+    return sum;
+}
+
+// What samples that agree leave open all the same (PixelEstimate::least_error), squared.
+Image left_open(const BounceSeries& ours, const BounceRange& bounces) {
+    Image sum;
+    for (int i = bounces.first; i <= bounces.last; ++i) {
+        const PixelEstimate term = ours.term(static_cast<std::size_t>(i));
+        if (sum.pixels.empty()) sum = Image(term.mean.width, term.mean.height);
+        for (std::size_t p = 0; p < term.least_error.pixels.size(); ++p)
+            sum.pixels[p] += term.least_error.pixels[p] * term.least_error.pixels[p];
+    }
+    return sum;
+}
+
+std::vector<std::uint32_t> shapes_seen(const Scene& scene) {
+    std::vector<std::uint32_t> shapes;
+    for (int y = 0; y < scene.film.crop_height; ++y)
+        for (int x = 0; x < scene.film.crop_width; ++x) {
+            const CameraRay ray = scene.camera.ray({scene.film.crop_x + x + 0.5, scene.film.crop_y + y + 0.5});
+            SurfacePoint hit;
+            const bool met = scene.geometry.first_hit(ray.origin, ray.direction, ray.length, hit);
+            shapes.push_back(met ? hit.shape : SurfacePoint::infinity);
+        }
+    return shapes;
+}
+
+class Judge {
+public:
+    Judge(const Scene& scene, const BlameSettings& settings, const Watch& watch)
+        : scene_(scene), settings_(settings), watch_(watch) {}
+
+    Blame judge(const std::vector<DepthPicture>& pictures) {
+        int most = 0;
+        for (const DepthPicture& p : pictures) most = std::max(most, p.depth + 1);
+        Goal goal;
+        goal.bounces = most;
+        goal.seed = settings_.seed;
+        goal.only_pictures = true;
+        if (settings_.samples)
+            goal.samples = settings_.samples;
+        else
+            goal.seconds = settings_.seconds;
+        const BounceSeries ours = render(scene_, independent_walk(), goal, watch_);
+        if (ours.outcome == Outcome::interrupted) throw Stopped();
+        samples_ = ours.samples;
+        choose_counting(pictures, ours);
+        judge_noise(pictures, ours);
+        compare(terms_of(pictures, result_.counting), ours);
+        find_first_wrong();
+        if (result_.first_wrong) {
+            find_suspects();
+            find_places();
+        }
+        say();
+        return std::move(result_);
+    }
+
+private:
+    void choose_counting(const std::vector<DepthPicture>& pictures, const BounceSeries& ours) {
+        if (settings_.counting == Counting::bounces) {
+            result_.counting = Counting::bounces;
+            return;
+        }
+        std::vector<double> sums;
+        for (int i = 0; i <= ours.bounces(); ++i) sums.push_back(mean_of(ours.sum(static_cast<std::size_t>(i)).mean));
+        const Counting likely = likely_counting(pictures, sums);
+        result_.counting = settings_.counting.value_or(likely);
+        constexpr double close = 0.02, clearly = 4.0;
+        const double misfit = misfit_of_means(pictures, likely, sums);
+        if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close) result_.told = likely;
+    }  // Samples that are independent of each other, as most renderers have: their variance then is ours, times a number.
+    static method::Walk independent_walk() {
+        method::Walk walk;
+        walk.sampler = SamplerKind::independent;
+        return walk;
+    }
+
+    // That number, from the picture that has least; what is wrong only adds to it.
+    void judge_noise(const std::vector<DepthPicture>& pictures, const BounceSeries& ours) {
+        for (const DepthPicture& p : pictures) {
+            if (p.variance) continue;
+            const int last = last_bounce(result_.counting, p.depth);
+            if (last < 0) continue;
+            const auto i = static_cast<std::size_t>(last);
+            const PictureNoise known = noise_of(are_sums() ? ours.sum(i) : ours.term(i));
+            times_ = std::min(times_, times_the_variance(p.mean, known));
+        }
+        if (!std::isfinite(times_)) times_ = 1.0;
+    }
+
+    Image likely_variance(const BounceRange& bounces, const BounceSeries& ours) const {
+        const auto last = static_cast<std::size_t>(bounces.last);
+        Image variance = noise_of(are_sums() ? ours.sum(last) : ours.term(last)).variance;
+        if (are_sums() && bounces.first > 0) {
+            const Image before = noise_of(ours.sum(static_cast<std::size_t>(bounces.first - 1))).variance;
+            for (std::size_t p = 0; p < variance.pixels.size(); ++p) variance.pixels[p] += before.pixels[p];
+        }
+        for (Rgb& c : variance.pixels) c *= times_;
+        return variance;
+    }
+
+    void compare(std::vector<OtherTerm> theirs, const BounceSeries& ours) {
+        result_.knows_their_noise =
+            std::all_of(theirs.begin(), theirs.end(), [](const OtherTerm& t) { return t.variance.has_value(); });
+        for (OtherTerm& t : theirs) {
+            ComparedTerm c{t.bounces, {std::move(t.mean), {}}, sum_of(ours, t.bounces), left_open(ours, t.bounces), {}, {}};
+            c.theirs.variance = t.variance ? std::move(*t.variance) : likely_variance(t.bounces, ours);
+            c.our_sum = ours.sum(static_cast<std::size_t>(t.bounces.last)).mean;
+            c.our_sum_before = Image(c.our_sum.width, c.our_sum.height);
+            if (t.bounces.first > 0) c.our_sum_before = ours.sum(static_cast<std::size_t>(t.bounces.first - 1)).mean;
+            compared_.push_back(std::move(c));
+        }
+    }
+
+    void find_first_wrong() {
+        std::vector<BounceRange> direct;
+        for (const ComparedTerm& c : compared_)
+            if (c.bounces.last <= 1) direct.push_back(c.bounces);
+        const std::vector<WrongTerms> wrong = direct.empty() ? std::vector<WrongTerms>() : make_wrong(direct);
+        for (std::size_t i = 0; i < compared_.size(); ++i) {
+            const ComparedTerm& c = compared_[i];
+            TermVerdict v{c.bounces,
+                          test_difference(c.theirs, c.ours),
+                          false_alarms / static_cast<double>(compared_.size()),
+                          false,
+                          c.theirs.mean,
+                          Image(c.ours.mean.width, c.ours.mean.height)};
+            v.differs = v.test.p < v.threshold || (!result_.first_wrong && is_clearly_something_else(i, wrong));
+            for (std::size_t p = 0; p < v.z.pixels.size(); ++p) {
+                v.difference.pixels[p] -= c.ours.mean.pixels[p];
+                for (int k = 0; k < 3; ++k) {
+                    const double variance = c.theirs.variance.pixels[p][k] + c.ours.variance.pixels[p][k],
+                                 d = v.difference.pixels[p][k];
+                    v.z.pixels[p][k] = variance > 0.0 ? d / std::sqrt(variance) : 0.0;
+                }
+            }
+            if (v.differs && !result_.first_wrong) result_.first_wrong = i;
+            result_.terms.push_back(std::move(v));
+        }
+    }
+
+    std::vector<WrongTerms> make_wrong(const std::vector<BounceRange>& ranges) const {
+        const auto pixels = static_cast<double>(compared_[0].ours.mean.pixels.size());
+        const double samples = std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(samples_, 16)));
+        return wrong_terms(scene_, ranges, static_cast<int>(samples), settings_.seed + 1, watch_);
+    }
+
+    // Whether a mistake is clearly likelier than none: differences of few pixels do not show in blocks. Beyond bounce 1 fireflies
+    // that are missing by chance look like mistakes of paths, and beyond bounce 0 blurring takes noise away, which looks like one,
+    // too.
+    bool is_clearly_something_else(std::size_t i, const std::vector<WrongTerms>& wrong) const {
+        const ComparedTerm& c = compared_[i];
+        if (c.bounces.last > 1) return false;
+        PictureNoise theirs = c.theirs;
+        for (std::size_t p = 0; p < theirs.variance.pixels.size(); ++p)
+            theirs.variance.pixels[p] = glm::max(theirs.variance.pixels[p], c.left_open.pixels[p] * times_);
+        if (c.bounces.first == 0)
+            for (const WrongPictures& moved : moved_pictures({c}, are_sums()))
+                if (evidence_for(theirs, moved.terms[0], c.ours) > strong_evidence) return true;
+
+        const auto none = std::ranges::find(wrong, Mistake::none, &WrongTerms::mistake);  // of the same paths
+        return std::any_of(wrong.begin(), wrong.end(), [&](const WrongTerms& w) {
+            return w.mistake != Mistake::clamped && evidence_for(theirs, w.terms[i], none->terms[i]) > strong_evidence &&
+                   evidence_for(theirs, w.terms[i], c.ours) > strong_evidence;
+        });
+    }
+
+    // The first wrong term and the one after it are explained together.
+    void find_suspects() {
+        const std::size_t first = *result_.first_wrong, count = std::min<std::size_t>(2, compared_.size() - first);
+        const std::vector<ComparedTerm> terms(compared_.begin() + static_cast<std::ptrdiff_t>(first),
+                                              compared_.begin() + static_cast<std::ptrdiff_t>(first + count));
+        const auto n = static_cast<double>(terms.front().ours.mean.pixels.size() * 3 * count);
+        const auto add = [&](const std::string& name, const std::string& words, const std::vector<PictureNoise>& wrong,
+                             int parameters, bool is_fitted) {
+            double sum = parameters * std::log(n);
+            for (std::size_t i = 0; i < count; ++i) sum += misfit(terms[i].theirs, wrong[i]);
+            result_.suspects.push_back({name, words, sum, is_fitted, test_difference(terms[0].theirs, wrong[0])});
+        };
+        for (const WrongPictures& w : wrong_pictures(terms, are_sums(), shapes_seen(scene_)))
+            add(w.name, w.words, w.terms, w.parameters, w.parameters > 0);
+        std::vector<BounceRange> ranges;
+        for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
+        for (const WrongTerms& w : make_wrong(ranges)) {
+            if (w.mistake == Mistake::none) continue;
+            add(name_of(w.mistake), describe(w.mistake), w.terms, 0, false);
+            if (w.mistake != Mistake::no_inverse_square) continue;
+            // Without 1/d² light has no unit, and may have any scale.
+            const double factor = fitted_factor(terms[0].theirs, w.terms[0]);
+            std::vector<PictureNoise> rescaled;
+            for (const PictureNoise& p : w.terms) rescaled.push_back(scaled(p, factor));
+            add(name_of(w.mistake), describe(w.mistake), rescaled, 1, false);
+        }
+        std::stable_sort(result_.suspects.begin(), result_.suspects.end(),
+                         [](const Suspect& a, const Suspect& b) { return a.misfit < b.misfit; });
+        put_causes_first();
+        // Of each kind the likeliest.
+        std::set<std::string> seen;
+        std::erase_if(result_.suspects, [&](const Suspect& s) { return !seen.insert(s.name).second; });
+    }  // A cause that leaves nothing unexplained comes before factors and offsets that were fitted and say no why.
+    void put_causes_first() {
+        constexpr double unexplained = 1e-3, most_of_it = 0.9;
+        const ComparedTerm& c = compared_[*result_.first_wrong];
+        const double best = result_.suspects.front().misfit;
+        double right = misfit(c.theirs, c.ours);
+        if (*result_.first_wrong + 1 < compared_.size()) {
+            const ComparedTerm& next = compared_[*result_.first_wrong + 1];
+            right += misfit(next.theirs, next.ours);
+        }
+        std::stable_partition(result_.suspects.begin(), result_.suspects.end(), [&](const Suspect& s) {
+            return !s.is_fitted && s.left.p > unexplained && right - s.misfit > most_of_it * (right - best);
+        });
+    }
+
+    bool are_sums() const { return result_.counting != Counting::bounces; }
+
+    void find_places() {
+        const TermVerdict& v = result_.terms[*result_.first_wrong];
+        const ComparedTerm& c = compared_[*result_.first_wrong];
+        const std::vector<std::uint32_t> shapes = shapes_seen(scene_);
+        struct Sums {
+            double squares = 0.0, theirs = 0.0, ours = 0.0;
+        };
+        std::map<std::uint32_t, Sums> by_shape;
+        double all = 0.0;
+        std::vector<Place> places;
+        for (std::size_t p = 0; p < shapes.size(); ++p) {
+            Sums& sums = by_shape[shapes[p]];
+            const double square = glm::dot(v.difference.pixels[p], v.difference.pixels[p]);
+            sums.squares += square;
+            sums.theirs += mean_component(c.theirs.mean.pixels[p]);
+            sums.ours += mean_component(c.ours.mean.pixels[p]);
+            all += square;
+            const auto width = static_cast<std::size_t>(v.z.width);
+            places.push_back({static_cast<int>(p % width), static_cast<int>(p / width), mean_component(v.z.pixels[p])});
+        }
+        for (const auto& [shape, sums] : by_shape)
+            result_.shapes.push_back(
+                {shape, all > 0.0 ? sums.squares / all : 0.0, sums.ours > 0.0 ? sums.theirs / sums.ours : 1.0});
+        std::sort(result_.shapes.begin(), result_.shapes.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+        std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return std::abs(a.z) > std::abs(b.z); });
+        places.resize(std::min(places.size(), worst_places));
+        result_.worst = std::move(places);
+    }
+
+    std::string title(std::uint32_t shape) const {
+        if (shape == SurfacePoint::infinity) return "what is beyond the surfaces";
+        if (shape >= scene_.origins.size()) return fmt::format("shape {}", shape);
+        const Origin& origin = scene_.origins[shape];
+        return fmt::format("{} at {} ({})", origin.shape, to_string(origin.place), origin.bsdf);
+    }
+
+    void say() {
+        std::vector<std::string>& say = result_.sentences;
+        if (!result_.first_wrong) {
+            double widest = 0.0;
+            for (const TermVerdict& t : result_.terms) widest = std::max(widest, t.test.ratio_error);
+            say.push_back(
+                fmt::format("No bounce differs: the means of all {} agree with ours within their errors, of which the largest is "
+                            "{:.1g} of a bounce, and so do their blocks of pixels.",
+                            result_.terms.size(), widest));
+        } else {
+            const TermVerdict& wrong = result_.terms[*result_.first_wrong];
+            std::string text = to_string(wrong.bounces);
+            text[0] = 'B';
+            say.push_back(fmt::format(
+                "{} {} the first to differ: {} {:.4g} ± {:.2g} of our light{}{}.", text,
+                wrong.bounces.first == wrong.bounces.last ? "is" : "are",
+                wrong.bounces.first == wrong.bounces.last ? "it has" : "they have", wrong.test.ratio, 1.96 * wrong.test.ratio_error,
+                wrong.test.p < wrong.threshold ? fmt::format(" (by chance in 1 of {:.0g})", 1.0 / std::max(wrong.test.p, 1e-300))
+                                               : ", in other places",
+                *result_.first_wrong > 0 ? "; those before agree" : ""));
+            const Suspect &best = result_.suspects[0], &next = result_.suspects[1];
+            say.push_back(fmt::format("It looks as if {}{}{}.", best.words,
+                                      best.left.p < 1e-6 ? ", which explains most but not all of it" : "",
+                                      next.misfit - best.misfit < clear_lead ? fmt::format("; or {}", next.words) : ""));
+            const ShapeShare& most = result_.shapes[0];
+            say.push_back(fmt::format("{:.0f}% of the squared difference is on {}, which has {:.3g} of our light.",
+                                      100.0 * most.share, title(most.shape), most.ratio));
+        }
+        if (result_.told)
+            say.push_back(fmt::format("The pictures' means look as if depths were counted as {} does, not as {}.",
+                                      name_of(*result_.told), name_of(result_.counting)));
+        if (!result_.knows_their_noise)
+            say.push_back("Their noise was judged by neighbouring pixels; pictures of a second seed would tell it.");
+    }
+
+    const Scene& scene_;
+    const BlameSettings& settings_;
+    const Watch& watch_;
+    std::uint64_t samples_ = 0;
+    double times_ = std::numeric_limits<double>::infinity();  // their variance, in units of ours
+    std::vector<ComparedTerm> compared_;
+    Blame result_;
+};
+
+}  // namespace
+
+Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch) {
+    if (pictures.empty()) throw InputError("there are no pictures to compare with");
+    terms_of(pictures, settings.counting.value_or(Counting::pbrt));  // sizes and numbers
+    const Scene seen = on_their_film(scene, pictures.front().mean);
+    return Judge(seen, settings, watch).judge(pictures);
+}
+
+}  // namespace neumann

@@ -1,0 +1,71 @@
+// Which bounce of another renderer is wrong, and what is wrong with it: its pictures against our own terms.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/blame/difference_test.h"
+#include "operators/blame/other_pictures.h"
+#include "operators/watch.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct BlameSettings {
+    std::optional<Counting> counting = {};  // as the other renderer counts; chosen by the data if it is not given
+    double seconds = 20.0;                  // for our own terms; what the mistakes make of the scene takes as long again, at most
+    std::optional<std::uint64_t> samples = {};  // a pixel, in place of the seconds
+    std::uint64_t seed = 0;
+};
+
+struct TermVerdict {
+    BounceRange bounces;
+    DifferenceTest test;
+    double threshold = 0.0;  // the term differs where test.p is below
+    bool differs = false;
+    Image difference, z;  // theirs less ours, and that in standard errors of a pixel
+};
+
+// What may be wrong, likeliest first.
+struct Suspect {
+    std::string name, words;
+    double misfit = 0.0;  // −2 log of the likelihood, with 2 log n for each parameter that was fitted; differences count    bool
+                          // is_fitted = false;  // a factor or an offset, which describes and does not explain
+    bool is_fitted = false;  // a factor or an offset, which describes and does not explain
+    DifferenceTest left;     // of the first wrong term against what this mistake makes of it
+};
+
+struct Place {
+    int x = 0, y = 0;
+    double z = 0.0;
+};
+
+struct ShapeShare {
+    std::uint32_t shape = 0;  // or SurfacePoint::infinity
+    double share = 0.0;       // of the squared difference in the first wrong term
+    double ratio = 1.0;       // theirs to ours on it
+};
+
+struct Blame {
+    Counting counting = Counting::mitsuba;
+    std::optional<Counting> told;    // where the data say something else
+    bool knows_their_noise = false;  // from a second picture or a variance; otherwise from neighbouring pixels
+    std::vector<TermVerdict> terms;
+    std::optional<std::size_t> first_wrong;  // among the terms
+    std::vector<Suspect> suspects;
+    std::vector<ShapeShare> shapes;  // of the first wrong term, largest share first
+    std::vector<Place> worst;        // pixels of it
+    std::vector<std::string> sentences;
+
+    bool is_right() const { return !first_wrong; }
+};
+
+// The chance that a right renderer is called wrong, over all terms together.
+constexpr double false_alarms = 0.005;
+
+// `pictures`: of one size, which becomes that of the scene's film. Throws InputError as terms_of() does, and if the film has
+// another shape; Stopped.
+Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch = {});
+
+}  // namespace neumann

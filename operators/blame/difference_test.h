@@ -1,0 +1,39 @@
+// Whether two noisy pictures have the same expectation.
+#pragma once
+
+#include "core/image/image.h"
+
+namespace neumann {
+
+struct PictureNoise {
+    Image mean, variance;  // of the mean, by pixel and channel
+};
+
+// The variance of a picture's pixels from its own neighbourhoods, for pictures that come without: of a pixel less the mean of its
+// four neighbours, median over 7×7 pixels. Edges do not count as long as most pixels around them are smooth.
+Image local_variance(const Image& picture);
+
+// How many times the variance a picture has of another one of the same light, whose errors are known: for independent samples, the
+// ratio of their numbers. The smaller of what differences and neighbourhoods say, for most pixels; infinite where nothing is noisy.
+double times_the_variance(const Image& picture, const PictureNoise& known);
+
+struct DifferenceTest {
+    double p = 1.0;            // of a difference at least so large by chance, for all channels and blocks together
+    double ratio = 1.0;        // of the means, the first to the second
+    double ratio_error = 0.0;  // standard error
+};
+
+// Compares means over 8×8 blocks of pixels and over all pixels. The variance of a block's difference is the larger one of its
+// pixels' spread and what the pictures say; neighbouring pixels may be correlated, as those of wide pixel filters are. Differences
+// below `rounding` of the mean do not count.
+DifferenceTest test_difference(const PictureNoise& a, const PictureNoise& b);
+
+// −2 log of the likelihood of a, given b, up to a constant: Student's t with 4 degrees of freedom in each pixel and channel, so
+// that fireflies do not decide. Smaller is likelier; differences of 10 are strong evidence.
+double misfit(const PictureNoise& a, const PictureNoise& b);
+
+// By how much b is a likelier source of a than the other: the difference of χ², without what the noise of b and the other adds to
+// it, where no pixel counts for more than 3, so that what few pixels say by chance does not decide.
+double evidence_for(const PictureNoise& a, const PictureNoise& b, const PictureNoise& other);
+
+}  // namespace neumann
