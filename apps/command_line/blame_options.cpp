@@ -12,7 +12,8 @@ CLI::App* add_blame(CLI::App& app, BlameRequest& request) {
                      "Pictures, one a depth limit or one a bounce, or a folder of them; then the scene")
         ->type_name("PICTURES... SCENE")
         ->required();
-    command->add_option("--again", request.again, "The same pictures with another seed, or a folder of them")
+    command->add_option("--again", request.again, "The same pictures with another seed: a folder, or one by one")
+        ->allow_extra_args(false)
         ->type_name("PICTURES");
     command->add_option("--counts", request.counts, "How depths are counted: mitsuba, pbrt, cycles or bounces; default by the data")
         ->type_name("HOW");

@@ -340,7 +340,7 @@ private:
             say.push_back(fmt::format("The pictures' means look as if depths were counted as {} does, not as {}.",
                                       name_of(*result_.told), name_of(result_.counting)));
         if (!result_.knows_their_noise)
-            say.push_back("Their noise was judged by neighbouring pixels; pictures of a second seed would tell it.");
+            say.push_back("Their noise was judged by the pictures themselves; those of a second seed would tell it.");
     }
 
     const Scene& scene_;

@@ -50,7 +50,7 @@ struct ShapeShare {
 struct Blame {
     Counting counting = Counting::mitsuba;
     std::optional<Counting> told;    // where the data say something else
-    bool knows_their_noise = false;  // from a second picture or a variance; otherwise from neighbouring pixels
+    bool knows_their_noise = false;  // from a second picture or a variance; otherwise it is ours times a number
     std::vector<TermVerdict> terms;
     std::optional<std::size_t> first_wrong;  // among the terms
     std::vector<Suspect> suspects;
