@@ -144,11 +144,11 @@ std::optional<JsonObject> JsonObject::extension(const std::string& name) {
 bool is_index(const nlohmann::json& value, const JsonList& list, const std::string& what, const Location& place, Notes& notes) {
     if (value.is_number_integer() && value >= 0 && value < list.size()) return true;
     if (list.broken()) return false;
-    notes.problems.add(
-        InputError(place, value.is_number_integer()
-                              ? fmt::format("there is no {} {}; the file has {}", what, value.dump(), list.size())
-                              : fmt::format("{}, expected the index of one of the {} {}s", with_article(value), list.size(), what)),
-        place);
+    notes.problems.add(InputError(place, value.is_number_integer()
+                                             ? fmt::format("there is no {} {}; the file has {}", what, value.dump(), list.size())
+                                             : fmt::format("{}, expected the index of a {}, of which the file has {}",
+                                                           with_article(value), what, list.size())),
+                       place);
     return false;
 }
 
