@@ -23,8 +23,9 @@ TEST_F(GltfErrors, Files) {
         error_of_bytes("a.gltf", ""),
         "a.gltf:1:1: broken JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal");
     EXPECT_EQ(error_of_bytes("a.gltf", "{\r\n  \"asset\": {\"version\": \"2.0\",}}"),
-              "a.gltf:2:31: broken JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
+              "a.gltf:2:30: broken JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
     EXPECT_EQ(error_of_bytes("a.gltf", "[]"), "a.gltf: an array, expected an object");
+    EXPECT_EQ(error_of_bytes("a.gltf", "{\"asset\": 2}"), "a.gltf#/asset: asset is a number, expected an object");
     EXPECT_EQ(error_of_bytes("a.gltf", "{}"), "a.gltf: asset is missing, expected an object with the version of glTF, 2.0");
     EXPECT_EQ(error_of_bytes("a.glb", "glTF"), "a.glb: the file has 4 bytes, expected at least the 20 of the headers of a .glb");
     const auto words = [](std::vector<std::uint32_t> w) { return bytes_of(w); };
@@ -124,7 +125,7 @@ TEST_F(GltfErrors, Uris) {
         return error_of_bytes("scene.gltf", whole.dump());
     };
     EXPECT_EQ(with_uri("no%20file.bin", 92), "scene.gltf#/buffers/0/uri: there is no file 'no file.bin'");
-    EXPECT_EQ(with_uri("", 92), "scene.gltf#/buffers/0/uri: './' is a folder, expected a file");
+    EXPECT_EQ(with_uri("", 92), "scene.gltf#/buffers/0/uri: '' is a folder, expected a file");
     EXPECT_EQ(with_uri("/dev/zero", 92), "scene.gltf#/buffers/0/uri: '/dev/zero' is a device, expected a file");
     EXPECT_EQ(with_uri("https://x/y.bin", 92),
               "scene.gltf#/buffers/0/uri: 'https://x/y.bin' is not a file of this machine, expected a path");
@@ -178,8 +179,8 @@ TEST_F(GltfErrors, Textures) {
     write("a.png", "GIF89a");
     EXPECT_EQ(gltf_error(), "scene.gltf#/images/0: the picture is neither a PNG nor a JPEG file");
     const std::string png = encode_png_of(1, 3, {1, 2, 3});
-    write("a.png", png.substr(0, 40));
-    EXPECT_EQ(gltf_error(), "scene.gltf#/images/0: the picture is damaged: a part of it ends 9 bytes beyond the file");
+    write("a.png", png.substr(0, 50));
+    EXPECT_EQ(gltf_error(), "scene.gltf#/images/0: the picture is damaged: a part of it ends 7 bytes beyond the file");
     write("a.png", png);
     EXPECT_EQ(gltf_error(), "no error");
     file["samplers"] = {{{"wrapS", 5}, {"magFilter", 6}}};
@@ -213,7 +214,9 @@ TEST_F(GltfErrors, CamerasAndLights) {
     EXPECT_EQ(gltf_error(), "scene.gltf#/cameras/0/perspective: znear is missing, expected a number above 0");
     file["cameras"][0]["perspective"] = {{"yfov", 1}, {"znear", 5}, {"zfar", 4}};
     EXPECT_EQ(gltf_error(), "scene.gltf#/cameras/0/perspective/zfar: zfar is 4, expected more than znear, 5");
-    EXPECT_EQ(gltf_error({{"widht", "3"}}).substr(0, 57), "scene.gltf: -D widht=3: nothing in the scene uses $widht; ");
+    file["cameras"][0]["perspective"].erase("zfar");
+    EXPECT_EQ(gltf_error({{"widht", "3"}}),
+              "scene.gltf: -D widht=3: nothing in the scene uses $widht; its parameters: height, spp, surroundings, width");
 }
 
 TEST_F(GltfErrors, DeepNesting) {

@@ -149,7 +149,9 @@ TEST_F(GltfMeshes, NegativeScales) {
             EXPECT_EQ(parts.shapes.size(), is_twice ? 2u : 1u);
             EXPECT_EQ(normal(mesh(parts)), Vec3(0, 0, 1));
             EXPECT_EQ(normal(mesh(parts), 1), Vec3(0, 0, 1));
-            if (is_twice) EXPECT_EQ(normal(mesh(parts, 1)), Vec3(0, 0, -1));
+            if (is_twice) {
+                EXPECT_EQ(normal(mesh(parts, 1)), Vec3(0, 0, -1));
+            }
         }
 }
 

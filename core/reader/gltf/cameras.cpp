@@ -104,13 +104,16 @@ std::string name_of(const Placed& placed, const JsonList& cameras) {
     return cameras.object(placed.what).text("name").value_or("");
 }
 
-std::size_t choose(const std::string& wish, const std::vector<std::string>& names, const Location& place) {
+// The first if there is none like that, which is told.
+std::size_t choose(const std::string& wish, const std::vector<std::string>& names, const Location& place, Problems& problems) {
     if (const auto found = std::find(names.begin(), names.end(), wish); found != names.end())
         return static_cast<std::size_t>(found - names.begin());
     for (std::size_t i = 0; i < names.size(); ++i)
         if (wish == std::to_string(i)) return i;
-    throw InputError(place, fmt::format("-D camera={}: there is no such camera, expected a number from 0 on or one of: {}{}", wish,
-                                        join(names), did_you_mean(wish, names)));
+    problems.add(InputError(place, fmt::format("-D camera={}: there is no such camera, expected a number from 0 on or one of: {}{}",
+                                               wish, join(names), did_you_mean(wish, names))),
+                 place);
+    return 0;
 }
 
 }  // namespace
@@ -120,12 +123,12 @@ void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonLis
     std::vector<std::string> names;
     for (const Placed& p : placed) names.push_back(name_of(p, cameras));
     const auto wish = definitions.find("camera");
-    const std::size_t chosen = wish == definitions.end() ? 0 : choose(wish->second, names, scene.place);
+    const bool is_wished = wish != definitions.end();
+    const std::size_t chosen = is_wished ? choose(wish->second, names, scene.place, notes.problems) : 0;
+    if (placed.size() > 1 && !is_wished)
+        notes.warnings.add(fmt::format("several cameras: {}; the first is taken, and -D camera=NAME takes another", join(names)));
     std::string id;
-    if (placed.size() > 1) {
-        if (wish == definitions.end())
-            notes.warnings.add(
-                fmt::format("several cameras: {}; the first is taken, and -D camera=NAME takes another", join(names)));
+    if (placed.size() > 1 || is_wished) {
         // As the sensor's id, the definition is used.
         add(scene, {"default", {{"name", "camera", scene.place}, {"value", "camera", scene.place}}, {}, scene.place});
         id = "$camera";
@@ -133,9 +136,8 @@ void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonLis
     add_camera(scene, placed[chosen], cameras.object(placed[chosen].what), id);
 }
 
-void add_default_camera(Element& scene, const Bounds& bounds, Notes& notes) {
+void add_default_camera(Element& scene, const Bounds& bounds) {
     constexpr double angle = 40.0;
-    notes.warnings.add("the file has no camera: everything is seen from the front, from the right and from above");
     const double radius = bounds.is_empty() || !(bounds.radius() > 0.0) ? 1.0 : bounds.radius();
     const Vec3 center = bounds.is_empty() ? Vec3(0.0) : bounds.center(), backwards = glm::normalize(Vec3(0.6, 0.45, 1.0));
     const double distance = radius / std::sin(0.5 * angle * std::numbers::pi / 180.0);

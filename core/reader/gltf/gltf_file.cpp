@@ -94,8 +94,8 @@ std::string read_bytes(const std::string& path, const Location& place) {
     if (!fs::exists(path, error))
         throw InputError(place, name.empty() ? "there is no such file" : fmt::format("there is no file '{}'", path));
     if (!fs::is_regular_file(path, error))
-        throw InputError(place,
-                         fmt::format("{}is {}, expected a file", name, fs::is_directory(path, error) ? "a folder" : "no file"));
+        throw InputError(place, fmt::format("{}is a {}, expected a {}file", name,
+                                            fs::is_directory(path, error) ? "folder" : "device", name.empty() ? "scene " : ""));
     std::ifstream stream(path, std::ios::binary);
     std::string bytes(fs::file_size(path, error), '\0');
     if (error || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))

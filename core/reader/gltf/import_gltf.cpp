@@ -54,10 +54,8 @@ JsonList list_of_lights(JsonObject& root) {
     return {nullptr, root.place(), root.notes()};
 }
 
-}  // namespace
-
-RawScene import_gltf(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-                     Problems& problems) {
+RawScene read(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
+              Problems& problems) {
     const GltfFile file(path);
     Notes notes{warnings, problems};
     JsonObject root(file.root(), {path}, notes);
@@ -70,22 +68,33 @@ RawScene import_gltf(const std::string& path, const std::map<std::string, std::s
     Accessors accessors(file, path, root, result.files);
     Pictures pictures(root, accessors, path, result.files, result.in_memory);
     const JsonList lights = list_of_lights(root), cameras = root.list("cameras");
-    const Nodes nodes = read_nodes(root, lights, accessors);
+    const Nodes nodes = problems.attempt(scene.place, [&] { return read_nodes(root, lights, accessors); }).value_or(Nodes());
     Shapes shapes(root, accessors, pictures, result.in_memory);
     for (const std::vector<Placed>& places : by_mesh(nodes.meshes))
         problems.attempt(places.front().place, [&] { shapes.add(scene, places.front().what, places); });
     for (const Placed& placed : nodes.lights)
         problems.attempt(placed.place, [&] { add(scene, make_light(placed, lights.object(placed.what))); });
     if (nodes.lights.empty() && !shapes.has_emitters()) add_surroundings(scene, warnings);
-    problems.attempt(scene.place, [&] {
-        if (nodes.cameras.empty())
-            add_default_camera(scene, shapes.bounds(), notes);
-        else
-            add_camera(scene, nodes.cameras, cameras, definitions, notes);
-    });
+    if (nodes.cameras.empty())
+        warnings.add("the file has no camera: everything is seen from the front, from the right and from above");
+    if (nodes.cameras.empty() ||
+        !problems.attempt(scene.place, [&] { add_camera(scene, nodes.cameras, cameras, definitions, notes); }))
+        add_default_camera(scene, shapes.bounds());
     if (root.list("animations").size() > 0) warnings.add("animations left out: everything stands where its node says");
     root.finish();
     return result;
+}
+
+}  // namespace
+
+RawScene import_gltf(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
+                     Problems& problems) {
+    try {
+        return read(path, definitions, warnings, problems);
+    } catch (const Told&) {
+        problems.check({path});
+        throw;
+    }
 }
 
 }  // namespace neumann::reader
