@@ -207,6 +207,10 @@ TEST_F(GltfMeshes, Skins) {
     EXPECT_EQ(gltf_error(),
               "scene.gltf#/nodes/0: the mesh is bent by its skin, which is not supported; apply the armature before "
               "the export");
+    two[19] = 1;
+    file["skins"][0]["inverseBindMatrices"] = add_accessor("MAT4", two);
+    EXPECT_EQ(gltf_error(),
+              "scene.gltf#/skins/0/inverseBindMatrices: the last row of matrix 1 is not 0 0 0 1, or its numbers are too large");
 }
 
 TEST_F(GltfMeshes, VertexColours) {

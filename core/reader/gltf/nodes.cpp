@@ -163,6 +163,9 @@ private:
             const auto world = world_.find(joints[i]);
             if (world == world_.end()) throw InputError(skin.place(), fmt::format("joint {} is not in the scene", joints[i]));
             const Mat4 moved = inverse ? world->second * matrix_of({(*inverse)[i], (*inverse)[i] + 16}) : world->second;
+            if (!is_finite(moved) || moved[0][3] != 0.0 || moved[1][3] != 0.0 || moved[2][3] != 0.0 || moved[3][3] != 1.0)
+                throw InputError(skin.place_of("inverseBindMatrices"),
+                                 fmt::format("the last row of matrix {} is not 0 0 0 1, or its numbers are too large", i));
             if (i == 0) placed.to_world = moved;
             for (int column = 0; column < 4; ++column)
                 if (!(glm::length(moved[column] - placed.to_world[column]) <= 1e-4 * (1.0 + glm::length(moved[column]))))
