@@ -1,5 +1,5 @@
-// Picture files, and text on pictures. Files are encoded in memory, so the code that writes them to the disk sees every failure. All
-// functions may be called from several threads at once.
+// Picture files, and text on pictures. Files are encoded in memory, so the code that writes them to the disk sees every failure.
+// All functions may be called from several threads at once.
 #pragma once
 
 #include "core/image/display.h"
@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 
 namespace neumann {
@@ -43,6 +44,10 @@ PixelEstimate read_exr(const std::string& path, Attributes* attributes = nullptr
 // The same as a texture: channels R, G, B where there are any of these names, otherwise the first three, or the first where there
 // are fewer. Throws InputError, beginning with the path: no such file, not a picture, damaged, a value that is not finite.
 Texels read_texels(const std::string& path);
+
+// The same of the bytes of a file, but all its channels, up to four: grey, grey and alpha, RGB, or RGB and alpha, which is not
+// multiplied into the colours. Errors begin with `name`.
+Texels decode_texels(std::string_view bytes, const std::string& name);
 
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
 std::optional<std::string> find_label_font();

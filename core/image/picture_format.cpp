@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <string_view>
 
 namespace neumann {
@@ -17,7 +16,7 @@ using namespace std::string_view_literals;
 
 class PartReader {
 public:
-    explicit PartReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    PartReader(std::istream& file, std::string_view name) : name_(name), file_(file) {
         file_.seekg(0, std::ios::end);
         size_ = file_.tellg();
     }
@@ -43,7 +42,7 @@ public:
         at_ += bytes;
         if (at_ > size_)
             throw InputError(
-                fmt::format("{}: the picture is damaged: a part of it ends {} bytes beyond the file", path_, at_ - size_));
+                fmt::format("{}: the picture is damaged: a part of it ends {} bytes beyond the file", name_, at_ - size_));
     }
 
 private:
@@ -53,8 +52,8 @@ private:
         at_ += static_cast<std::int64_t>(bytes);
     }
 
-    std::string path_;
-    std::ifstream file_;
+    std::string_view name_;
+    std::istream& file_;
     std::int64_t size_ = 0, at_ = 0;
 };
 
@@ -90,7 +89,7 @@ void walk_exr(PartReader& file) {
 
 }  // namespace
 
-std::string find_picture_format(const std::string& path) {
+std::string find_picture_format(std::istream& file, std::string_view name) {
     static constexpr std::pair<std::string_view, const char*> beginnings[] = {{"\x76\x2f\x31\x01"sv, "openexr"},
                                                                               {"\x89PNG"sv, "png"},
                                                                               {"\xff\xd8\xff"sv, "jpeg"},
@@ -109,16 +108,17 @@ std::string find_picture_format(const std::string& path) {
                                                                               {"PF"sv, "pnm"},
                                                                               {"Pf"sv, "pnm"}};
     std::array<char, 4> first{};
-    std::ifstream(path, std::ios::binary).read(first.data(), first.size());
+    file.read(first.data(), first.size());
+    file.clear();
     for (const auto& [beginning, format] : beginnings)
         if (std::string_view(first.data(), first.size()).starts_with(beginning)) return format;
-    return path.ends_with(".tga") || path.ends_with(".TGA") ? "targa" : "";
+    return name.ends_with(".tga") || name.ends_with(".TGA") ? "targa" : "";
 }
 
-void expect_parts_within_file(const std::string& path, const std::string& format) {
+void expect_parts_within_file(std::istream& file, std::string_view name, const std::string& format) {
     if (format != "png" && format != "openexr") return;
-    PartReader file(path);
-    format == "png" ? walk_png(file) : walk_exr(file);
+    PartReader parts(file, name);
+    format == "png" ? walk_png(parts) : walk_exr(parts);
 }
 
 }  // namespace neumann

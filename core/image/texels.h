@@ -1,4 +1,4 @@
-// A picture as its file holds it, for textures: row 0 at the top, colours of one or three channels, without alpha.
+// A picture as its file holds it, for textures: row 0 at the top. Textures have colours of one or three channels, without alpha.
 #pragma once
 
 #include <cstddef>

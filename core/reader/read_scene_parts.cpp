@@ -94,7 +94,7 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     SceneParts parts;
     Problems problems;
     const Document document =
-        read_document(read_raw_scene(path, parts.warnings, problems), definitions, parts.warnings, problems, optional);
+        read_document(read_raw_scene(path, definitions, parts.warnings, problems), definitions, parts.warnings, problems, optional);
     const Objects objects(document.root, problems, document.lost);
     std::vector<std::string> mesh_files;
     TextureStore textures;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -19,6 +20,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numeric>
+#include <sstream>
 #include <system_error>
 
 namespace neumann {
@@ -78,7 +81,7 @@ void read_pixels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDes
     throw InputError(fmt::format("{}: the picture is damaged: {}", path, error));
 }
 
-// Three channels of each pixel, or one.
+// Some channels of each pixel.
 template <class T>
 std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type,
                              const std::vector<std::size_t>& places) {
@@ -101,6 +104,20 @@ std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, O
     return all;
 }
 
+Texels read_channels(OIIO::ImageInput& input, const std::string& path, const std::vector<std::size_t>& places) {
+    const OIIO::ImageSpec& spec = input.spec();
+    Texels texels;
+    texels.width = spec.width;
+    texels.height = spec.height;
+    texels.channels = static_cast<int>(places.size());
+    texels.is_encoded = !spec.format.is_floating_point();
+    if (spec.format == OIIO::TypeDesc::UINT8)
+        texels.bytes = read_channels<std::uint8_t>(input, path, OIIO::TypeDesc::UINT8, places);
+    else
+        texels.values = read_channels<float>(input, path, OIIO::TypeDesc::FLOAT, places);
+    return texels;
+}
+
 // The system's word on a file that cannot be read; OpenImageIO's differs by version and format.
 void expect_readable(const std::string& path) {
     errno = 0;
@@ -113,38 +130,44 @@ void expect_readable(const std::string& path) {
 
 // Damaged headers speak of sizes that no memory holds. Of the formats, those that pack plain surfaces best (OpenEXR's DWAB: 256
 // rows in some hundred bytes) stay below 1 : 65,536.
-void expect_possible_size(const OIIO::ImageSpec& spec, const std::string& path) {
+void expect_possible_size(const OIIO::ImageSpec& spec, std::uint64_t file_bytes, const std::string& name) {
     const double bytes = static_cast<double>(spec.image_pixels()) * spec.nchannels * sizeof(float);
-    std::error_code ignored;
-    const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
-    if (spec.depth != 1 || bytes > 65536.0 * file_bytes || bytes > 0.5 * physical_memory())
-        throw InputError(fmt::format("{}: the picture is damaged or too large: its header says {}×{} pixels of {} channels", path,
+    if (spec.depth != 1 || bytes > 65536.0 * static_cast<double>(file_bytes) || bytes > 0.5 * physical_memory())
+        throw InputError(fmt::format("{}: the picture is damaged or too large: its header says {}×{} pixels of {} channels", name,
                                      spec.width, spec.height, spec.nchannels));
 }
 
-// Alpha is not multiplied into the colours.
-std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
-    expect_readable(path);
+// Alpha is not multiplied into the colours. `memory`: in place of the file of this name; must outlive the result.
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& name, std::istream& file, std::uint64_t file_bytes,
+                                               OIIO::Filesystem::IOProxy* memory) {
     OIIO::ImageSpec as_they_are, found;
     as_they_are.attribute("oiio:UnassociatedAlpha", 1);
     constexpr int largest_picture_mb = 2048;
     [[maybe_unused]] static const bool limited = OIIO::attribute("limits:imagesize_MB", largest_picture_mb);
-    const std::string format = find_picture_format(path);
-    expect_parts_within_file(path, format);
+    const std::string format = find_picture_format(file, name);
+    expect_parts_within_file(file, name, format);
     std::unique_ptr<OIIO::ImageInput> input;
     bool opened = false;
     try {
         if (!format.empty()) input = OIIO::ImageInput::create(format);
-        opened = input && input->open(path, found, as_they_are);
+        if (input && memory && !input->set_ioproxy(memory)) input.reset();
+        opened = input && input->open(name, found, as_they_are);
     } catch (const std::exception&) {  // some readers let them out where a file is damaged
     }
     if (!opened) {
         OIIO::geterror();
-        throw InputError(path +
+        throw InputError(name +
                          ": not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");
     }
-    expect_possible_size(input->spec(), path);
+    expect_possible_size(input->spec(), file_bytes, name);
     return input;
+}
+
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
+    expect_readable(path);
+    std::ifstream file(path, std::ios::binary);
+    std::error_code ignored;
+    return open_picture(path, file, std::filesystem::file_size(path, ignored), nullptr);
 }
 
 std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path) {
@@ -187,16 +210,16 @@ Texels read_texels(const std::string& path) {
         places.assign(named->begin(), named->end());
     else if (spec.nchannels >= 3)
         places = {0, 1, 2};
-    Texels texels;
-    texels.width = spec.width;
-    texels.height = spec.height;
-    texels.channels = static_cast<int>(places.size());
-    texels.is_encoded = !spec.format.is_floating_point();
-    if (spec.format == OIIO::TypeDesc::UINT8)
-        texels.bytes = read_channels<std::uint8_t>(*input, path, OIIO::TypeDesc::UINT8, places);
-    else
-        texels.values = read_channels<float>(*input, path, OIIO::TypeDesc::FLOAT, places);
-    return texels;
+    return read_channels(*input, path, places);
+}
+
+Texels decode_texels(std::string_view bytes, const std::string& name) {
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // which only reads
+    std::istringstream file{std::string(bytes)};
+    const auto input = open_picture(name, file, bytes.size(), &memory);
+    std::vector<std::size_t> places(static_cast<std::size_t>(std::min(input->spec().nchannels, 4)));
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    return read_channels(*input, name, places);
 }
 
 }  // namespace openimageio
@@ -204,6 +227,6 @@ Texels read_texels(const std::string& path) {
 
 extern "C" const neumann::PictureReader* neumann_picture_reader() {
     using namespace neumann::openimageio;
-    static const neumann::PictureReader reader{read_exr, read_texels};
+    static const neumann::PictureReader reader{read_exr, read_texels, decode_texels};
     return &reader;
 }

@@ -8,6 +8,7 @@ namespace neumann {
 struct PictureReader {
     decltype(&neumann::read_exr) read_exr;
     decltype(&neumann::read_texels) read_texels;
+    decltype(&neumann::decode_texels) decode_texels;
 };
 
 struct PictureWriter {

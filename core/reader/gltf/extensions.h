@@ -1,0 +1,14 @@
+// The extensions of glTF that files may use.
+#pragma once
+
+#include "core/reader/gltf/json_object.h"
+
+namespace neumann::reader::gltf {
+
+// It changes no still picture, or the file has what is needed without it.
+bool has_no_effect(const std::string& extension);
+
+// Adds a problem for each required extension that is not known, and a warning for each other one.
+void check_extensions(JsonObject& root);
+
+}  // namespace neumann::reader::gltf

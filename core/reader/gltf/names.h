@@ -1,0 +1,18 @@
+// Names of objects and files, each given once.
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace neumann::reader::gltf {
+
+class Names {
+public:
+    // The wished name without what files and Mitsuba's ids may not have (a full stop, for one), and with a number if it is taken.
+    std::string unique(const std::string& wished);
+
+private:
+    std::set<std::string> taken_;
+};
+
+}  // namespace neumann::reader::gltf

@@ -1,0 +1,28 @@
+// The nodes of the scene that is to be seen: which meshes, cameras and lights stand where.
+#pragma once
+
+#include "core/reader/gltf/accessors.h"
+#include "core/reader/gltf/json_object.h"
+
+#include <vector>
+
+namespace neumann::reader::gltf {
+
+struct Placed {
+    std::size_t what = 0;  // index of the mesh, the camera or the light
+    Location place = {};   // of the node
+    std::string name = {};
+    Mat4 to_world{1.0};
+};
+
+struct Nodes {
+    std::vector<Placed> meshes, cameras, lights;  // in the order of the tree
+};
+
+// `lights`: those of KHR_lights_punctual. Problems are told, and what they are about is left out.
+Nodes read_nodes(JsonObject& root, const JsonList& lights, Accessors& accessors);
+
+// Rotations and translations alone, for what has no size. Throws InputError where a map flattens space.
+Mat4 without_scale(const Placed& placed);
+
+}  // namespace neumann::reader::gltf

@@ -1,0 +1,143 @@
+#include "core/reader/gltf/shapes.h"
+
+#include "core/base/memory.h"
+#include "core/reader/gltf/back_side.h"
+#include "core/reader/import/make_elements.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace neumann::reader::gltf {
+
+namespace {
+
+void add_instance(Element& scene, const std::string& group, const Placed& placed) {
+    Element& e = add(scene, make_object("shape", "instance", placed.place));
+    add_reference(e, group, placed.place);
+    add_matrix(e, "to_world", placed.to_world, placed.place);
+}
+
+Material default_material() {
+    Material m;
+    m.name = "default";
+    return m;
+}
+
+}  // namespace
+
+Shapes::Shapes(JsonObject& root, Accessors& accessors, Pictures& pictures, FilesInMemory& in_memory)
+    : notes_(root.notes()),
+      meshes_(root.list("meshes")),
+      materials_(root.list("materials")),
+      textures_(root, pictures),
+      accessors_(accessors),
+      pictures_(pictures),
+      in_memory_(in_memory),
+      default_material_(default_material()) {}
+
+const Material& Shapes::material_of(JsonObject& primitive) {
+    const auto index = primitive.index("material", materials_, "material");
+    if (!index && primitive.has("material")) throw Told();
+    if (!index) return default_material_;
+    auto [found, is_new] = known_materials_.try_emplace(*index);
+    if (is_new)
+        notes_.problems.attempt(materials_.place_of(*index), [&] {
+            found->second = std::make_unique<const Material>(read_material(materials_.object(*index), textures_));
+        });
+    if (!found->second) throw Told();
+    return *found->second;
+}
+
+std::string Shapes::bsdf_of(Element& scene, const Material& material, const OnMesh& mesh) {
+    auto [found, is_new] = bsdfs_.try_emplace({&material, mesh});
+    if (is_new)
+        notes_.problems.attempt(material.place, [&] {
+            const std::string id = ids_.unique(material.name);
+            neumann::reader::add(scene, make_bsdf(material, mesh, id, pictures_, notes_.warnings));
+            found->second = id;
+        });
+    if (found->second.empty()) throw Told();
+    return found->second;
+}
+
+// As much as the rest of the program keeps for them.
+void Shapes::expect_memory_for(const MeshFile& file, const Location& place) {
+    constexpr double bytes_of_triangle = 300.0, part_of_memory = 0.5;
+    triangles_ += static_cast<double>(file.mesh.triangles.size());
+    const double bytes = triangles_ * bytes_of_triangle;
+    if (bytes > part_of_memory * physical_memory())
+        throw InputError(place, fmt::format("with this mesh there are {:.0f} triangles; they need about {:.1f} GiB, more than half "
+                                            "of the machine's {:.1f}",
+                                            triangles_, bytes / 0x1p30, physical_memory() / 0x1p30));
+}
+
+std::vector<Shapes::Part> Shapes::read_parts(Element& scene, std::size_t mesh) {
+    JsonObject object = meshes_.object(mesh);
+    const std::string name = object.text("name").value_or(fmt::format("mesh_{}", mesh));
+    const JsonList primitives = object.list("primitives"), weights = object.list("weights");
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (!(weights[i].is_number() && weights[i] == 0.0))
+            throw InputError(weights.place_of(i),
+                             "morph targets are not supported, expected all weights to be 0; apply them before the export");
+    object.finish();
+    std::vector<Part> parts;
+    const auto keep = [&](MeshFile file, const Part& like) {
+        expect_memory_for(file, like.place);
+        Part part = like;
+        part.filename = fmt::format("meshes/{}.ply", mesh_names_.unique(name));
+        part.file = std::make_shared<const MeshFile>(std::move(file));
+        in_memory_.meshes[part.filename] = part.file;
+        parts.push_back(std::move(part));
+    };
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        notes_.problems.attempt(primitives.place_of(i), [&] {
+            JsonObject primitive = primitives.object(i);
+            const Material& material = material_of(primitive);
+            for (PrimitiveMesh& read : read_primitive(primitive, accessors_, material)) {
+                const Part like{primitive.place(), "", bsdf_of(scene, material, read.traits), &material, nullptr};
+                keep(std::move(read.file), like);
+                if (material.emits() && material.is_double_sided) keep(back_side(*parts.back().file), like);
+            }
+        });
+    return parts;
+}
+
+Element Shapes::make_shape(const Part& part, const Placed* placed) {
+    const bool is_flat = part.file->normals.empty();
+    Element e = make_object("shape", "ply", part.place);
+    add_string(e, "filename", part.filename, part.place);
+    if (is_flat) add_boolean(e, "face_normals", true, part.place);
+    if (placed) {
+        add_matrix(e, "to_world", placed->to_world, placed->place);
+        // A mesh in a mirror shows the same side; with normals it is turned to their side anyway.
+        if (is_flat && glm::determinant(glm::dmat3(placed->to_world)) < 0.0) add_boolean(e, "flip_normals", true, placed->place);
+    }
+    add_reference(e, part.bsdf, part.place);
+    if (part.material->emits()) {
+        neumann::reader::add(e, make_emitter(*part.material, pictures_, notes_.warnings));
+        has_emitters_ = true;
+    }
+    return e;
+}
+
+void Shapes::add(Element& scene, std::size_t mesh, const std::vector<Placed>& places) {
+    const std::vector<Part> parts = read_parts(scene, mesh);
+    std::vector<const Part*> shared;
+    for (const Part& part : parts) {
+        for (const Placed& placed : places)
+            for (const Vec3& v : part.file->mesh.vertices) bounds_.add(Vec3(placed.to_world * glm::dvec4(v, 1.0)));
+        if (places.size() > 1 && !part.material->emits())
+            shared.push_back(&part);
+        else
+            for (const Placed& placed : places) neumann::reader::add(scene, make_shape(part, &placed));
+    }
+    if (shared.empty()) return;
+    const std::string id = ids_.unique(fmt::format("group_{}", mesh));
+    Element group = make_object("shape", "shapegroup", meshes_.place_of(mesh), id);
+    for (const Part* part : shared) neumann::reader::add(group, make_shape(*part, nullptr));
+    neumann::reader::add(scene, std::move(group));
+    for (const Placed& placed : places) add_instance(scene, id, placed);
+}
+
+}  // namespace neumann::reader::gltf
