@@ -83,16 +83,12 @@ BsdfMaker::Alphas BsdfMaker::read_alphas(const std::string& prefix) {
     a.u = alpha(u.value_or(missing));
     a.is_isotropic = !u && !v;
     a.v = a.is_isotropic ? a.u : alpha(v.value_or(missing));
+    constexpr double smooth = 1e-3, least = 1e-4;  // pbrt's
     const Rgb *cu = a.u.constant(), *cv = a.v.constant();
-    if (cu && cv) {
-        constexpr double smooth = 1e-3, least = 1e-4;  // pbrt's
-        a.is_smooth = std::max(cu->r, cv->r) < smooth;
-        a.is_isotropic = cu->r == cv->r;
-        a.u = {glm::max(*cu, least)};
-        a.v = {glm::max(*cv, least)};
-    } else {
-        a.is_smooth = false;
-    }
+    a.is_smooth = cu && cv && std::max(cu->r, cv->r) < smooth;
+    a.is_isotropic = a.is_isotropic || (cu && cv && cu->r == cv->r);
+    a.u = at_least(a.u, least, importer_);
+    a.v = a.is_isotropic ? a.u : at_least(a.v, least, importer_);
     return a;
 }
 

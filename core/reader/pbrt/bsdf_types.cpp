@@ -45,7 +45,8 @@ Element BsdfMaker::make_diffuse() {
 
 BsdfMaker::Metal BsdfMaker::read_metal(const std::string& prefix) {
     const auto colour = textures_.find_reflectance(p_, "reflectance");
-    if (colour && (p_.has(prefix + "eta") || p_.has(prefix + "k")))
+    const bool has_eta = p_.find(prefix + "eta", {"rgb", "spectrum"}), has_k = p_.find(prefix + "k", {"rgb", "spectrum"});
+    if (colour && (has_eta || has_k))
         p_.complain("reflectance", fmt::format("{} has a reflectance and eta or k, expected either", p_.title()));
     Metal m;
     if (colour && !colour->constant()) {

@@ -9,6 +9,7 @@
 namespace neumann::reader::pbrt {
 
 std::vector<std::uint32_t> read_indices(Parameters& p, std::size_t vertex_count, std::size_t size) {
+    if (p.is_wrong()) throw Told();
     std::vector<std::int64_t> given = p.integers("indices");
     if (given.empty() && !p.has("indices") && vertex_count == size)
         for (std::size_t i = 0; i < size; ++i) given.push_back(static_cast<std::int64_t>(i));

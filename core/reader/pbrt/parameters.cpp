@@ -146,7 +146,7 @@ void Parameters::finish() {
     for (const Parameter& p : all_) {
         if (p.is_default || read_.contains(&p) || spoilt_.contains(p.name)) continue;
         if (asked_.contains(p.name))
-            complain(p.name, fmt::format("{} of {} is a {}, which is not expected here", p.name, title_, p.type));
+            complain(p.name, fmt::format("{} of {} is of the type {}, which is not expected here", p.name, title_, p.type));
         else
             complain(p.name, fmt::format("unknown parameter '{}' of {}{}; {}", printable(p.name), title_,
                                          did_you_mean(p.name, known), known.empty() ? "it has none" : "allowed: " + join(known)));

@@ -184,6 +184,16 @@ TextureValue at_most_one(const TextureValue& t, Importer& importer) {
         t, [](const Rgb& c) { return glm::min(c, 1.0); }, importer);
 }
 
+TextureValue at_least(const TextureValue& t, double least, Importer& importer) {
+    if (const auto* picture = std::get_if<Picture>(&t.value)) {
+        bool is_below = false;
+        for_each_texel(*picture, importer, [&](const Rgb& c) { is_below = is_below || std::min({c.r, c.g, c.b}) < least; });
+        if (!is_below) return t;
+    }
+    return apply(
+        t, [least](const Rgb& c) { return glm::max(c, least); }, importer, true);
+}
+
 Rgb largest(const TextureValue& t, Importer& importer) {
     if (const Rgb* c = t.constant()) return *c;
     if (const auto* checks = std::get_if<Checks>(&t.value))

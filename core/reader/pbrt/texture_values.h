@@ -54,6 +54,8 @@ TextureValue combine(const TextureValue& a, const TextureValue& b, const std::fu
 TextureValue as_number(const TextureValue& t, Importer& importer);
 // With no value above 1, as pbrt cuts off reflectances.
 TextureValue at_most_one(const TextureValue& t, Importer& importer);
+// A number with no value below `least`; the same texture where there is none.
+TextureValue at_least(const TextureValue& t, double least, Importer& importer);
 // The largest value of each channel.
 Rgb largest(const TextureValue& t, Importer& importer);
 

@@ -15,7 +15,9 @@ bool is_token_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == 
 
 }  // namespace
 
-std::string Token::shown() const { return fmt::format(is_string ? "\"{}\"" : "'{}'", printable(text)); }
+std::string Token::shown() const {
+    return is_string ? fmt::format("\"{}\"", printable(text)) : fmt::format("'{}'", printable(text));
+}
 
 Tokens::Tokens(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
