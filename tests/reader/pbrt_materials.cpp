@@ -28,7 +28,7 @@ protected:
     void write_pictures() const {
         write("a.ppm", "P3 2 2 255\n255 0 0  0 255 0  0 0 255  128 128 128\n");
         write("b.ppm", "P3 2 2 255\n0 0 0  255 255 255  64 64 64  0 128 255\n");
-        write("grey.pgm", "P2 2 2 255\n0 255 64 128\n");
+        write("grey.pgm", "P2 2 2 255\n32 255 64 128\n");
         write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
     }
     void expect_same_on_square(const std::string& pbrt_material, const std::string& bsdf) const {

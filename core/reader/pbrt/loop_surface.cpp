@@ -138,7 +138,7 @@ MadeMesh make_loop_surface(Parameters& p) {
     const std::vector<std::uint32_t> indices = read_indices(p, points.size(), 3);
     Triangles triangles;
     for (std::size_t i = 0; i < indices.size(); i += 3) triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-    constexpr std::size_t max_triangles = std::size_t(1) << 24;
+    constexpr std::size_t max_triangles = std::size_t(1) << 22;
     if (triangles.size() << (2 * levels) > max_triangles)
         throw InputError(p.place(), fmt::format("{} has {} triangles after {} levels, expected at most {}", p.title(),
                                                 triangles.size() << (2 * levels), levels, max_triangles));
