@@ -234,6 +234,15 @@ TEST_F(PbrtMaterials, Pictures) {
               "scene.pbrt:3:20: reflectance of material 'diffuse': there is no spectrum texture 'x'");
 }
 
+// A texture of an included file is found beside that, wherever it is used.
+TEST_F(PbrtMaterials, PicturesBesideIncludedFiles) {
+    write("sub folder/a.ppm", "P3 1 1 255\n255 0 0\n");
+    write("sub folder/textures.pbrt", "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.ppm\"");
+    const SceneParts parts =
+        read_pbrt("Include \"sub folder/textures.pbrt\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"");
+    EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(1.0, 0.0, 0.0));
+}
+
 TEST_F(PbrtMaterials, ComputedTextures) {
     write_pictures();
     const auto value = [&](const std::string& textures) {

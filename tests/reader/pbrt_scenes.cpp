@@ -277,4 +277,68 @@ TEST_F(PbrtScenes, Films) {
     EXPECT_EQ(read_pbrt_file("Integrator \"path\" Sampler \"independent\" WorldBegin").sampler, SamplerKind::independent);
 }
 
+// A room with a lamp, a ball of glass and two of gold, told twice.
+TEST_F(PbrtScenes, ARoomIsTheSameRoom) {
+    const SceneParts a = read_pbrt_file(R"(
+Integrator "volpath" "integer maxdepth" 4
+LookAt 0 1 -3.4  0 1 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 160 "integer yresolution" 120
+PixelFilter "box"
+Sampler "independent" "integer pixelsamples" 64
+WorldBegin
+MakeNamedMaterial "white" "string type" "diffuse" "rgb reflectance" [ .7 .7 .7 ]
+NamedMaterial "white"
+Shape "bilinearmesh" "point3 P" [ -1 0 -1 1 0 -1 -1 0 1 1 0 1 ]
+AttributeBegin
+  Material "diffuse" "rgb reflectance" [ .7 .1 .1 ]
+  Translate -1 0 -1 Rotate -90 0 1 0 Scale 2 2 1
+  Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 0 1 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 8 8 4 ] "float scale" 0.5
+  Translate 0 1.98 0 Rotate 90 1 0 0
+  Shape "disk" "float radius" .35
+AttributeEnd
+AttributeBegin
+  Material "dielectric"
+  Translate .45 .3 -.2 Shape "sphere" "float radius" .3
+AttributeEnd
+ObjectBegin "ball"
+  Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k" "float roughness" .04
+  Shape "sphere" "float radius" .2
+ObjectEnd
+AttributeBegin Translate -.5 .2 0 ObjectInstance "ball" AttributeEnd
+AttributeBegin Translate -.5 .5 .5 Scale .5 .5 .5 ObjectInstance "ball" AttributeEnd
+)");
+    write("floor.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 2 3 4\n");
+    write("wall.obj", "v -1 0 -1\nv -1 0 1\nv -1 2 1\nv -1 2 -1\nf 1 2 3 4\n");
+    const SceneParts b = read(R"(
+<integrator type="path"><integer name="max_depth" value="5"/></integrator>
+<sensor type="perspective">
+  <transform name="to_world"><scale x="-1"/><lookat origin="0, 1, -3.4" target="0, 1, 0" up="0, 1, 0"/></transform>
+  <float name="fov" value="40"/><string name="fov_axis" value="y"/>
+  <film type="hdrfilm"><integer name="width" value="160"/><integer name="height" value="120"/><rfilter type="box"/></film>
+  <sampler type="independent"><integer name="sample_count" value="64"/></sampler>
+</sensor>
+<bsdf type="twosided" id="gold"><bsdf type="roughconductor"><string name="material" value="Au"/>
+  <string name="distribution" value="ggx"/><float name="alpha" value="0.2"/></bsdf></bsdf>
+<bsdf type="twosided" id="white"><bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.7, 0.7"/></bsdf></bsdf>
+<shape type="shapegroup" id="ball"><shape type="sphere"><float name="radius" value="0.2"/><ref id="gold"/></shape></shape>
+<shape type="instance"><ref id="ball"/><transform name="to_world"><translate x="-0.5" y="0.2"/></transform></shape>
+<shape type="instance"><ref id="ball"/>
+  <transform name="to_world"><scale value="0.5"/><translate x="-0.5" y="0.5" z="0.5"/></transform></shape>
+<shape type="obj"><string name="filename" value="floor.obj"/><boolean name="face_normals" value="true"/><ref id="white"/></shape>
+<shape type="obj"><string name="filename" value="wall.obj"/><boolean name="face_normals" value="true"/>
+  <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.1, 0.1"/></bsdf></bsdf></shape>
+<shape type="disk">
+  <transform name="to_world"><scale x="0.35" y="0.35"/><rotate x="1" angle="90"/><translate y="1.98"/></transform>
+  <ref id="white"/><emitter type="area"><rgb name="radiance" value="4, 4, 2"/></emitter></shape>
+<shape type="sphere"><float name="radius" value="0.3"/><point name="center" x="0.45" y="0.3" z="-0.2"/>
+  <bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf></shape>
+)");
+    expect_same(a, b);
+    EXPECT_EQ(a.sampler, b.sampler);
+}
+
 }  // namespace neumann::pbrt_scenes_test

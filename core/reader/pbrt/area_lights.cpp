@@ -1,10 +1,8 @@
 #include "core/reader/pbrt/area_lights.h"
 
-#include "core/image/display.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
-#include "core/reader/pbrt/find_file.h"
 #include "core/reader/pbrt/light_scale.h"
 
 #include <numbers>
@@ -29,7 +27,7 @@ AreaLight read_area_light(Entity& e, Importer& importer) {
     if (p.is_wrong()) throw Told();
     light.radiance = {colour.value_or(Rgb(1.0)) * scale};
     if (filename) {
-        Picture picture{with_slashes(*filename), find_file(*filename, importer.main_file(), p.place("filename"))};
+        Picture picture = find_picture(*filename, p.place("filename"), importer);
         picture.nearest = true;
         light.mean = mean_luminance({picture}, importer);
         light.radiance = {picture};

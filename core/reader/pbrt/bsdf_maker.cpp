@@ -3,7 +3,6 @@
 
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
-#include "core/reader/pbrt/find_file.h"
 #include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
@@ -125,7 +124,7 @@ Element BsdfMaker::with_normals(Element inner) {
         p_.complain("normalmap", fmt::format("{} has a normalmap and a displacement, expected one of them", p_.title()));
     if (p_.is_wrong()) return inner;
     if (map) {
-        Picture picture{with_slashes(*map), find_file(*map, importer_.main_file(), p_.place("normalmap"))};
+        Picture picture = find_picture(*map, p_.place("normalmap"), importer_);
         picture.raw = true;
         Element e = object_in(inner, "normalmap");
         add(e, "normalmap", {picture});

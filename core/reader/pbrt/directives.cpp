@@ -144,6 +144,7 @@ void DirectiveReader::material(const Location& place) {
 void DirectiveReader::named_material(const Location& place) {
     const std::string name = string_argument("MakeNamedMaterial", place, "a name");
     Parameters p = parameters(fmt::format("material '{}'", printable(name)), place, "material");
+    if (name.empty()) throw InputError(place, "the name of a material is empty");
     const auto [known, is_new] = named_materials_.try_emplace(name, place);
     if (!is_new)
         throw InputError(place,

@@ -33,4 +33,11 @@ std::string find_file(const std::string& name, const std::string& main_file, con
                                         beside == folder ? "" : ", " + shown(beside)));
 }
 
+std::string name_for_elements(const std::string& path, const std::string& main_file) {
+    const fs::path folder = fs::path(main_file).parent_path(), file = path;
+    if (folder.empty() || file.is_absolute() != folder.is_absolute()) return path;
+    const std::string name = file.lexically_relative(folder).generic_string();
+    return name.empty() || name.starts_with("..") ? path : name;
+}
+
 }  // namespace neumann::reader::pbrt

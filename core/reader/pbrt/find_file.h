@@ -17,4 +17,7 @@ std::string stem_of(const std::string& path);
 // InputError if there is none.
 std::string find_file(const std::string& name, const std::string& main_file, const Location& place);
 
+// How elements name a file that has been found: from the folder of the main file, where Mitsuba files are searched for first.
+std::string name_for_elements(const std::string& path, const std::string& main_file);
+
 }  // namespace neumann::reader::pbrt

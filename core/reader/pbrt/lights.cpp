@@ -97,7 +97,7 @@ Element make_spot(Entity& e, Importer& importer) {
 }
 
 Element make_picture_light(Entity& e, const std::string& filename, double scale, double illuminance, Importer& importer) {
-    Picture picture{with_slashes(filename), find_file(filename, importer.main_file(), e.parameters.place("filename"))};
+    const Picture picture = find_picture(filename, e.parameters.place("filename"), importer);
     const std::shared_ptr<const Texels> texels = importer.read_picture(picture.path);
     if (texels->width != texels->height)
         throw InputError(

@@ -124,6 +124,11 @@ bool is_alike(const Picture& a, const Picture& b) { return a.nearest == b.neares
 
 }  // namespace
 
+Picture find_picture(const std::string& name, const Location& place, Importer& importer) {
+    const std::string path = find_file(name, importer.main_file(), place);
+    return {name_for_elements(path, importer.main_file()), path};
+}
+
 TextureValue apply(const TextureValue& t, const std::function<Rgb(const Rgb&)>& f, Importer& importer, bool is_grey) {
     if (const Rgb* c = t.constant()) return {f(*c)};
     if (const auto* checks = std::get_if<Checks>(&t.value)) {

@@ -28,6 +28,9 @@ struct Picture {
     UvMapping mapping = {};
 };
 
+// The picture in a file with this name. Throws InputError if there is none.
+Picture find_picture(const std::string& name, const Location& place, Importer& importer);
+
 struct TextureValue;
 
 // Where ⌊s⌋ + ⌊t⌋ is even the first, elsewhere the second.

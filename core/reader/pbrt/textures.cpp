@@ -2,7 +2,6 @@
 
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
-#include "core/reader/pbrt/find_file.h"
 #include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/element.h"
 
@@ -74,8 +73,9 @@ TextureValue Textures::make_picture(TextureEntity& e) {
     p.finish();
     if (!name || p.is_wrong()) throw Told();
 
-    picture.path = find_file(*name, importer_.main_file(), p.place("filename"));
-    picture.filename = with_slashes(*name);
+    const Picture found = find_picture(*name, p.place("filename"), importer_);
+    picture.path = found.path;
+    picture.filename = found.filename;
     TextureValue result{picture};
     if (gamma != 1.0 && importer_.read_picture(picture.path)->is_encoded)
         result = apply(
