@@ -67,6 +67,10 @@ void add_point(Element& parent, const std::string& name, const Vec3& value, cons
     add_parameter(parent, "point", name, numbers({value.x, value.y, value.z}), place);
 }
 
+void add_vector(Element& parent, const std::string& name, const Vec3& value, const Location& place) {
+    add_parameter(parent, "vector", name, numbers({value.x, value.y, value.z}), place);
+}
+
 void add_matrix(Element& parent, const std::string& name, const Mat4& value, const Location& place) {
     std::string rows;
     for (int row = 0; row < 4; ++row)

@@ -26,6 +26,7 @@ void add_boolean(Element& parent, const std::string& name, bool value, const Loc
 void add_string(Element& parent, const std::string& name, const std::string& value, const Location& place);
 void add_rgb(Element& parent, const std::string& name, const Rgb& value, const Location& place);
 void add_point(Element& parent, const std::string& name, const Vec3& value, const Location& place);
+void add_vector(Element& parent, const std::string& name, const Vec3& value, const Location& place);
 void add_matrix(Element& parent, const std::string& name, const Mat4& value, const Location& place);
 
 // A parameter that -D sets, with the value that it has without: <integer name="width" value="$width"/> and, in the scene,

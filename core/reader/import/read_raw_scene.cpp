@@ -1,8 +1,9 @@
 #include "core/reader/import/read_raw_scene.h"
 
-#include "core/base/error.h"
+#include "core/reader/collada/import_collada.h"
 #include "core/reader/gltf/import_gltf.h"
 #include "core/reader/import/file_kinds.h"
+#include "core/reader/pbrt/import_pbrt.h"
 #include "core/reader/xml/parse_xml.h"
 
 namespace neumann::reader {
@@ -10,15 +11,15 @@ namespace neumann::reader {
 RawScene read_raw_scene(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
                         Problems& problems) {
     switch (scene_format(path)) {
-        case SceneFormat::mitsuba:
-            return {parse_xml(path), {path}};
+        case SceneFormat::collada:
+            return import_collada(path, warnings, problems);
         case SceneFormat::gltf:
             return import_gltf(path, definitions, warnings, problems);
-        case SceneFormat::collada:
         case SceneFormat::pbrt:
-            break;
+            return import_pbrt(path, warnings, problems);
+        default:
+            return {parse_xml(path), {path}};
     }
-    throw InputError(path + ": scenes of this format cannot be read yet");
 }
 
 }  // namespace neumann::reader

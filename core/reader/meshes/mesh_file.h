@@ -27,6 +27,8 @@ MeshFile read_obj(const std::string& path);
 // vertex. The named attributes (mesh_ply_header.h) are read if the file has them; whole numbers are divided by the largest number
 // of their type and decoded as sRGB. Other elements and properties are skipped.
 MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes = {});
+// The same of bytes that are there already; `path` is for messages.
+MeshFile parse_ply(const std::string& path, const std::string& bytes, const std::vector<std::string>& attributes = {});
 
 // Versions 3 and 4, in single or double precision; `index` counts the meshes of a file from 0. Vertex colours are skipped. Errors
 // are "file: mesh 0: byte 12: …", the byte of the compressed file, or "file: mesh 0: triangle 12: …", counted from 1.

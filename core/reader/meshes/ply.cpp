@@ -329,7 +329,10 @@ private:
 }  // namespace
 
 MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes) {
-    const std::string bytes = read_mesh_bytes(path);
+    return parse_ply(path, read_mesh_bytes(path), attributes);
+}
+
+MeshFile parse_ply(const std::string& path, const std::string& bytes, const std::vector<std::string>& attributes) {
     MeshText text(path, bytes, MeshText::Syntax::plain);
     const PlyHeader header = read_ply_header(text, attributes);
     switch (header.format) {

@@ -1,0 +1,159 @@
+#include "core/reader/pbrt/lights.h"
+
+#include "core/base/frame.h"
+#include "core/reader/import/make_elements.h"
+#include "core/reader/meshes/mesh_text.h"
+#include "core/reader/pbrt/colours.h"
+#include "core/reader/pbrt/find_file.h"
+#include "core/reader/pbrt/light_scale.h"
+#include "core/reader/pbrt/octahedral.h"
+#include "core/reader/pbrt/rigid.h"
+#include "core/reader/xml/did_you_mean.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace neumann::reader::pbrt {
+
+namespace {
+
+using std::numbers::pi;
+
+const std::vector<std::string> light_types = {"distant", "infinite", "point", "spot"};
+
+Vec3 to_world_point(const Entity& e, const Vec3& p) { return Vec3(e.to_world * glm::dvec4(p, 1.0)); }
+Vec3 to_world_vector(const Entity& e, const Vec3& v) { return Vec3(e.to_world * glm::dvec4(v, 0.0)); }
+
+void finish(Parameters& p) {
+    p.finish();
+    if (p.is_wrong()) throw Told();
+}
+
+// `from` and `to`, which must differ.
+std::pair<Vec3, Vec3> read_from_to(Parameters& p) {
+    const Vec3 from = p.point("from").value_or(Vec3(0.0)), to = p.point("to").value_or(Vec3(0.0, 0.0, 1.0));
+    if (from == to) p.complain("to", fmt::format("from and to of {} are the same point", p.title()));
+    return {from, to};
+}
+
+Rgb read_colour(Parameters& p, const std::string& name, Importer& importer) {
+    return find_light_colour(p, name, importer).value_or(Rgb(1.0)) * read_scale(p) * importer.imaging_ratio;
+}
+
+Element make_point(Entity& e, Importer& importer) {
+    Parameters& p = e.parameters;
+    Rgb intensity = read_colour(p, "I", importer);
+    if (const double power = read_positive(p, "power"); power > 0.0) intensity *= power / (4.0 * pi);
+    const Vec3 from = p.point("from").value_or(Vec3(0.0));
+    finish(p);
+    Element light = make_object("emitter", "point", e.place());
+    add_point(light, "position", to_world_point(e, from), e.place());
+    add_rgb(light, "intensity", intensity, e.place());
+    return light;
+}
+
+Element make_distant(Entity& e, Importer& importer) {
+    Parameters& p = e.parameters;
+    Rgb irradiance = read_colour(p, "L", importer);
+    if (const double illuminance = read_positive(p, "illuminance"); illuminance > 0.0) irradiance *= illuminance;
+    const auto [from, to] = read_from_to(p);
+    finish(p);
+    Element light = make_object("emitter", "directional", e.place());
+    const Vec3 direction = to_world_vector(e, to - from);
+    add_vector(light, "direction", direction / length_of(direction), e.place());
+    add_rgb(light, "irradiance", irradiance, e.place());
+    return light;
+}
+
+Element make_spot(Entity& e, Importer& importer) {
+    Parameters& p = e.parameters;
+    Rgb intensity = read_colour(p, "I", importer);
+    const double cone = p.number("coneangle", 30.0), delta = p.number("conedeltaangle", 5.0);
+    if (!(cone > 0.0 && cone <= 180.0))
+        p.complain("coneangle",
+                   fmt::format("coneangle of {} is {}, expected more than 0 and at most 180 degrees", p.title(), cone));
+    else if (!(delta >= 0.0 && delta <= cone))
+        p.complain("conedeltaangle",
+                   fmt::format("conedeltaangle of {} is {}, expected from 0 to coneangle, {} degrees", p.title(), delta, cone));
+    const double from_cosine = std::cos(glm::radians(cone - delta)), to_cosine = std::cos(glm::radians(cone));
+    if (const double power = read_positive(p, "power"); power > 0.0)
+        intensity *= power / (2.0 * pi * (1.0 - 0.5 * (from_cosine + to_cosine)));
+    const auto [from, to] = read_from_to(p);
+    finish(p);
+    if (delta > 0.0)
+        importer.warnings.add(
+            "spot light: towards the edge of its cone it falls off linearly with the angle, where pbrt has a smooth step");
+    Element light = make_object("emitter", "spot", e.place());
+    const Frame frame(glm::normalize(to - from));
+    const Mat4 own(glm::dvec4(frame.s, 0.0), glm::dvec4(frame.t, 0.0), glm::dvec4(frame.n, 0.0), glm::dvec4(from, 1.0));
+    add_matrix(light, "to_world", without_scale(e.to_world * own).matrix, e.place());
+    add_rgb(light, "intensity", intensity, e.place());
+    add_float(light, "cutoff_angle", cone, p.place("coneangle"));
+    add_float(light, "beam_width", cone - delta, p.place("conedeltaangle"));
+    return light;
+}
+
+Element make_picture_light(Entity& e, const std::string& filename, double scale, double illuminance, Importer& importer) {
+    const Picture picture = find_picture(filename, e.parameters.place("filename"), importer);
+    const std::shared_ptr<const Texels> texels = importer.read_picture(picture.path);
+    if (texels->width != texels->height)
+        throw InputError(
+            e.parameters.place("filename"),
+            fmt::format("'{}' is {}×{} pixels, expected a square: pbrt-v4 has equal-area octahedral pictures, which its "
+                        "'imgtool makeequiarea' makes of others",
+                        printable(filename), texels->width, texels->height));
+    constexpr int max_size = 8192;
+    if (texels->width > max_size)
+        throw InputError(e.parameters.place("filename"),
+                         fmt::format("'{}' is {} pixels wide, expected at most {}", printable(filename), texels->width, max_size));
+    if (illuminance > 0.0) {
+        const double own = illuminance_of(picture, importer);
+        if (!(own > 0.0))
+            throw InputError(e.parameters.place("filename"), fmt::format("'{}' has no light from above", printable(filename)));
+        scale *= illuminance / own;
+    }
+    const std::string name = importer.unused_name("textures/" + stem_of(picture.path) + ".exr");
+    importer.scene.in_memory.pictures[name] = to_latitude_longitude(picture, importer);
+    Element light = make_object("emitter", "envmap", e.place());
+    add_string(light, "filename", name, e.place());
+    add_float(light, "scale", scale, e.parameters.place("scale"));
+    add_matrix(light, "to_world", without_scale(e.to_world * from_envmap()).matrix, e.place());
+    return light;
+}
+
+Element make_infinite(Entity& e, Importer& importer) {
+    Parameters& p = e.parameters;
+    const std::optional<Rgb> colour = find_light_colour(p, "L", importer);
+    const std::optional<std::string> filename = p.text("filename");
+    if (colour && filename) p.complain("filename", fmt::format("{} has L and filename, expected one of them", p.title()));
+    if (p.find("portal", {"point3"}))
+        p.complain("portal", fmt::format("portal of {} is not supported: pbrt has no light from beside it", p.title()));
+    const double scale = read_scale(p) * importer.imaging_ratio, illuminance = read_positive(p, "illuminance");
+    finish(p);
+    if (filename) return make_picture_light(e, *filename, scale, illuminance, importer);
+    Element light = make_object("emitter", "constant", e.place());
+    add_rgb(light, "radiance", colour.value_or(Rgb(1.0)) * scale * (illuminance > 0.0 ? illuminance / pi : 1.0), e.place());
+    return light;
+}
+
+Element make_light(Entity& e, Importer& importer) {
+    if (e.type == "point") return make_point(e, importer);
+    if (e.type == "distant") return make_distant(e, importer);
+    if (e.type == "spot") return make_spot(e, importer);
+    if (e.type == "infinite") return make_infinite(e, importer);
+    throw InputError(e.place(), fmt::format("light type '{}' is not supported{}; allowed: {}", printable(e.type),
+                                            did_you_mean(e.type, light_types), join(light_types)));
+}
+
+}  // namespace
+
+std::vector<Element> make_lights(PbrtScene& scene, Importer& importer) {
+    std::vector<Element> lights;
+    for (Entity& e : scene.lights) importer.problems.attempt(e.place(), [&] { lights.push_back(make_light(e, importer)); });
+    return lights;
+}
+
+}  // namespace neumann::reader::pbrt

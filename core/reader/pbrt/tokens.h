@@ -1,0 +1,45 @@
+// The words of a pbrt file: strings in quotes, brackets, and whatever else stands between blanks. # begins a comment.
+#pragma once
+
+#include "core/base/error.h"
+
+#include <optional>
+#include <string>
+
+namespace neumann::reader {
+
+struct Token {
+    std::string text;  // of a string: what it says, without quotes
+    bool is_string = false;
+    int line = 0, column = 0;
+
+    bool is(const char* word) const { return !is_string && text == word; }
+    std::string shown() const;  // for messages: as it stands in the file, but not too long
+};
+
+class Tokens {
+public:
+    // The text of the file with this name.
+    Tokens(std::string file, std::string text);
+
+    // The next one, or nothing at the end. Throws InputError for a string that does not end on its line.
+    const std::optional<Token>& peek();
+    std::optional<Token> next();
+
+    const std::string& file() const { return file_; }
+    Location place(const Token& token) const { return {file_, token.line, token.column}; }
+    // Where the next token is, or the end.
+    Location place();
+
+private:
+    std::optional<Token> read();
+    void skip_blanks();
+    void read_string(Token& token);
+
+    std::string file_, text_;
+    std::size_t at_ = 0, line_start_ = 0;
+    int line_ = 1;
+    std::optional<std::optional<Token>> ahead_;
+};
+
+}  // namespace neumann::reader
