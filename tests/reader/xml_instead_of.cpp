@@ -30,6 +30,14 @@ TEST_F(XmlInsteadOf, Lights) {
         "camera sees it; a 'directional' light, or an 'area' light, can stand for it");
 }
 
+TEST_F(XmlInsteadOf, MediaAndMotion) {
+    for (const std::string tag : {"medium", "phase", "volume", "subsurface"})
+        EXPECT_EQ(error("<shape type='cube'>\n<" + tag + " type='homogeneous'/></shape>"),
+                  "scene.xml:3:1: <" + tag + "> is not supported: media are not simulated, only surfaces");
+    EXPECT_EQ(error("<shape type='cube'>\n<animation name='toWorld'/></shape>"),
+              "scene.xml:3:1: <animation> is not supported: nothing moves while a picture is taken");
+}
+
 TEST_F(XmlInsteadOf, Shapes) {
     for (const std::string type : {"bsplinecurve", "linearcurve"})
         EXPECT_EQ(error("<shape type='" + type + "'/>"),

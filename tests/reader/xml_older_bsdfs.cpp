@@ -97,6 +97,14 @@ TEST_F(XmlOlderBsdfs, MessagesOfMixtures) {
         "scene.xml:2:1: bsdf 'mixturebsdf' stands inside itself");
 }
 
+TEST_F(XmlOlderBsdfs, ManyInsideEachOther) {
+    std::string chain = "<bsdf type='diffuse' id='b0'/>";
+    for (int i = 1; i < 3000; ++i)
+        chain += "\n<bsdf type='coating' id='b" + std::to_string(i) + "'><ref id='b" + std::to_string(i - 1) + "'/></bsdf>";
+    const std::string message = error(chain + "\n" + on_cube("<ref id='b2999'/>"));
+    EXPECT_EQ(message.substr(message.find(": ") + 2, 35), "bsdfs are nested more than 100 deep");
+}
+
 TEST_F(XmlOlderBsdfs, Phong) {
     const Bsdf plain = front("<bsdf type='phong'/>");
     EXPECT_FALSE(side(read(on_cube("<bsdf type='phong'/>")), false));

@@ -79,22 +79,20 @@ TEST_F(XmlProblems, AcrossIncludedFiles) {
 }
 
 TEST_F(XmlProblems, OfTheDocument) {
-    EXPECT_EQ(
-        errors("<bsdf type='diffuse' colour='red'/>\n"
-               "<medium type='homogeneous'/>\n"
-               "<shape type='cube'>words<transform name='to_world'><shear/><scale value='$size'/></transform></shape>\n"
-               "<bsdf type='diffuse' id='a'/>\n<bsdf type='diffuse' id='a'/>\n"
-               "<path value='nowhere'/>\n"
-               "<shape type='sphere'>\n<float name='radius'/></shape>\n"),
-        "scene.xml:2:22: unknown attribute 'colour' of <bsdf>; allowed: type, id, name\n"
-        "scene.xml:3:1: <medium> is not supported in <scene>; allowed: alias, bsdf, default, emitter, film, include, integrator, "
-        "path, rfilter, sampler, sensor, shape, texture\n"
-        "scene.xml:4:1: <shape> contains the text 'words', expected elements only\n"
-        "scene.xml:4:52: <shear> is not supported in <transform>; allowed: lookat, matrix, rotate, scale, translate\n"
-        "scene.xml:4:67: $size is not defined; no parameter is\n"
-        "scene.xml:6:22: the id 'a' is taken already, at scene.xml:5:22\n"
-        "scene.xml:7:7: there is no folder 'nowhere'\n"
-        "scene.xml:9:1: <float> lacks the attribute 'value'\n");
+    EXPECT_EQ(errors("<bsdf type='diffuse' colour='red'/>\n"
+                     "<medium type='homogeneous'/>\n"
+                     "<shape type='cube'>words<transform name='to_world'><shear/><scale value='$size'/></transform></shape>\n"
+                     "<bsdf type='diffuse' id='a'/>\n<bsdf type='diffuse' id='a'/>\n"
+                     "<path value='nowhere'/>\n"
+                     "<shape type='sphere'>\n<float name='radius'/></shape>\n"),
+              "scene.xml:2:22: unknown attribute 'colour' of <bsdf>; allowed: type, id, name\n"
+              "scene.xml:3:1: <medium> is not supported: media are not simulated, only surfaces\n"
+              "scene.xml:4:1: <shape> contains the text 'words', expected elements only\n"
+              "scene.xml:4:52: <shear> is not supported in <transform>; allowed: lookat, matrix, rotate, scale, translate\n"
+              "scene.xml:4:67: $size is not defined; no parameter is\n"
+              "scene.xml:6:22: the id 'a' is taken already, at scene.xml:5:22\n"
+              "scene.xml:7:7: there is no folder 'nowhere'\n"
+              "scene.xml:9:1: <float> lacks the attribute 'value'\n");
 }
 
 // What hangs on something that is wrong already says nothing of its own.

@@ -73,6 +73,7 @@ Bsdf read_rough_conductor(const Element& e, const Context& context) {
 Materials::Sides Bsdfs::sides(const Element& e) {
     const auto known = sides_.find(&e);
     if (known != sides_.end()) return known->second;
+    if (open_.size() >= max_nesting) throw InputError(e.place, fmt::format("bsdfs are nested more than {} deep", max_nesting));
     if (!open_.insert(&e).second)
         throw InputError(e.place, fmt::format("bsdf '{}' stands inside itself", e.attribute("type").value));
     const auto sides = context_.problems().attempt(e.place, [&] { return read(e); });

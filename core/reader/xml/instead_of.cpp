@@ -18,6 +18,7 @@ constexpr std::string_view polarisation = "polarisation is not simulated; withou
                            sky = "a picture of the sky can stand for it, written as OpenEXR and read by emitter 'envmap'";
 
 constexpr std::array plugins = {
+    Plugin{"animation", "", "nothing moves while a picture is taken"},
     Plugin{"bsdf", "circular", polarisation},
     Plugin{"bsdf", "difftrans", "'principledthin' with diff_trans lets light through diffusely"},
     Plugin{"bsdf", "hair", hair},
@@ -60,6 +61,8 @@ constexpr std::array plugins = {
     Plugin{"integrator", "sppm", all_paths},
     Plugin{"integrator", "stokes", polarisation},
     Plugin{"integrator", "vpl", all_paths},
+    Plugin{"medium", "", no_media},
+    Plugin{"phase", "", no_media},
     Plugin{"sensor", "batch", "one sensor a scene; each of them can be rendered from a scene file of its own"},
     Plugin{"sensor", "distant", "'orthographic' has the same parallel rays, on a film of any size"},
     Plugin{"sensor", "hdistant", "'orthographic' has parallel rays, one direction a scene"},
@@ -71,7 +74,9 @@ constexpr std::array plugins = {
     Plugin{"shape", "heightfield", "a mesh, written as ply, can stand for it"},
     Plugin{"shape", "linearcurve", curves},
     Plugin{"shape", "sdfgrid", "a mesh of its surface, written as ply, can stand for it"},
+    Plugin{"subsurface", "", no_media},
     Plugin{"texture", "volume", no_media},
+    Plugin{"volume", "", no_media},
 };
 
 }  // namespace
