@@ -5,12 +5,14 @@
 #pragma once
 
 #include "core/material/blend.h"
+#include "core/material/coating.h"
 #include "core/material/conductor.h"
 #include "core/material/dielectric.h"
 #include "core/material/diffuse.h"
 #include "core/material/mask.h"
 #include "core/material/null.h"
 #include "core/material/perturbed_normal.h"
+#include "core/material/phong.h"
 #include "core/material/plastic.h"
 #include "core/material/principled.h"
 #include "core/material/principled_thin.h"
@@ -19,6 +21,7 @@
 #include "core/material/rough_dielectric.h"
 #include "core/material/rough_plastic.h"
 #include "core/material/thin_dielectric.h"
+#include "core/material/ward.h"
 
 #include <optional>
 #include <variant>
@@ -28,9 +31,10 @@ namespace neumann {
 // A closed set: to add a material, add a file beside diffuse.h and a name here. A Bsdf is for one side of a surface: ωo is always
 // above it, ωo.z > 0, and light is transmitted if ωi.z < 0. The other side of glass is another Bsdf. Radiance is L and not L/n²: it
 // is n² times as large within glass.
-struct Bsdf : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Dielectric, ThinDielectric,
-                           RoughDielectric<Ggx>, RoughDielectric<Beckmann>, Plastic, RoughPlastic<Ggx>, RoughPlastic<Beckmann>,
-                           Principled, PrincipledThin, Null, Retroreflector, RoughRetroreflector, Mask, Blend, PerturbedNormal> {
+struct Bsdf
+    : std::variant<Diffuse, Conductor, RoughConductor<Ggx>, RoughConductor<Beckmann>, Dielectric, ThinDielectric,
+                   RoughDielectric<Ggx>, RoughDielectric<Beckmann>, Plastic, RoughPlastic<Ggx>, RoughPlastic<Beckmann>, Principled,
+                   PrincipledThin, Null, Phong, Ward, Retroreflector, RoughRetroreflector, Mask, Blend, Coating, PerturbedNormal> {
     using variant::variant;
 };
 

@@ -103,8 +103,11 @@ void warn_of_gain(const Geometry& geometry, const Materials& materials, const st
         shapes += gains;
     }
     if (shapes == 0) return;
-    warnings.add(fmt::format("reflectance above 1: a surface{} {} up to {} times the light that it receives{}",
-                             where(origins, brightest), is_certain ? "gives back" : "may give back", albedo_text(largest),
+    const std::string gives = is_certain ? "gives back" : "may give back";
+    warnings.add(fmt::format("reflectance above 1: a surface{} {}{}", where(origins, brightest),
+                             std::isinf(largest)
+                                 ? fmt::format("{}, without limit, more light than it receives at grazing angles", gives)
+                                 : fmt::format("{} up to {} times the light that it receives", gives, albedo_text(largest)),
                              shapes > 1 ? fmt::format("; {} other{} above 1, too", shapes - 1, shapes > 2 ? "s are" : " is") : ""));
 }
 

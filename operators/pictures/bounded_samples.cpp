@@ -4,6 +4,7 @@ namespace neumann {
 
 bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
     if (!is_finite(scene.emitters.largest_radiance())) return false;  // some light has no extent
+    if (!is_finite(scene.materials.largest_albedo())) return false;
     switch (settings.generator) {
         case PathGenerator::pointwise:
             return true;

@@ -1,8 +1,9 @@
 // Proves that the variance is finite, whatever the samples look like: it is if all samples are bounded.
 //
 // A path that samples the BSDFs and hits a light contributes Le Π fs |cosθ| / pdf. Every factor is bounded for all of our
-// materials, and the tables of `guided` mix in the BSDF with a share α. A light sample with the weight of the power or the balance
-// heuristic has the same bound: with p1 the pdf of light sampling and p2 that of BSDF sampling,
+// materials that have a largest albedo (two variants of Ward's have none), and the tables of `guided` mix in the BSDF with a share
+// α. A light sample with the weight of the power or the balance heuristic has the same bound: with p1 the pdf of light sampling and
+// p2 that of BSDF sampling,
 //
 //     f/p1 · p1²/(p1² + p2²) ≤ f/(2 p2),     f/p1 · p1/(p1 + p2) ≤ f/p2,
 //

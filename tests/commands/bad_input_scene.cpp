@@ -37,13 +37,13 @@ TEST_F(BadInputScene, Files) {
 
 TEST_F(BadInputScene, Plugins) {
     EXPECT_EQ(refusal_of("<shape type=\"teapot\"/>"),
-              "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, "
+              "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, merge, obj, ply, rectangle, "
               "serialized, shapegroup, sphere\n");
     EXPECT_EQ(
         refusal_of("<bsdf type=\"velvet\"/>"),
-        "scene.xml:2:7: bsdf type 'velvet' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-        "thindielectric, twosided\n");
+        "scene.xml:2:7: bsdf type 'velvet' is not supported; allowed: blendbsdf, bumpmap, coating, conductor, dielectric, diffuse, mask, "
+        "mixturebsdf, normalmap, null, phong, plastic, principled, principledthin, retroreflector, roughconductor, "
+        "roughdielectric, roughplastic, thindielectric, twosided, ward\n");
 }
 
 TEST_F(BadInputScene, Parameters) {

@@ -110,4 +110,18 @@ TEST(MeasuredLaws, ReflectanceAboveOneIsNamed) {
         << found.begin()->first;
 }
 
+// Dür's variant of Ward's lobe has no largest albedo.
+TEST(MeasuredLaws, ReflectanceWithoutLimitIsNamed) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.5, 1.0));
+    maker.add(Sphere{{0, 0, 0}, 0.3, false}, made_of(Ward(WardLobe(WardLobe::Variant::duer, Beckmann(0.2)), Rgb(0.5), Rgb(0.2))));
+    maker.parts.origins = {Origin{{"room.xml", 3, 1}, "shape 'sphere'", "bsdf 'diffuse'"},
+                           Origin{{"room.xml", 7, 1}, "shape 'sphere'", "bsdf 'ward'"}};
+    EXPECT_EQ(
+        maker.make().warnings.counts(),
+        (std::map<std::string, std::uint64_t>{{"reflectance above 1: a surface (bsdf 'ward' of shape 'sphere', room.xml:7:1) gives "
+                                               "back, without limit, more light than it receives at grazing angles",
+                                               1}}));
+}
+
 }  // namespace neumann::physics::measured_laws_test

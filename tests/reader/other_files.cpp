@@ -41,9 +41,10 @@ TEST_F(OtherFiles, MisspeltNamesAreGuessed) {
         error("<shape type='sphere'><float name='radios' value='1'/></shape>"),
         "scene.xml:2:29: unknown parameter 'radios' of shape 'sphere'; allowed: flip_normals, to_world, center, radius; did you "
         "mean 'radius'?");
-    EXPECT_EQ(error("<shape type='spheer'/>"),
-              "scene.xml:2:8: shape type 'spheer' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, "
-              "serialized, shapegroup, sphere; did you mean 'sphere'?");
+    EXPECT_EQ(
+        error("<shape type='spheer'/>"),
+        "scene.xml:2:8: shape type 'spheer' is not supported; allowed: cube, cylinder, disk, instance, merge, obj, ply, rectangle, "
+        "serialized, shapegroup, sphere; did you mean 'sphere'?");
     const std::vector<std::string> names = {"radius", "center", "to_world"};
     EXPECT_EQ(reader::did_you_mean("Radius", names), "; did you mean 'radius'?");
     EXPECT_EQ(reader::did_you_mean("centre", names), "; did you mean 'center'?");

@@ -40,12 +40,12 @@ TEST_F(XmlDocumentErrors, Versions) {
 
 TEST_F(XmlDocumentErrors, UnknownElements) {
     EXPECT_EQ(
-        error("<phase type=\"isotropic\"/>"),
-        "scene.xml:2:1: <phase> is not supported in <scene>; allowed: alias, bsdf, default, emitter, film, include, integrator, "
+        error("<fog type=\"isotropic\"/>"),
+        "scene.xml:2:1: <fog> is not supported in <scene>; allowed: alias, bsdf, default, emitter, film, include, integrator, "
         "path, rfilter, sampler, sensor, shape, texture");
     EXPECT_EQ(
-        error("<bsdf type=\"diffuse\">\n  <phase name=\"reflectance\" type=\"isotropic\"/></bsdf>"),
-        "scene.xml:3:3: <phase> is not supported in <bsdf>; allowed: boolean, bsdf, default, emitter, film, float, include, "
+        error("<bsdf type=\"diffuse\">\n  <fog name=\"reflectance\" type=\"isotropic\"/></bsdf>"),
+        "scene.xml:3:3: <fog> is not supported in <bsdf>; allowed: boolean, bsdf, default, emitter, film, float, include, "
         "integer, integrator, point, ref, rfilter, rgb, sampler, sensor, shape, spectrum, string, texture, transform, vector");
     EXPECT_EQ(error("<shape type=\"sphere\"><transform name=\"to_world\"><shear/></transform></shape>"),
               "scene.xml:2:49: <shear> is not supported in <transform>; allowed: lookat, matrix, rotate, scale, translate");

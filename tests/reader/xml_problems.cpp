@@ -46,11 +46,13 @@ TEST_F(XmlProblems, OfIndependentElements) {
         "bad.obj:2:6: expected a number, found the end of the line\n"
         "scene.xml:17:8: unknown parameter 'radius' of shape 'obj'; allowed: to_world, filename, flip_normals, face_normals, "
         "flip_tex_coords\n"
-        "scene.xml:18:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, rectangle, "
+        "scene.xml:18:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, merge, obj, ply, "
+        "rectangle, "
         "serialized, shapegroup, sphere\n"
-        "scene.xml:18:28: bsdf type 'wood' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-        "thindielectric, twosided\n"
+        "scene.xml:18:28: bsdf type 'wood' is not supported; allowed: blendbsdf, bumpmap, coating, conductor, dielectric, diffuse, "
+        "mask, "
+        "mixturebsdf, normalmap, null, phong, plastic, principled, principledthin, retroreflector, roughconductor, "
+        "roughdielectric, roughplastic, thindielectric, twosided, ward\n"
         "scene.xml:19:45: '1, 2' has 2 numbers, expected 1 or 3\n"
         "scene.xml:20:44: reference to 'glass', which is not defined; defined: metal");
 }
@@ -68,31 +70,29 @@ TEST_F(XmlProblems, AcrossIncludedFiles) {
                "<shape type='disk'><float name='radius' value='1'/></shape>\n"),
         "scene.xml:3:43: radius is 0, expected more than 0\n"
         "scene.xml:6:27: unknown parameter 'radius' of shape 'disk'; allowed: flip_normals, to_world\n"
-        "a.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-        "thindielectric, twosided\n"
+        "a.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, coating, conductor, dielectric, diffuse, mask, "
+        "mixturebsdf, normalmap, null, phong, plastic, principled, principledthin, retroreflector, roughconductor, "
+        "roughdielectric, roughplastic, thindielectric, twosided, ward\n"
         "a.xml:3:10: there is no file 'none.xml'; looked in: .\n"
         "b.xml:3:3: broken XML: Start-end tags mismatch\n"
         "c.xml:2:25: 'x' is not a number\n");
 }
 
 TEST_F(XmlProblems, OfTheDocument) {
-    EXPECT_EQ(
-        errors("<bsdf type='diffuse' colour='red'/>\n"
-               "<medium type='homogeneous'/>\n"
-               "<shape type='cube'>words<transform name='to_world'><shear/><scale value='$size'/></transform></shape>\n"
-               "<bsdf type='diffuse' id='a'/>\n<bsdf type='diffuse' id='a'/>\n"
-               "<path value='nowhere'/>\n"
-               "<shape type='sphere'>\n<float name='radius'/></shape>\n"),
-        "scene.xml:2:22: unknown attribute 'colour' of <bsdf>; allowed: type, id, name\n"
-        "scene.xml:3:1: <medium> is not supported in <scene>; allowed: alias, bsdf, default, emitter, film, include, integrator, "
-        "path, rfilter, sampler, sensor, shape, texture\n"
-        "scene.xml:4:1: <shape> contains the text 'words', expected elements only\n"
-        "scene.xml:4:52: <shear> is not supported in <transform>; allowed: lookat, matrix, rotate, scale, translate\n"
-        "scene.xml:4:67: $size is not defined; no parameter is\n"
-        "scene.xml:6:22: the id 'a' is taken already, at scene.xml:5:22\n"
-        "scene.xml:7:7: there is no folder 'nowhere'\n"
-        "scene.xml:9:1: <float> lacks the attribute 'value'\n");
+    EXPECT_EQ(errors("<bsdf type='diffuse' colour='red'/>\n"
+                     "<medium type='homogeneous'/>\n"
+                     "<shape type='cube'>words<transform name='to_world'><shear/><scale value='$size'/></transform></shape>\n"
+                     "<bsdf type='diffuse' id='a'/>\n<bsdf type='diffuse' id='a'/>\n"
+                     "<path value='nowhere'/>\n"
+                     "<shape type='sphere'>\n<float name='radius'/></shape>\n"),
+              "scene.xml:2:22: unknown attribute 'colour' of <bsdf>; allowed: type, id, name\n"
+              "scene.xml:3:1: <medium> is not supported: media are not simulated, only surfaces\n"
+              "scene.xml:4:1: <shape> contains the text 'words', expected elements only\n"
+              "scene.xml:4:52: <shear> is not supported in <transform>; allowed: lookat, matrix, rotate, scale, translate\n"
+              "scene.xml:4:67: $size is not defined; no parameter is\n"
+              "scene.xml:6:22: the id 'a' is taken already, at scene.xml:5:22\n"
+              "scene.xml:7:7: there is no folder 'nowhere'\n"
+              "scene.xml:9:1: <float> lacks the attribute 'value'\n");
 }
 
 // What hangs on something that is wrong already says nothing of its own.
@@ -142,9 +142,10 @@ TEST_F(XmlProblems, NothingFollows) {
           "<bsdf type='roughdielectric'><float name='ext_ior' value='-'/>"
           "<float name='int_ior' value='1.000277'/></bsdf>");
     alone(
-        "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-        "thindielectric, twosided",
+        "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, coating, conductor, dielectric, diffuse, "
+        "mask, "
+        "mixturebsdf, normalmap, null, phong, plastic, principled, principledthin, retroreflector, roughconductor, "
+        "roughdielectric, roughplastic, thindielectric, twosided, ward",
         "<bsdf type='clay' id='c'/><shape type='shapegroup' id='g'><shape type='cube'><ref id='c'/></shape></shape>"
         "<shape type='instance'><ref id='g'/></shape>");
     EXPECT_EQ(file_error("<scene version='3.0.0'>\n<sensr type='perspective'/></scene>").find('\n'), std::string::npos);

@@ -1,4 +1,5 @@
 // What takes the picture: sensors, films, filters, samplers, integrators.
+#include "core/sensor/sensor.h"
 #include "tests/reader/xml_scene_files.h"
 
 #include <numbers>
@@ -120,6 +121,67 @@ TEST_F(XmlSensors, MaxDepthCountsOneMoreThanBounces) {
     for (const char* type : {"ptracer", "volpath", "volpathmis"})
         EXPECT_EQ(read(std::string("<integrator type='") + type + "'><integer name='max_depth' value='3'/></integrator>").bounces,
                   2);
+}
+
+// An `aov` has the picture of the integrator inside it; what else it would write is said.
+TEST_F(XmlSensors, Channels) {
+    const SceneParts parts = read(
+        "<integrator type='aov'><string name='aovs' value='dd.y:depth,nn:sh_normal'/><integrator type='path' name='image'>"
+        "<integer name='max_depth' value='4'/><boolean name='hide_emitters' value='true'/></integrator></integrator>");
+    EXPECT_EQ(parts.bounces, 3);
+    EXPECT_TRUE(parts.hide_emitters);
+    EXPECT_EQ(parts.warnings.counts(),
+              (std::map<std::string, std::uint64_t>{
+                  {"integrator 'aov': its channels are not written, only the picture of the integrator inside it", 1}}));
+    EXPECT_EQ(
+        read("<integrator type='aov'><integrator type='moment'><integrator type='direct'/></integrator></integrator>").bounces, 1);
+}
+
+// One ray from the sensor along its z axis, or from `origin` along `direction`, as narrow as a millionth of its length.
+TEST_F(XmlSensors, RadianceMeters) {
+    const auto ray = [&](const std::string& inside) {
+        const SceneParts parts = read_file(
+            "<scene version='3.0.0'><sensor type='radiancemeter'>" + inside +
+            "<film type='hdrfilm'><integer name='width' value='1'/><integer name='height' value='1'/></film></sensor></scene>");
+        EXPECT_EQ(parts.film.width, 1);
+        EXPECT_EQ(parts.film.height, 1);
+        const Sensor sensor(parts.camera, parts.film);
+        const CameraRay middle = sensor.ray(Vec2(0.5)), corner = sensor.ray(Vec2(0.0));
+        EXPECT_NEAR(glm::distance(middle.direction, corner.direction), 0.0, 1e-6);
+        return middle;
+    };
+    const CameraRay plain = ray("");
+    EXPECT_NEAR(glm::distance(plain.origin, Vec3(0, 0, 0)), 0.0, 2e-6);
+    EXPECT_NEAR(glm::distance(plain.direction, Vec3(0, 0, 1)), 0.0, 1e-12);
+    for (const CameraRay& same :
+         {ray("<point name='origin' x='1' y='2' z='3'/><vector name='direction' x='0' y='-4' z='3'/>"),
+          ray("<transform name='to_world'><lookat origin='1, 2, 3' target='1, -6, 9' up='0, 0, 1'/></transform>"),
+          ray("<transform name='to_world'><scale x='3' y='2' z='7'/><lookat origin='1, 2, 3' target='1, -2, 6' up='0, 0, "
+              "1'/></transform>")}) {
+        EXPECT_NEAR(glm::distance(same.origin, Vec3(1, 2, 3)), 0.0, 2e-6);
+        EXPECT_NEAR(glm::distance(same.direction, Vec3(0, -0.8, 0.6)), 0.0, 1e-12);
+        EXPECT_GE(same.length, 1e11);
+    }
+}
+
+TEST_F(XmlSensors, MessagesOfRadianceMeters) {
+    const auto message = [&](const std::string& inside, const std::string& film) {
+        return file_error("<scene version='3.0.0'><sensor type='radiancemeter'>\n" + inside + film + "</sensor></scene>");
+    };
+    const std::string film = "<film type='hdrfilm'><integer name='width' value='1'/><integer name='height' value='1'/></film>";
+    EXPECT_EQ(message("", ""), "scene.xml:1:24: the film of sensor 'radiancemeter' has 768×576 pixels, expected 1×1");
+    EXPECT_EQ(message("", "<film type='hdrfilm'><integer name='width' value='1'/></film>"),
+              "scene.xml:2:1: the film of sensor 'radiancemeter' has 1×576 pixels, expected 1×1");
+    EXPECT_EQ(message("<point name='origin' x='1' y='2' z='3'/>", film),
+              "scene.xml:2:1: origin is given without direction, expected both, or to_world");
+    EXPECT_EQ(message("<point name='origin' x='1' y='2' z='3'/>\n<vector name='direction' x='0' y='0' z='0'/>", film),
+              "scene.xml:3:1: the direction is zero");
+    EXPECT_EQ(message("<transform name='to_world'><translate x='1'/></transform><point name='origin' x='1' y='2' z='3'/>\n"
+                      "<vector name='direction' x='0' y='0' z='1'/>",
+                      film),
+              "scene.xml:3:1: both direction and to_world are given, expected one of them");
+    EXPECT_EQ(message("<float name='fov' value='40'/>", film),
+              "scene.xml:2:8: unknown parameter 'fov' of sensor 'radiancemeter'; allowed: to_world, origin, direction");
 }
 
 TEST_F(XmlSensors, Integrators) {

@@ -218,6 +218,59 @@ TEST_F(XmlTextures, MeshAttributes) {
     EXPECT_EQ(largest_albedo(faces.bsdfs[0]), Rgb(1.0, 0.5, 0.0));
 }
 
+// Another texture, times a number or, for colours, a colour.
+TEST_F(XmlTextures, Scaled) {
+    const auto scaled = [&](const std::string& scale, const std::string& inside) {
+        return rectangle("<texture name='reflectance' type='scale'>" + scale + inside + "</texture>");
+    };
+    const std::string board =
+        "<texture type='checkerboard'><rgb name='color0' value='0.5, 0.25, 0'/><float name='color1' value='0.2'/></texture>";
+    EXPECT_EQ(at(scaled("", board), 0.2, 0.2), Rgb(0.5, 0.25, 0.0));
+    EXPECT_EQ(at(scaled("<float name='scale' value='2'/>", board), 0.2, 0.2), Rgb(1.0, 0.5, 0.0));
+    const SceneParts parts = scaled("<rgb name='scale' value='0.5, 2, 1'/>", board);
+    EXPECT_EQ(at(parts, 0.2, 0.2), Rgb(0.25, 0.5, 0.0));
+    EXPECT_EQ(at(parts, 0.7, 0.2), Rgb(0.1, 0.4, 0.2));
+    EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(0.25, 0.5, 0.2));
+    EXPECT_TRUE(is_constant(
+        scaled("<float name='scale' value='2'/>", "<texture type='rawconstant'><float name='value' value='0.3'/></texture>")
+            .bsdfs.at(0)));
+    // As a number, and below a bump map, whose slopes it scales.
+    const auto opacity = [&](const std::string& inside) {
+        const SceneParts mask = read("<shape type='rectangle'><bsdf type='mask'><texture name='opacity' type='scale'>" + inside +
+                                     "</texture><bsdf type='diffuse'><float name='reflectance' value='1'/></bsdf></bsdf></shape>");
+        return eval(mask.bsdfs.at(static_cast<std::size_t>(mask.sides_of_shape.at(0).front)), point_with_coordinates({0.2, 0.2}),
+                    Vec3(0, 0, 1), Vec3(0, 0, 1))
+                   .g *
+               std::numbers::pi;
+    };
+    EXPECT_NEAR(opacity("<float name='scale' value='0.5'/><texture type='checkerboard'><float name='color0' value='0.6'/>"
+                        "<float name='color1' value='0.8'/></texture>"),
+                0.4, 1e-15);
+    const auto bumped = [&](const std::string& texture, const std::string& scale) {
+        const SceneParts bump =
+            read("<shape type='rectangle'><bsdf type='bumpmap'>" + texture + scale + "<bsdf type='diffuse'/></bsdf></shape>");
+        return eval(bump.bsdfs.back(), point_with_coordinates({0.3, 0.3}), Vec3(0, 0, 1), Vec3(0.6, 0, 0.8));
+    };
+    const std::string map = "<texture type='bitmap'><string name='filename' value='four.png'/></texture>";
+    EXPECT_EQ(bumped("<texture type='scale'><float name='scale' value='0.25'/>" + map + "</texture>", ""),
+              bumped(map, "<float name='scale' value='0.25'/>"));
+}
+
+TEST_F(XmlTextures, ScaledErrors) {
+    EXPECT_EQ(texture_error("scale", ""), "scene.xml:3:1: texture 'scale' has no <texture> inside, expected one");
+    EXPECT_EQ(texture_error("scale", "<float name='scale' value='-1'/><texture type='checkerboard'/>"),
+              "scene.xml:4:21: scale is negative: '-1'");
+    EXPECT_EQ(texture_error("scale",
+                            "<float name='scale' value='1e200'/><texture type='scale'><float name='scale' value='1e200'/>"
+                            "<texture type='checkerboard'/></texture>"),
+              "scene.xml:4:21: scale of texture 'scale' gives numbers out of range");
+    std::string chain = "<texture type='checkerboard' id='t0'/>";
+    for (int i = 1; i < 3000; ++i)
+        chain += "\n<texture type='scale' id='t" + std::to_string(i) + "'><ref id='t" + std::to_string(i - 1) + "'/></texture>";
+    const std::string message = error(chain + "\n<bsdf type='diffuse'><ref name='reflectance' id='t2999'/></bsdf>");
+    EXPECT_EQ(message.substr(message.find(": ") + 2, 38), "textures are nested more than 100 deep");
+}
+
 TEST_F(XmlTextures, AreaLights) {
     const SceneParts parts = read(
         "<shape type='rectangle'><emitter type='area'>"
@@ -259,8 +312,9 @@ TEST_F(XmlTextures, NormalAndBumpMaps) {
 
 TEST_F(XmlTextures, Errors) {
     const std::string file = "<string name='filename' value='four.png'/>";
-    EXPECT_EQ(texture_error("wood", ""),
-              "scene.xml:3:29: texture type 'wood' is not supported; allowed: bitmap, checkerboard, mesh_attribute, rawconstant");
+    EXPECT_EQ(
+        texture_error("wood", ""),
+        "scene.xml:3:29: texture type 'wood' is not supported; allowed: bitmap, checkerboard, mesh_attribute, rawconstant, scale");
     EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='none.png'/>"),
               "scene.xml:4:25: there is no file 'none.png'; looked in: .");
     EXPECT_EQ(texture_error("bitmap", ""), "scene.xml:3:1: texture 'bitmap' lacks the parameter 'filename', expected string");

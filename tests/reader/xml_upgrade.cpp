@@ -196,4 +196,20 @@ TEST_F(XmlUpgrade, WhatMitsubaLeavesIsRefused) {
     EXPECT_EQ(version_error("0.3.0", ""), "scene.xml:1:8: scene version 0.3.0 is not known, expected 0.4 to 3.x");
 }
 
+TEST_F(XmlUpgrade, ColoursOfVertices) {
+    write(
+        "colours.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float r\nproperty float g\nproperty float b\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 1 0 0.5\n1 0 0 1 0 0.5\n1 1 0 1 0 0.5\n3 0 1 2\n");
+    const SceneParts parts =
+        read_version("0.6.0",
+                     "<sensor type='perspective'><float name='fov' value='40'/></sensor>"
+                     "<shape type='ply'><string name='filename' value='colours.ply'/><boolean name='collapse' value='true'/>"
+                     "<bsdf type='diffuse'><texture name='reflectance' type='vertexcolors'/></bsdf></shape>");
+    EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(1.0, 0.0, 0.5));
+    EXPECT_EQ(parts.warnings.counts(),
+              (std::map<std::string, std::uint64_t>{{"old scene file: texture 'vertexcolors' taken as 'mesh_attribute'", 1}}));
+}
+
 }  // namespace neumann::xml_upgrade_test

@@ -21,28 +21,29 @@ protected:
 };
 
 TEST_F(XmlValueErrors, UnknownTypes) {
-    EXPECT_EQ(
-        error("<bsdf type=\"clay\"/>"),
-        "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, conductor, dielectric, diffuse, mask, "
-        "normalmap, null, plastic, principled, principledthin, retroreflector, roughconductor, roughdielectric, roughplastic, "
-        "thindielectric, twosided");
-    EXPECT_EQ(error("<emitter type=\"sunsky\"/>"),
-              "scene.xml:2:10: emitter type 'sunsky' is not supported; allowed: area, constant, directional, envmap, point, "
+    EXPECT_EQ(error("<bsdf type=\"clay\"/>"),
+              "scene.xml:2:7: bsdf type 'clay' is not supported; allowed: blendbsdf, bumpmap, coating, conductor, dielectric, "
+              "diffuse, mask, "
+              "mixturebsdf, normalmap, null, phong, plastic, principled, principledthin, retroreflector, roughconductor, "
+              "roughdielectric, roughplastic, thindielectric, twosided, ward");
+    EXPECT_EQ(error("<emitter type=\"glow\"/>"),
+              "scene.xml:2:10: emitter type 'glow' is not supported; allowed: area, constant, directional, envmap, point, "
               "projector, spot");
-    EXPECT_EQ(
-        error("<integrator type=\"bdpt\"/>"),
-        "scene.xml:2:13: integrator type 'bdpt' is not supported; allowed: direct, moment, path, ptracer, volpath, volpathmis");
-    EXPECT_EQ(error("<shape type=\"bsplinecurve\"/>"),
-              "scene.xml:2:8: shape type 'bsplinecurve' is not supported; allowed: cube, cylinder, disk, instance, obj, ply, "
+    EXPECT_EQ(error("<integrator type=\"gather\"/>"),
+              "scene.xml:2:13: integrator type 'gather' is not supported; allowed: aov, direct, moment, path, ptracer, volpath, "
+              "volpathmis");
+    EXPECT_EQ(error("<shape type=\"teapot\"/>"),
+              "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, merge, obj, ply, "
               "rectangle, serialized, shapegroup, sphere");
     EXPECT_EQ(error("<sampler type=\"halton\"/>"),
               "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
               "ldsampler, multijitter, orthogonal, stratified");
-    EXPECT_EQ(error("<film type=\"specfilm\"/>"), "scene.xml:2:7: film type 'specfilm' is not supported; allowed: hdrfilm");
+    EXPECT_EQ(error("<film type=\"roll\"/>"), "scene.xml:2:7: film type 'roll' is not supported; allowed: hdrfilm");
     EXPECT_EQ(error("<rfilter type=\"sinc\"/>"),
               "scene.xml:2:10: rfilter type 'sinc' is not supported; allowed: box, catmullrom, gaussian, lanczos, mitchell, tent");
-    EXPECT_EQ(file_error("<scene version=\"3.0.0\"><sensor type=\"radiancemeter\"/></scene>"),
-              "scene.xml:1:32: sensor type 'radiancemeter' is not supported; allowed: orthographic, perspective, thinlens");
+    EXPECT_EQ(
+        file_error("<scene version=\"3.0.0\"><sensor type=\"fisheye\"/></scene>"),
+        "scene.xml:1:32: sensor type 'fisheye' is not supported; allowed: orthographic, perspective, radiancemeter, thinlens");
 }
 
 TEST_F(XmlValueErrors, UnknownParameters) {
@@ -213,9 +214,15 @@ TEST_F(XmlValueErrors, IntegratorsAndSamplers) {
     EXPECT_EQ(error("<integrator type='moment'/>"), "scene.xml:2:1: integrator 'moment' has no <integrator> inside, expected one");
     EXPECT_EQ(error("<integrator type='moment'><integrator type='moment'/></integrator>"),
               "scene.xml:2:1: integrator 'moment' stands inside another one");
-    EXPECT_EQ(
-        error("<integrator type='moment'><integrator type='bdpt'/></integrator>"),
-        "scene.xml:2:39: integrator type 'bdpt' is not supported; allowed: direct, moment, path, ptracer, volpath, volpathmis");
+    EXPECT_EQ(error("<integrator type='moment'><integrator type='bdpt'/></integrator>"),
+              "scene.xml:2:39: integrator type 'bdpt' is not supported: 'path' has the same picture");
+    EXPECT_EQ(error("<integrator type='aov'/>"), "scene.xml:2:1: integrator 'aov' has no <integrator> inside, expected one");
+    EXPECT_EQ(error("<integrator type='aov'><integrator type='aov'/></integrator>"),
+              "scene.xml:2:1: integrator 'aov' stands inside another one");
+    EXPECT_EQ(error("<integrator type='moment'><integrator type='aov'><integrator type='path'/></integrator></integrator>"),
+              "scene.xml:2:1: integrator 'aov' stands inside a 'moment', expected it around that");
+    EXPECT_EQ(error("<integrator type='aov'><integrator type='path'/><integrator type='direct'/></integrator>"),
+              "scene.xml:2:49: integrator 'aov' has more than one <integrator>");
     EXPECT_EQ(error("<sampler type='independent'><integer name='sample_count' value='0'/></sampler>"),
               "scene.xml:2:58: sample_count is 0, expected at least 1");
 }

@@ -140,4 +140,15 @@ TEST(BoundedSamples, AreKnownByMethod) {
     EXPECT_FALSE(samples_are_bounded(sky, ways));
 }
 
+// Of Ward's lobes only the balanced one has weights that are bounded.
+TEST(BoundedSamples, NeedALargestAlbedo) {
+    using Variant = WardLobe::Variant;
+    for (const Variant variant : {Variant::original, Variant::duer, Variant::balanced}) {
+        SceneMaker maker;
+        maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.5, 1.0));
+        maker.add(Sphere{{0, 0, 0}, 0.3, false}, made_of(Ward(WardLobe(variant, Beckmann(0.2)), Rgb(0.5), Rgb(0.2))));
+        EXPECT_EQ(samples_are_bounded(maker.make(), {.generator = PathGenerator::walk}), variant == Variant::balanced);
+    }
+}
+
 }  // namespace neumann::alarm_bounded_test

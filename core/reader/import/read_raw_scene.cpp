@@ -1,6 +1,6 @@
 #include "core/reader/import/read_raw_scene.h"
 
-#include "core/reader/collada/import_collada.h"
+#include "core/reader/collada/read_collada.h"
 #include "core/reader/gltf/import_gltf.h"
 #include "core/reader/import/file_kinds.h"
 #include "core/reader/pbrt/import_pbrt.h"
@@ -12,7 +12,7 @@ RawScene read_raw_scene(const std::string& path, const std::map<std::string, std
                         Problems& problems) {
     switch (scene_format(path)) {
         case SceneFormat::collada:
-            return import_collada(path, warnings, problems);
+            return read_collada(path, warnings, problems);
         case SceneFormat::gltf:
             return import_gltf(path, definitions, warnings, problems);
         case SceneFormat::pbrt:

@@ -1,6 +1,7 @@
 #include "core/reader/plugins/bsdfs.h"
 
 #include "core/colour/metals.h"
+#include "core/reader/plugins/glossy_bsdfs.h"
 #include "core/reader/plugins/plastics.h"
 #include "core/reader/plugins/principled_bsdfs.h"
 #include "core/reader/plugins/retroreflectors.h"
@@ -72,6 +73,7 @@ Bsdf read_rough_conductor(const Element& e, const Context& context) {
 Materials::Sides Bsdfs::sides(const Element& e) {
     const auto known = sides_.find(&e);
     if (known != sides_.end()) return known->second;
+    if (open_.size() >= max_nesting) throw InputError(e.place, fmt::format("bsdfs are nested more than {} deep", max_nesting));
     if (!open_.insert(&e).second)
         throw InputError(e.place, fmt::format("bsdf '{}' stands inside itself", e.attribute("type").value));
     const auto sides = context_.problems().attempt(e.place, [&] { return read(e); });
@@ -86,11 +88,14 @@ Materials::Sides Bsdfs::read(const Element& e) {
         return Materials::Sides{front, store(b.back)};
     };
     if (type == "blendbsdf") return read_blend(e);
+    if (type == "coating") return read_coating(e);
     if (type == "conductor") return {store(read_conductor(e, context_)), Materials::absorbing};
     if (type == "dielectric") return both(read_dielectric(e, context_));
     if (type == "diffuse") return {store(read_diffuse(e, context_)), Materials::absorbing};
     if (type == "mask") return read_mask(e);
+    if (type == "mixturebsdf") return read_mixture(e);
     if (type == "null") return both(read_null(e, context_));
+    if (type == "phong") return {store(read_phong(e, context_)), Materials::absorbing};
     if (type == "retroreflector") return {store(read_retroreflector(e, context_)), Materials::absorbing};
     if (type == "roughconductor") return {store(read_rough_conductor(e, context_)), Materials::absorbing};
     if (type == "normalmap" || type == "bumpmap") return read_perturbed_normal(e);
@@ -108,9 +113,14 @@ Materials::Sides Bsdfs::read(const Element& e) {
     if (type == "roughdielectric") return both(read_rough_dielectric(e, context_));
     if (type == "thindielectric") return both(read_thin_dielectric(e, context_));
     if (type == "twosided") return read_two_sided(e);
-    fail_type(
-        e, {"blendbsdf", "bumpmap", "conductor", "dielectric", "diffuse", "mask", "normalmap", "null", "plastic", "principled",
-            "principledthin", "retroreflector", "roughconductor", "roughdielectric", "roughplastic", "thindielectric", "twosided"});
+    if (type == "ward") return {store(read_ward(e, context_)), Materials::absorbing};
+    fail_type(e, {"blendbsdf",      "bumpmap",         "coating",
+                  "conductor",      "dielectric",      "diffuse",
+                  "mask",           "mixturebsdf",     "normalmap",
+                  "null",           "phong",           "plastic",
+                  "principled",     "principledthin",  "retroreflector",
+                  "roughconductor", "roughdielectric", "roughplastic",
+                  "thindielectric", "twosided",        "ward"});
 }
 
 Materials::Sides Bsdfs::read_two_sided(const Element& e) {
@@ -121,12 +131,15 @@ Materials::Sides Bsdfs::read_two_sided(const Element& e) {
     for (const Element* inner : nested) {
         const std::string& type = inner->attribute("type").value;
         if (type == "twosided") throw InputError(e.place, "bsdf 'twosided' stands inside another one");
-        const int front = sides(*inner).front;
-        if (front != Materials::absorbing && transmits(bsdfs_[static_cast<std::size_t>(front)]))
-            throw InputError(inner->place,
-                             fmt::format("bsdf '{}' in bsdf 'twosided' lets light through, expected one that only reflects", type));
+        refuse_transmission(*inner, sides(*inner).front, "twosided");
     }
     return {sides(*nested.front()).front, sides(*nested.back()).front};
+}
+
+void Bsdfs::refuse_transmission(const Element& nested, int index, const std::string& outer) const {
+    if (index == Materials::absorbing || !transmits(bsdfs_[static_cast<std::size_t>(index)])) return;
+    throw InputError(nested.place, fmt::format("bsdf '{}' in bsdf '{}' lets light through, expected one that only reflects",
+                                               nested.attribute("type").value, outer));
 }
 
 Materials::Sides Bsdfs::default_sides(bool emits) {

@@ -1,4 +1,5 @@
-// <bsdf>: reflecting and transmitting materials, and the wrappers `twosided`, `mask`, `blendbsdf`, `normalmap`, `bumpmap`.
+// <bsdf>: reflecting and transmitting materials, and the wrappers `twosided`, `mask`, `blendbsdf`, `mixturebsdf`, `coating`,
+// `normalmap`, `bumpmap`.
 #pragma once
 
 #include "core/material/materials.h"
@@ -29,6 +30,12 @@ private:
     Materials::Sides read_two_sided(const Element& e);
     Materials::Sides read_mask(const Element& e);
     Materials::Sides read_blend(const Element& e);
+    Materials::Sides read_mixture(const Element& e);
+    Materials::Sides read_coating(const Element& e);
+    // Stores a mixture of two materials of one side, each of which may absorb.
+    int store_blend(int first, int second, const SurfaceFunction& weight);
+    // Throws InputError if a material that wraps others must not let light through.
+    void refuse_transmission(const Element& nested, int index, const std::string& outer) const;
     std::shared_ptr<const Bsdf> shared(int index) const;
 
     const Context& context_;

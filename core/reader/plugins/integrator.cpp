@@ -58,25 +58,31 @@ Integrator read_direct(Properties& p) {
 Integrator read_integrator(const Element& e, const Context& context) {
     const std::string& type = e.attribute("type").value;
     const bool is_path = std::find(path_types.begin(), path_types.end(), type) != path_types.end();
-    if (!is_path && type != "direct" && type != "moment") {
-        std::vector<std::string> allowed = {"direct", "moment"};
+    const bool is_around_another = type == "moment" || type == "aov";
+    if (!is_path && type != "direct" && !is_around_another) {
+        std::vector<std::string> allowed = {"aov", "direct", "moment"};
         allowed.insert(allowed.end(), path_types.begin(), path_types.end());
         fail_type(e, allowed);
     }
     Properties p(e, context.objects);
     Integrator result;
     const Element* nested = nullptr;
-    if (type == "moment") {
+    if (is_around_another) {
         const std::vector<const Element*> integrators = p.nested("integrator");
-        if (integrators.empty()) p.fail_empty("integrator 'moment' has no <integrator> inside, expected one");
+        if (integrators.empty()) p.fail_empty(fmt::format("{} has no <integrator> inside, expected one", p.title()));
         nested = integrators.front();
-        if (nested->attribute("type").value == "moment") throw InputError(e.place, "integrator 'moment' stands inside another one");
+        const std::string& inner = nested->attribute("type").value;
+        if (inner == type) throw InputError(e.place, fmt::format("{} stands inside another one", p.title()));
+        // So that they do not stand inside each other without end.
+        if (inner == "aov") throw InputError(e.place, "integrator 'aov' stands inside a 'moment', expected it around that");
+        if (type == "aov" && p.text("aovs"))
+            context.warnings.add("integrator 'aov': its channels are not written, only the picture of the integrator inside it");
     } else {
         result = is_path ? read_path(p) : read_direct(p);
     }
     read_course_of_work(p);
     p.finish();
-    // `moment` only adds the squares of the samples, which the standard errors contain.
+    // `moment` only adds the squares of the samples, which the standard errors contain, and `aov` what is no light.
     return nested ? read_integrator(*nested, context) : result;
 }
 

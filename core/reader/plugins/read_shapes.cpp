@@ -65,8 +65,12 @@ public:
     ShapesReader(const Element& root, const Context& context) : context_(context) {
         for (const Element& e : root.children) {
             if (e.tag != "shape") continue;
-            Item item{&e};
-            if (context.problems().attempt(e.place, [&] { plan(item); })) items_.push_back(item);
+            context.problems().attempt(e.place, [&] {
+                for (const Element* shape : without_merge(e)) {
+                    Item item{shape};
+                    if (context.problems().attempt(shape->place, [&] { plan(item); })) items_.push_back(item);
+                }
+            });
         }
     }
 
@@ -101,6 +105,18 @@ private:
         bool is_finished = false;
     };
 
+    // The shape itself, or the shapes inside it.
+    std::vector<const Element*> without_merge(const Element& e) const {
+        if (type_of(e) != "merge") return {&e};
+        Properties p(e, context_.objects);
+        std::vector<const Element*> shapes = p.nested("shape", std::numeric_limits<std::size_t>::max());
+        p.refuse_rest();
+        if (shapes.empty()) p.fail_empty("shape 'merge' has no <shape> inside, expected at least one");
+        for (const Element* shape : shapes)
+            if (type_of(*shape) == "merge") throw InputError(e.place, "shape 'merge' stands inside another one");
+        return shapes;
+    }
+
     void plan(Item& item) {
         const Element& e = *item.element;
         if (type_of(e) == "shapegroup") {
@@ -128,7 +144,9 @@ private:
         const auto [group, is_new] = groups_.try_emplace(&e);
         if (!is_new) return;
         Properties p(e, context_.objects);
-        const std::vector<const Element*> shapes = p.nested("shape", std::numeric_limits<std::size_t>::max());
+        std::vector<const Element*> shapes;
+        for (const Element* shape : p.nested("shape", std::numeric_limits<std::size_t>::max()))
+            for (const Element* inner : without_merge(*shape)) shapes.push_back(inner);
         p.refuse_rest();
         if (shapes.empty()) p.fail_empty("shape 'shapegroup' has no <shape> inside, expected at least one");
         for (const Element* shape : shapes) {

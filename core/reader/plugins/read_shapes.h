@@ -1,4 +1,5 @@
-// Reads all shapes of a scene: files are read in parallel, and groups are expanded at their instances.
+// Reads all shapes of a scene: files are read in parallel, and groups are expanded at their instances. The shapes inside a `merge`,
+// which Mitsuba makes one mesh of where it can, are read as if they stood in its place.
 //
 // An instance becomes shapes of its own. Patches, area sampling and the choice of lights then treat it like any other surface, and
 // a hit identifies it by its shape alone; the price is memory for every copy, which is checked before it is allocated.

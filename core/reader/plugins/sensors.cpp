@@ -1,5 +1,6 @@
 #include "core/reader/plugins/sensors.h"
 
+#include "core/base/frame.h"
 #include "core/reader/xml/properties.h"
 
 #include <algorithm>
@@ -66,6 +67,38 @@ SensorOptions read_orthographic(Properties& p) {
     return camera;
 }
 
+// The limit of a pinhole camera as its field of view tends to 0: of a millionth of a radian, so that the ray is spread over a
+// millionth of the distance.
+SensorOptions read_radiance_meter(Properties& p) {
+    const Element* to_world = p.find("to_world", {"transform"});
+    const std::optional<Vec3> origin = p.point("origin"), direction = p.point("direction");
+    if (origin.has_value() != direction.has_value())
+        p.complain(origin ? "origin" : "direction",
+                   fmt::format("{} is given without {}, expected both, or to_world", origin ? "origin" : "direction",
+                               origin ? "direction" : "origin"),
+                   {"origin", "direction"});
+    if (to_world && direction) p.complain("direction", "both direction and to_world are given, expected one of them", {"origin"});
+    const Mat4 m = p.transform("to_world");
+    const Vec3 along = direction.value_or(Vec3(m[2]));
+    const double largest = max_component(glm::abs(along));
+    if (largest == 0.0) p.complain("direction", "the direction is zero");
+    SensorOptions camera;
+    const Frame frame(largest > 0.0 ? glm::normalize(along / largest) : Vec3(0.0, 0.0, 1.0));
+    camera.to_world = Mat4(glm::dvec4(frame.s, 0.0), glm::dvec4(frame.t, 0.0), glm::dvec4(frame.n, 0.0),
+                           glm::dvec4(origin.value_or(Vec3(m[3])), 1.0));
+    camera.fov = 1e-6;
+    camera.near_clip = 1e-6;
+    camera.far_clip = 1e12;
+    return camera;
+}
+
+// A meter measures one number.
+void check_film_of_meter(const Film& film, const Element& e) {
+    if (film.width == 1 && film.height == 1) return;
+    throw InputError(e.place,
+                     fmt::format("the film of sensor 'radiancemeter' has {}×{} pixels, expected 1×1", film.width, film.height));
+}
+
 }  // namespace
 
 FieldOfView read_field_of_view(Properties& p) {
@@ -100,15 +133,21 @@ Mat4 read_rigid_transform(Properties& p) {
 
 ReadSensor read_sensor(const Element& e, const Context& context) {
     const std::string& type = e.attribute("type").value;
-    if (type != "orthographic" && type != "perspective" && type != "thinlens")
-        fail_type(e, {"orthographic", "perspective", "thinlens"});
+    const bool is_meter = type == "radiancemeter";
+    if (type != "orthographic" && type != "perspective" && !is_meter && type != "thinlens")
+        fail_type(e, {"orthographic", "perspective", "radiancemeter", "thinlens"});
     Properties p(e, context.objects);
     ReadSensor s;
-    s.camera = type == "orthographic" ? read_orthographic(p) : read_perspective(p);
+    s.camera = type == "orthographic" ? read_orthographic(p) : is_meter ? read_radiance_meter(p) : read_perspective(p);
     const std::vector<const Element*> films = p.nested("film"), samplers = p.nested("sampler");
     p.refuse_rest();
     Problems& problems = context.problems();
-    if (!films.empty()) s.film = problems.attempt(e.place, [&] { return read_film(*films.front(), context); }).value_or(Film());
+    const auto film = [&] {
+        const Film read = films.empty() ? Film() : read_film(*films.front(), context);
+        if (is_meter) check_film_of_meter(read, films.empty() ? e : *films.front());
+        return read;
+    };
+    s.film = problems.attempt(e.place, film).value_or(Film());
     if (!samplers.empty()) s.sampler = problems.attempt(e.place, [&] { return read_sampler(*samplers.front(), context); });
     p.finish();
     return s;

@@ -1,4 +1,4 @@
-// <sensor type="perspective">, "thinlens" and "orthographic", with its film and sampler.
+// <sensor type="perspective">, "thinlens", "orthographic" and "radiancemeter", with its film and sampler.
 #pragma once
 
 #include "core/reader/plugins/context.h"

@@ -79,7 +79,7 @@ void check_attributes(const Properties& p, const Shape& shape, const Context& co
 }  // namespace
 
 ReadShape read_shape(const Element& e, const Context& context) {
-    static const std::vector<std::string> types = {"cube", "cylinder",  "disk",       "instance",   "obj",
+    static const std::vector<std::string> types = {"cube", "cylinder",  "disk",       "instance",   "merge", "obj",
                                                    "ply",  "rectangle", "serialized", "shapegroup", "sphere"};
     if (std::find(types.begin(), types.end(), e.attribute("type").value) == types.end()) fail_type(e, types);
     Properties p(e, context.objects);

@@ -79,6 +79,29 @@ Texture read_raw_constant(Properties& p, bool is_number) {
     return {value, value};
 }
 
+// Another texture times `scale` (Mitsuba 0.6). The factor of a colour may be a colour.
+Texture read_scaled(Properties& p, std::optional<Illuminant> illuminant, const Context& context) {
+    const Element* given = p.find("scale", color_types);
+    const Rgb scale = !given       ? Rgb(1.0)
+                      : illuminant ? parse_metal_index(p, "scale", *given, context.warnings)
+                                   : read_mean(p, "scale", *given, context);
+    const std::vector<const Element*> nested = p.nested("texture");
+    p.finish();
+    if (nested.empty()) p.fail_empty(fmt::format("{} has no <texture> inside, expected one", p.title()));
+    Texture texture = read_texture(*nested.front(), illuminant, context);
+    const SurfaceFunction value = texture.value;
+    if (!is_finite(value.upper_bound() * scale)) p.fail("scale", fmt::format("scale of {} gives numbers out of range", p.title()));
+    texture.value = {[value, scale](const ShadingPoint& at) { return value(at) * scale; }, value.upper_bound() * scale,
+                     value.is_grey() && is_grey(scale)};
+    if (value.is_constant()) texture.value = value.upper_bound() * scale;
+    texture.smallest *= scale;
+    if (!is_grey(scale))
+        texture.slope = {};
+    else if (texture.slope)
+        texture.slope = [slope = texture.slope, factor = scale.r](const ShadingPoint& at) { return slope(at) * factor; };
+    return texture;
+}
+
 std::string attribute_name(Properties& p) {
     const Attribute& name = p.require("name", {"string"}).attribute("value");
     if (!name.value.starts_with("vertex_") && !name.value.starts_with("face_"))
@@ -125,6 +148,8 @@ void find_mesh_attributes(const Element& e, const Objects& objects, std::set<con
 class Opened {
 public:
     Opened(const Element& e, const Context& context) : e_(e), open_(context.textures.open) {
+        if (open_.size() >= max_nesting)
+            throw InputError(e.place, fmt::format("textures are nested more than {} deep", max_nesting));
         if (!open_.insert(&e).second) throw InputError(e.place, "the texture stands inside itself");
         context.textures.known.insert(&e);
     }
@@ -166,7 +191,8 @@ Texture read_texture(const Element& e, std::optional<Illuminant> illuminant, con
     if (type == "checkerboard") return read_checkerboard(p, illuminant, context);
     if (type == "mesh_attribute") return read_mesh_attribute(p, context);
     if (type == "rawconstant") return read_raw_constant(p, !illuminant);
-    fail_type(e, {"bitmap", "checkerboard", "mesh_attribute", "rawconstant"});
+    if (type == "scale") return read_scaled(p, illuminant, context);
+    fail_type(e, {"bitmap", "checkerboard", "mesh_attribute", "rawconstant", "scale"});
 }
 
 Texture read_not_negative(const Element& e, const std::string& name, std::optional<Illuminant> illuminant, const Context& context) {

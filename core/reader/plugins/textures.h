@@ -1,5 +1,5 @@
 // Parameters that may vary over a surface: a colour or a number, or a <texture> in its place (`bitmap`, `checkerboard`,
-// `mesh_attribute` or `rawconstant`).
+// `mesh_attribute`, `rawconstant`, or `scale` around one of them).
 #pragma once
 
 #include "core/material/surface_function.h"

@@ -1,6 +1,7 @@
 #include "core/reader/xml/grammar.h"
 
 #include "core/reader/xml/did_you_mean.h"
+#include "core/reader/xml/instead_of.h"
 
 #include <algorithm>
 
@@ -89,6 +90,8 @@ void check_place(const Element& element, const std::string& parent_tag) {
     const Rule* rule = rule_of(element.tag);
     const Kind parent = rule_of(parent_tag)->kind;
     if (rule && allowed(rule->kind, parent)) return;
+    if (const std::string_view advice = instead_of(element.tag, ""); !advice.empty())
+        throw InputError(element.place, fmt::format("<{}> is not supported: {}", element.tag, advice));
     std::vector<std::string> tags;
     for (const Rule& r : rules())
         if (allowed(r.kind, parent)) tags.push_back(r.tag);

@@ -2,6 +2,7 @@
 
 #include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/grammar.h"
+#include "core/reader/xml/instead_of.h"
 #include "core/reader/xml/numbers.h"
 #include "core/reader/xml/transform.h"
 
@@ -226,6 +227,8 @@ void Properties::finish() {
 void fail_type(const Element& e, const std::vector<std::string>& allowed) {
     if (e.broken) throw Told();
     const Attribute& type = e.attribute("type");
+    if (const std::string_view advice = instead_of(e.tag, type.value); !advice.empty())
+        throw InputError(type.place, fmt::format("{} type '{}' is not supported: {}", e.tag, type.value, advice));
     throw InputError(type.place,
                      fmt::format("{} type '{}' is not supported; {}", e.tag, type.value, allowed_instead(type.value, allowed)));
 }

@@ -79,7 +79,7 @@ private:
     std::vector<std::string> asked_, asked_tags_;
 };
 
-// Throws InputError "bsdf type 'plastic' is not supported; allowed: …".
+// Throws InputError "bsdf type 'wood' is not supported; allowed: …", or says what can be taken in place of a type that Mitsuba has.
 [[noreturn]] void fail_type(const Element& e, const std::vector<std::string>& allowed);
 
 }  // namespace neumann::reader

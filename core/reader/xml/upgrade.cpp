@@ -165,6 +165,12 @@ void upgrade_bitmap(Element& e, Warnings& warnings) {
     }
 }
 
+// The colours of vertices, which Mitsuba 3 finds by a name.
+void upgrade_vertex_colors(Element& e, Warnings& warnings) {
+    rename_type(e, "mesh_attribute", warnings);
+    e.children.push_back({"string", {{"name", "name", e.place}, {"value", "vertex_color", e.place}}, {}, e.place});
+}
+
 // `strictNormals` is dropped: Mitsuba 3 has no test for shading normals that disagree with the surface.
 void upgrade_integrator(Element& e, Warnings& warnings) {
     if (drop(e, {"strict_normals"})) warnings.add("old scene file: strictNormals of an integrator left out");
@@ -198,6 +204,8 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
     if (e.tag == "sampler") upgrade_sampler(e, warnings);
     if (e.tag == "integrator") upgrade_integrator(e, warnings);
     if (e.tag == "texture" && type_or_nothing(e) == "bitmap") upgrade_bitmap(e, warnings);
+    if (e.tag == "texture" && type_or_nothing(e) == "vertexcolors") upgrade_vertex_colors(e, warnings);
+    if (e.tag == "shape") drop(e, {"collapse"});  // several meshes of a file as one, as here
 }
 
 }  // namespace neumann::reader

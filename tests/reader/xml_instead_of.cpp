@@ -1,0 +1,66 @@
+// Plugins of Mitsuba that are not read: the message says what can be done.
+#include "tests/reader/xml_scene_files.h"
+
+namespace neumann::xml_instead_of_test {
+
+using XmlInsteadOf = XmlTest;
+
+TEST_F(XmlInsteadOf, Materials) {
+    EXPECT_EQ(
+        error("<bsdf type='roughcoating'><bsdf type='diffuse'/></bsdf>"),
+        "scene.xml:2:7: bsdf type 'roughcoating' is not supported: 'coating' is a smooth layer over any material, 'roughplastic' a "
+        "rough one over a matt base");
+    EXPECT_EQ(
+        error("<bsdf type='measured'/>"),
+        "scene.xml:2:7: bsdf type 'measured' is not supported: measured materials are not read; 'principled' or 'roughconductor' "
+        "can be fitted to them");
+    EXPECT_EQ(error("<bsdf type='hair'/>"), "scene.xml:2:7: bsdf type 'hair' is not supported: hair is not simulated");
+}
+
+TEST_F(XmlInsteadOf, Lights) {
+    for (const std::string type : {"sunsky", "sky", "timed_sunsky"})
+        EXPECT_EQ(error("<emitter type='" + type + "'/>"),
+                  "scene.xml:2:10: emitter type '" + type +
+                      "' is not supported: a picture of the sky can stand for it, written as OpenEXR and read by emitter 'envmap'");
+    EXPECT_EQ(error("<emitter type='sun'/>"),
+              "scene.xml:2:10: emitter type 'sun' is not supported: a 'directional' light can stand for it");
+    EXPECT_EQ(
+        error("<shape type='disk'>\n<emitter type='directionalarea'/></shape>"),
+        "scene.xml:3:10: emitter type 'directionalarea' is not supported: its light leaves in one direction from each point, so no "
+        "camera sees it; a 'directional' light, or an 'area' light, can stand for it");
+}
+
+TEST_F(XmlInsteadOf, MediaAndMotion) {
+    for (const std::string tag : {"medium", "phase", "volume", "subsurface"})
+        EXPECT_EQ(error("<shape type='cube'>\n<" + tag + " type='homogeneous'/></shape>"),
+                  "scene.xml:3:1: <" + tag + "> is not supported: media are not simulated, only surfaces");
+    EXPECT_EQ(error("<shape type='cube'>\n<animation name='toWorld'/></shape>"),
+              "scene.xml:3:1: <animation> is not supported: nothing moves while a picture is taken");
+}
+
+TEST_F(XmlInsteadOf, Shapes) {
+    for (const std::string type : {"bsplinecurve", "linearcurve"})
+        EXPECT_EQ(error("<shape type='" + type + "'/>"),
+                  "scene.xml:2:8: shape type '" + type +
+                      "' is not supported: curves are not read; a mesh of thin tubes, written as ply, can stand for them");
+    EXPECT_EQ(error("<shape type='sdfgrid'/>"),
+              "scene.xml:2:8: shape type 'sdfgrid' is not supported: a mesh of its surface, written as ply, can stand for it");
+}
+
+TEST_F(XmlInsteadOf, SensorsAndIntegrators) {
+    const auto sensor = [&](const std::string& type) {
+        return file_error("<scene version=\"3.0.0\"><sensor type=\"" + type + "\"/></scene>");
+    };
+    EXPECT_EQ(sensor("batch"),
+              "scene.xml:1:32: sensor type 'batch' is not supported: one sensor a scene; each of them can be rendered from a scene "
+              "file of "
+              "its own");
+    EXPECT_EQ(
+        sensor("distant"),
+        "scene.xml:1:32: sensor type 'distant' is not supported: 'orthographic' has the same parallel rays, on a film of any size");
+    EXPECT_EQ(
+        error("<integrator type='depth'/>"),
+        "scene.xml:2:13: integrator type 'depth' is not supported: it shows distances and no light; 'path' renders the scene");
+}
+
+}  // namespace neumann::xml_instead_of_test
