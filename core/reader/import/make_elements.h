@@ -26,11 +26,17 @@ void add_boolean(Element& parent, const std::string& name, bool value, const Loc
 void add_string(Element& parent, const std::string& name, const std::string& value, const Location& place);
 void add_rgb(Element& parent, const std::string& name, const Rgb& value, const Location& place);
 void add_point(Element& parent, const std::string& name, const Vec3& value, const Location& place);
+void add_vector(Element& parent, const std::string& name, const Vec3& value, const Location& place);
 void add_matrix(Element& parent, const std::string& name, const Mat4& value, const Location& place);
 
 // A parameter that -D sets, with the value that it has without: <integer name="width" value="$width"/> and, in the scene,
 // <default name="width" value="768"/>. `tag`: "integer" or the like.
 void add_defined(Element& scene, Element& parent, const std::string& tag, const std::string& name, const std::string& definition,
                  const std::string& value, const Location& place);
+// The same for a transform: -D sets the 16 numbers of its matrix, row by row.
+void add_defined_matrix(Element& scene, Element& parent, const std::string& name, const std::string& definition, const Mat4& value,
+                        const Location& place);
+// These 16 numbers, separated by blanks.
+std::string matrix_text(const Mat4& m);
 
 }  // namespace neumann::reader
