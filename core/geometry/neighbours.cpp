@@ -83,7 +83,9 @@ std::vector<Face> Neighbours::around(const SurfacePoint& p) const {
     std::erase_if(found, [&](const Face& f) {
         // First a test that ignores the faces' sizes.
         const double most = reach_in_errors * (p.error + faces_.error(f));
-        return f != own && !(faces_.is_near(f, p.position, most) && faces_.is_near(f, p.position, reach(own, f)));
+        // A light without extent is on no face.
+        return f != own &&
+               !(faces_.is_near(f, p.position, most) && (p.is_infinite() || faces_.is_near(f, p.position, reach(own, f))));
     });
     return found;
 }

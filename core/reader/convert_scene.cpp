@@ -102,7 +102,7 @@ ConvertedScene convert_scene(const std::string& path, const std::map<std::string
     result.warnings = read_scene_parts(path, definitions).warnings;
     Warnings told;
     Problems problems;
-    Document document = read_document(read_raw_scene(path, told, problems), definitions, told, problems);
+    Document document = read_document(read_raw_scene(path, definitions, told, problems), definitions, told, problems);
     problems.check(document.files);
     FilesBeside(document, result.files).collect(document.root);
     result.xml = write_xml(document.root);

@@ -20,6 +20,18 @@ Element& add_parameter(Element& parent, const std::string& tag, const std::strin
     return add(parent, {tag, {{"name", as_it_is(name), place}, {"value", value, place}}, {}, place});
 }
 
+void add_matrix_text(Element& parent, const std::string& name, const std::string& rows, const Location& place) {
+    Element& transform = add(parent, {"transform", {{"name", as_it_is(name), place}}, {}, place});
+    add(transform, {"matrix", {{"value", rows, place}}, {}, place});
+}
+
+void add_default(Element& scene, const std::string& definition, const std::string& value, const Location& place) {
+    Element given{"default", {{"name", definition, place}, {"value", as_it_is(value), place}}, {}, place};
+    const auto others =
+        std::find_if(scene.children.begin(), scene.children.end(), [](const Element& e) { return e.tag != "default"; });
+    scene.children.insert(others, std::move(given));  // before what uses it
+}
+
 std::string numbers(std::initializer_list<double> values) {
     std::string text;
     for (const double v : values) text += fmt::format("{}{}", text.empty() ? "" : ", ", v);
@@ -72,20 +84,26 @@ void add_vector(Element& parent, const std::string& name, const Vec3& value, con
 }
 
 void add_matrix(Element& parent, const std::string& name, const Mat4& value, const Location& place) {
-    std::string rows;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) rows += fmt::format("{}{}", rows.empty() ? "" : " ", value[column][row]);
-    Element& transform = add(parent, {"transform", {{"name", as_it_is(name), place}}, {}, place});
-    add(transform, {"matrix", {{"value", rows, place}}, {}, place});
+    add_matrix_text(parent, name, matrix_text(value), place);
 }
 
 void add_defined(Element& scene, Element& parent, const std::string& tag, const std::string& name, const std::string& definition,
                  const std::string& value, const Location& place) {
-    Element given{"default", {{"name", definition, place}, {"value", as_it_is(value), place}}, {}, place};
-    const auto others =
-        std::find_if(scene.children.begin(), scene.children.end(), [](const Element& e) { return e.tag != "default"; });
-    scene.children.insert(others, std::move(given));  // before what uses it
+    add_default(scene, definition, value, place);
     add_parameter(parent, tag, name, "$" + definition, place);
+}
+
+void add_defined_matrix(Element& scene, Element& parent, const std::string& name, const std::string& definition, const Mat4& value,
+                        const Location& place) {
+    add_default(scene, definition, matrix_text(value), place);
+    add_matrix_text(parent, name, "$" + definition, place);
+}
+
+std::string matrix_text(const Mat4& m) {
+    std::string rows;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) rows += fmt::format("{}{}", rows.empty() ? "" : " ", m[column][row]);
+    return rows;
 }
 
 }  // namespace neumann::reader

@@ -27,6 +27,12 @@ Location SourceText::place(std::size_t offset) const {
     return {path_, static_cast<int>(line - line_starts_.begin()) + 1, static_cast<int>(offset - *line) + 1};
 }
 
+std::size_t SourceText::offset(const Location& place) const {
+    if (place.line < 1 || static_cast<std::size_t>(place.line) > line_starts_.size()) return text_.size();
+    const std::size_t column = static_cast<std::size_t>(std::max(place.column, 1)) - 1;
+    return std::min(line_starts_[static_cast<std::size_t>(place.line) - 1] + column, text_.size());
+}
+
 Location SourceText::attribute_place(std::size_t offset, int index) const {
     constexpr std::string_view blanks = " \t\r\n";
     std::size_t at = text_.find_first_of(blanks, offset);

@@ -16,6 +16,8 @@ public:
 
     const std::string& text() const { return text_; }
     Location place(std::size_t offset) const;
+    // The offset of a place in this text; its end if there is no such line.
+    std::size_t offset(const Location& place) const;
     // The place of the index-th attribute of the element whose name begins at `offset`.
     Location attribute_place(std::size_t offset, int index) const;
 

@@ -1,0 +1,17 @@
+// What the parts of the importer share.
+#pragma once
+
+#include "core/base/warnings.h"
+#include "core/reader/collada/file.h"
+#include "core/reader/raw_scene.h"
+
+namespace neumann::reader::collada {
+
+struct Import {
+    const File& file;
+    RawScene& scene;  // that is made
+    Warnings& warnings;
+    Problems& problems;
+};
+
+}  // namespace neumann::reader::collada

@@ -1,0 +1,159 @@
+#include "core/reader/collada/shapes.h"
+
+#include "core/base/memory.h"
+#include "core/reader/collada/materials.h"
+#include "core/reader/collada/texts.h"
+#include "core/reader/import/make_elements.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace neumann::reader::collada {
+
+namespace {
+
+// Memory per triangle of a shape, including its part of the vertices and of the acceleration structures.
+constexpr double bytes_of_triangle = 300.0;
+
+const std::array<std::string, 10> parts_of_mesh = {"extra",  "lines",     "linestrips", "polygons",  "polylist",
+                                                   "source", "triangles", "trifans",    "tristrips", "vertices"};
+
+std::string file_name(const std::string& id, std::size_t number) {
+    std::string name = id.substr(0, 100);
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < ' ' || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos) c = '_';
+    return fmt::format("meshes/{}{}.ply", name, number == 0 ? "" : fmt::format("-{}", number));
+}
+
+Vec3 transformed(const Mat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
+
+bool is_mirror(const Mat4& m) { return glm::determinant(glm::dmat3(m)) < 0.0; }
+
+class ShapeAdder {
+public:
+    ShapeAdder(const std::vector<Lamp>& lamps, const Import& import) : lamps_(lamps), import_(import), materials_(import) {}
+
+    void add(const Instance& instance) {
+        const Element& geometry = *instance.element;
+        if (const Element* radius = radius_of_sphere(geometry)) return add_sphere(instance, *radius);
+        const Element* mesh = child(geometry, "mesh");
+        if (!mesh)
+            throw InputError(geometry.place,
+                             "<geometry> has no <mesh> inside, expected one; <convex_mesh>, <spline> and <brep> are "
+                             "not supported");
+        if (checked_.insert(mesh).second) check_children(*mesh, parts_of_mesh, import_.problems);
+        for (const Element& primitive : mesh->children)
+            if (has_triangles(primitive)) import_.problems.attempt(primitive.place, [&] { add_part(instance, *mesh, primitive); });
+    }
+
+    Bounds bounds;
+
+private:
+    struct Mesh {
+        std::string name;
+        std::shared_ptr<const MeshFile> file;  // null if it has no triangles, or its problem is told
+    };
+
+    static const Element* radius_of_sphere(const Element& geometry) {
+        const Element* technique = course_technique(geometry);
+        const Element* sphere = technique ? child(*technique, "sphere") : nullptr;
+        return sphere ? &required_child(*sphere, "radius") : nullptr;
+    }
+
+    void add_sphere(const Instance& instance, const Element& radius) {
+        const double r = read_number(radius);
+        const Bound bound = materials_.bound(*instance.use, nullptr);
+        Element shape = make_object("shape", "sphere", instance.use->place);
+        add_float(shape, "radius", r, radius.place);
+        finish(std::move(shape), instance, bound);
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 corner((i & 1) != 0 ? r : -r, (i & 2) != 0 ? r : -r, (i & 4) != 0 ? r : -r);
+            bounds.add(transformed(instance.to_world, corner));
+        }
+    }
+
+    void add_part(const Instance& instance, const Element& mesh, const Element& primitive) {
+        const Bound bound = materials_.bound(*instance.use, primitive.find("material"));
+        const Mesh& made = make(*instance.element, mesh, primitive, bound.coordinates);
+        if (!made.file) return;
+        const TriangleMesh& triangles = made.file->mesh;
+        triangles_ += static_cast<double>(triangles.triangles.size());
+        if (triangles_ * bytes_of_triangle > 0.5 * physical_memory())
+            throw InputError(instance.use->place,
+                             fmt::format("with this instance there are {:.0f} triangles, each of them kept; they need about {:.1f} "
+                                         "GiB, more than half of the machine's {:.1f}",
+                                         triangles_, triangles_ * bytes_of_triangle / 0x1p30, physical_memory() / 0x1p30));
+        if (bound.emitter && is_on_a_lamp(triangles, instance)) {
+            import_.warnings.add(fmt::format(
+                "the geometry '{}' gives off light and lies on an area light: its light counts once, and the geometry is left out",
+                required_attribute(*instance.element, "id").value));
+            return;
+        }
+        Element shape = make_object("shape", "ply", instance.use->place);
+        add_string(shape, "filename", made.name, primitive.place);
+        if (made.file->normals.empty()) {
+            add_boolean(shape, "face_normals", true, primitive.place);
+            if (is_mirror(instance.to_world)) add_boolean(shape, "flip_normals", true, instance.node->place);
+        }
+        if (!triangles.uv.empty()) add_boolean(shape, "flip_tex_coords", true, primitive.place);
+        finish(std::move(shape), instance, bound);
+        for (const Vec3& v : triangles.vertices) bounds.add(transformed(instance.to_world, v));
+    }
+
+    void finish(Element shape, const Instance& instance, const Bound& bound) const {
+        if (instance.to_world != Mat4(1.0)) add_matrix(shape, "to_world", instance.to_world, instance.node->place);
+        if (!bound.bsdf.empty())
+            add_reference(shape, bound.bsdf, instance.use->place);
+        else if (!bound.emitter)
+            reader::add(shape, default_bsdf(instance.use->place));
+        if (bound.emitter) reader::add(shape, *bound.emitter);
+        reader::add(import_.scene.root, std::move(shape));
+    }
+
+    const Mesh& make(const Element& geometry, const Element& mesh, const Element& primitive, const Coordinates& coordinates) {
+        const auto [known, is_new] = meshes_.try_emplace({&primitive, coordinates});
+        Mesh& made = known->second;
+        if (!is_new) return made;
+        import_.problems.attempt(primitive.place, [&] { made.file = read_mesh(mesh, primitive, coordinates, import_.problems); });
+        if (!made.file) return made;
+        auto& files = import_.scene.in_memory.meshes;
+        const std::string id = required_attribute(geometry, "id").value;
+        for (std::size_t number = 0; made.name.empty() || files.contains(made.name); ++number) made.name = file_name(id, number);
+        files[made.name] = made.file;
+        if (has_vertex_colors(mesh, primitive))
+            import_.warnings.add("colours of vertices are left out: no material of COLLADA uses them");
+        return made;
+    }
+
+    bool is_on_a_lamp(const TriangleMesh& mesh, const Instance& instance) const {
+        return std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) {
+            Bounds on_lamp;
+            for (const Vec3& v : mesh.vertices) on_lamp.add(lamp.coordinates(transformed(instance.to_world, v)));
+            constexpr double thickness = 1e-4;  // of the lamp's size
+            return std::max(std::abs(on_lamp.low.z), std::abs(on_lamp.high.z)) <= thickness && on_lamp.low.x < 1.0 &&
+                   on_lamp.high.x > -1.0 && on_lamp.low.y < 1.0 && on_lamp.high.y > -1.0;
+        });
+    }
+
+    const std::vector<Lamp>& lamps_;
+    const Import& import_;
+    MaterialReader materials_;
+    std::map<std::tuple<const Element*, Coordinates>, Mesh> meshes_;
+    std::set<const Element*> checked_;
+    double triangles_ = 0.0;
+};
+
+}  // namespace
+
+Bounds add_shapes(const std::vector<Instance>& geometries, const std::vector<Lamp>& lamps, const Import& import) {
+    ShapeAdder adder(lamps, import);
+    for (const Instance& instance : geometries)
+        if (instance.is_placed) import.problems.attempt(instance.use->place, [&] { adder.add(instance);
+});
+return adder.bounds;
+}  // namespace neumann::reader::collada
+
+}  // namespace neumann::reader::collada
