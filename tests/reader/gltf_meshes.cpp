@@ -231,4 +231,29 @@ TEST_F(GltfMeshes, VertexColours) {
     EXPECT_EQ(warnings(read_gltf()), "");
 }
 
+// What has no effect, and what cannot be shown, which a warning names.
+TEST_F(GltfMeshes, LeftOut) {
+    add_square();
+    const std::size_t tangents = add_accessor<float>("VEC4", {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1});
+    primitive()["attributes"]["TANGENT"] = primitive()["attributes"]["_LAYER"] = tangents;
+    primitive()["extras"] = file["nodes"][0]["extras"] = {{"a", 1}};
+    primitive()["targets"] = {{{"POSITION", 0}}};
+    file["meshes"][0]["weights"] = {0};
+    EXPECT_EQ(warnings(read_gltf()), "");
+    file["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+    EXPECT_EQ(warnings(read_gltf()), "animations left out: everything stands where its node says\n");
+    file.erase("animations");
+    file["meshes"][0]["weights"] = {0.5};
+    EXPECT_EQ(gltf_error(),
+              "scene.gltf#/meshes/0/weights/0: morph targets are not supported, expected all weights to be 0; apply "
+              "them before the export");
+    file["meshes"][0].erase("weights");
+    primitive()["attributes"]["COLOR_0"] = add_accessor<float>("VEC4", {1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0});
+    EXPECT_EQ(warnings(read_gltf()), "");
+    material()["alphaMode"] = "BLEND";
+    EXPECT_EQ(warnings(read_gltf()), "the alpha of vertex colours left out\n");
+    primitive()["attributes"] = Json::object();
+    EXPECT_EQ(warnings(read_gltf()), "a primitive without POSITION left out\n");
+}
+
 }  // namespace neumann::gltf_meshes_test

@@ -11,8 +11,9 @@ std::string Names::unique(const std::string& wished) {
     std::string name = wished;
     for (char& c : name)
         if (static_cast<unsigned char>(c) < ' ' || std::string_view("./\\:*?\"<>|$").find(c) != std::string_view::npos) c = '_';
+    int& number = numbers_[name];
     std::string result = name;
-    for (int i = 2; !taken_.insert(result).second; ++i) result = fmt::format("{}_{}", name, i);
+    while (!taken_.insert(result).second) result = fmt::format("{}_{}", name, ++number);
     return result;
 }
 

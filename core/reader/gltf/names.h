@@ -1,6 +1,7 @@
 // Names of objects and files, each given once.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -13,6 +14,7 @@ public:
 
 private:
     std::set<std::string> taken_;
+    std::map<std::string, int> numbers_;  // the last of each name
 };
 
 }  // namespace neumann::reader::gltf

@@ -18,6 +18,20 @@ void add_instance(Element& scene, const std::string& group, const Placed& placed
     add_matrix(e, "to_world", placed.to_world, placed.place);
 }
 
+Bounds bounds_of(const TriangleMesh& mesh) {
+    Bounds bounds;
+    for (const Vec3& v : mesh.vertices) bounds.add(v);
+    return bounds;
+}
+
+// Of the corners.
+Bounds transformed(const Bounds& b, const Mat4& m) {
+    Bounds result;
+    for (int i = 0; i < 8; ++i)
+        result.add(Vec3(m * glm::dvec4(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y, i & 4 ? b.high.z : b.low.z, 1.0)));
+    return result;
+}
+
 Material default_material() {
     Material m;
     m.name = "default";
@@ -125,8 +139,8 @@ void Shapes::add(Element& scene, std::size_t mesh, const std::vector<Placed>& pl
     const std::vector<Part> parts = read_parts(scene, mesh);
     std::vector<const Part*> shared;
     for (const Part& part : parts) {
-        for (const Placed& placed : places)
-            for (const Vec3& v : part.file->mesh.vertices) bounds_.add(Vec3(placed.to_world * glm::dvec4(v, 1.0)));
+        const Bounds bounds = bounds_of(part.file->mesh);
+        for (const Placed& placed : places) bounds_.add(transformed(bounds, placed.to_world));
         if (places.size() > 1 && !part.material->emits())
             shared.push_back(&part);
         else
