@@ -1,25 +1,11 @@
 #include "core/reader/collada/uri.h"
 
+#include "core/reader/import/percent_encoding.h"
+
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 namespace neumann::reader::collada {
-
-std::string percent_decoded(const std::string& text) {
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned char byte = 0;
-        const char* digits = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2 && byte != 0) {
-            decoded += static_cast<char>(byte);
-            i += 2;
-        } else {
-            decoded += text[i];
-        }
-    }
-    return decoded;
-}
 
 std::string path_of_uri(const std::string& uri) {
     std::string path = percent_decoded(uri);

@@ -1,12 +1,9 @@
-// Addresses of pictures and ids in COLLADA files.
+// Addresses of pictures in COLLADA files.
 #pragma once
 
 #include <string>
 
 namespace neumann::reader::collada {
-
-// With each "%20" as the byte that it stands for.
-std::string percent_decoded(const std::string& text);
 
 // The file that a URI means, relative to the scene file or absolute: "file:///C:/a%20b.png" is "C:/a b.png", and what programs
 // write for it: plain paths, also with backslashes.

@@ -1,10 +1,10 @@
 #include "core/reader/gltf/uri.h"
 
 #include "core/reader/gltf/gltf_file.h"
+#include "core/reader/import/percent_encoding.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 
@@ -43,19 +43,6 @@ std::string decode_base64(std::string_view text, const Location& place) {
     return bytes;
 }
 
-// %20 is a space; what is no such code stays as it is.
-std::string decode_percent(const std::string& text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        std::uint8_t value = 0;
-        const char *begin = text.data() + i + 1, *end = begin + 2;
-        const bool is_code = text[i] == '%' && i + 2 < text.size() && std::from_chars(begin, end, value, 16).ptr == end;
-        result += is_code ? static_cast<char>(value) : text[i];
-        if (is_code) i += 2;
-    }
-    return result;
-}
-
 std::string shortened(const std::string& uri) {
     constexpr std::size_t longest = 60;
     return uri.size() <= longest ? uri : uri.substr(0, longest) + "…";
@@ -73,7 +60,7 @@ std::string read_uri(const std::string& uri, const std::string& gltf_path, const
     if (uri.find("://") != std::string::npos)
         throw InputError(place, fmt::format("'{}' is not a file of this machine, expected a path", shortened(uri)));
     const fs::path folder = fs::path(gltf_path).parent_path();
-    std::string decoded = decode_percent(uri), with_slashes = decoded;
+    std::string decoded = percent_decoded(uri), with_slashes = decoded;
     std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
     std::error_code error;
     std::string path = (folder / decoded).string();
