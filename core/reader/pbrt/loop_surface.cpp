@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <compare>
 #include <numbers>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -23,36 +22,50 @@ struct Rings {
     std::vector<bool> is_boundary;
 };
 
+// At a vertex: its neighbours along the two edges of a face, in the order of the face.
+struct Corner {
+    std::uint32_t vertex, from, to;
+    auto operator<=>(const Corner&) const = default;
+};
+
 // Throws InputError where the faces around a vertex are not one fan.
 Rings rings_of(std::size_t vertex_count, const Triangles& triangles, const Location& place) {
-    // For each vertex the neighbour that follows another.
-    std::vector<std::map<std::uint32_t, std::uint32_t>> next(vertex_count);
+    std::vector<Corner> corners;
     for (const auto& t : triangles)
-        for (std::size_t i = 0; i < 3; ++i)
-            if (t[i] == t[(i + 1) % 3] || !next[t[i]].try_emplace(t[(i + 1) % 3], t[(i + 2) % 3]).second)
-                throw InputError(place,
-                                 fmt::format("the edge from point {} to point {} is of two faces that run the same way along it, "
-                                             "or has no length; expected a surface",
-                                             t[i], t[(i + 1) % 3]));
+        for (std::size_t i = 0; i < 3; ++i) corners.push_back({t[i], t[(i + 1) % 3], t[(i + 2) % 3]});
+    std::sort(corners.begin(), corners.end());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Corner& c = corners[i];
+        if (c.vertex == c.from || (i > 0 && c.vertex == corners[i - 1].vertex && c.from == corners[i - 1].from))
+            throw InputError(place,
+                             fmt::format("the edge from point {} to point {} is of two faces that run the same way along it, "
+                                         "or has no length; expected a surface",
+                                         c.vertex, c.from));
+    }
     Rings rings{std::vector<std::vector<std::uint32_t>>(vertex_count), std::vector<bool>(vertex_count, false)};
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        if (next[v].empty()) continue;
-        std::uint32_t start = next[v].begin()->first;
-        std::set<std::uint32_t> followers;
-        for (const auto& [from, to] : next[v]) followers.insert(to);
-        for (const auto& [from, to] : next[v])
-            if (!followers.contains(from)) {
-                start = from;
+    for (auto first = corners.begin(); first != corners.end();) {
+        const std::uint32_t v = first->vertex;
+        const auto last = std::find_if(first, corners.end(), [v](const Corner& c) { return c.vertex != v; });
+        const auto next = [&](std::uint32_t from) {
+            const auto found = std::lower_bound(first, last, Corner{v, from, 0});
+            return found != last && found->from == from ? found : last;
+        };
+        std::vector<std::uint32_t> followers;
+        for (auto c = first; c != last; ++c) followers.push_back(c->to);
+        std::sort(followers.begin(), followers.end());
+        auto at = first;
+        for (auto c = first; c != last; ++c)
+            if (!std::binary_search(followers.begin(), followers.end(), c->from)) {
+                at = c;
                 rings.is_boundary[v] = true;
             }
         std::vector<std::uint32_t>& ring = rings.of[v];
+        const std::uint32_t start = at->from;
         ring.push_back(start);
-        for (auto at = next[v].find(start); at != next[v].end() && ring.size() <= next[v].size(); at = next[v].find(at->second)) {
-            if (at->second == start) break;
-            ring.push_back(at->second);
-        }
-        if (ring.size() != next[v].size() + (rings.is_boundary[v] ? 1 : 0))
+        for (; at != last && at->to != start && ring.size() <= followers.size(); at = next(at->to)) ring.push_back(at->to);
+        if (ring.size() != followers.size() + (rings.is_boundary[v] ? 1 : 0))
             throw InputError(place, fmt::format("the faces at point {} are not one fan, expected a surface", v));
+        first = last;
     }
     return rings;
 }
@@ -74,20 +87,31 @@ void subdivide(std::vector<Vec3>& p, Triangles& triangles, const Location& place
     std::vector<Vec3> moved = p;
     for (std::size_t v = 0; v < p.size(); ++v)
         if (!rings.of[v].empty()) moved[v] = weighed(p, v, rings, beta(rings.of[v].size()), 1.0 / 8.0);
-    // Opposite corners of the one or two faces at each edge.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
+    // The ends of each edge in order, with the opposite corner of each of its faces.
+    std::vector<Corner> edges;
     for (const auto& t : triangles)
-        for (std::size_t i = 0; i < 3; ++i) edges[std::minmax(t[i], t[(i + 1) % 3])].push_back(t[(i + 2) % 3]);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    for (const auto& [edge, opposite] : edges) {
-        middles[edge] = static_cast<std::uint32_t>(moved.size());
-        const Vec3 ends = p[edge.first] + p[edge.second];
-        moved.push_back(opposite.size() == 2 ? 3.0 / 8.0 * ends + 1.0 / 8.0 * (p[opposite[0]] + p[opposite[1]]) : 0.5 * ends);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+            edges.push_back({a, b, t[(i + 2) % 3]});
+        }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::array<std::uint32_t, 3>> middles;  // the ends, and the new vertex
+    for (std::size_t i = 0; i < edges.size();) {
+        const auto& [a, b, opposite] = edges[i];
+        const bool is_within = i + 1 < edges.size() && edges[i + 1].vertex == a && edges[i + 1].from == b;
+        middles.push_back({a, b, static_cast<std::uint32_t>(moved.size())});
+        const Vec3 ends = p[a] + p[b];
+        moved.push_back(is_within ? 3.0 / 8.0 * ends + 1.0 / 8.0 * (p[opposite] + p[edges[i + 1].to]) : 0.5 * ends);
+        i += is_within ? 2 : 1;
     }
+    const auto middle = [&](std::uint32_t i, std::uint32_t j) {
+        const auto [a, b] = std::minmax(i, j);
+        return (*std::lower_bound(middles.begin(), middles.end(), std::array<std::uint32_t, 3>{a, b, 0}))[2];
+    };
     Triangles finer;
     for (const auto& t : triangles) {
         std::array<std::uint32_t, 3> m{};
-        for (std::size_t i = 0; i < 3; ++i) m[i] = middles.at(std::minmax(t[i], t[(i + 1) % 3]));
+        for (std::size_t i = 0; i < 3; ++i) m[i] = middle(t[i], t[(i + 1) % 3]);
         for (std::size_t i = 0; i < 3; ++i) finer.push_back({t[i], m[i], m[(i + 2) % 3]});
         finer.push_back(m);
     }
