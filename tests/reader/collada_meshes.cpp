@@ -96,9 +96,9 @@ TEST_F(ColladaMeshes, WindowsLineEnds) {
 
 TEST_F(ColladaMeshes, Errors) {
     const auto expect = [&](const Changes& changes, const std::string& message) { EXPECT_EQ(error_with(changes), message); };
-    expect({{"1 1 0 -1", "1 1 nought -1"}}, "scene.dae:15:77: 'nought' is not a number");
-    expect({{"1 1 0 -1", "1 1e999 0 -1"}}, "scene.dae:15:75: '1e999' is outside the range of double precision");
-    expect({{"1 1 0 -1", "1 INF 0 -1"}}, "scene.dae:15:75: 'INF' is not a finite number");
+    expect({{"1 1 0 -1", "1 1 nought -1"}}, "scene.dae:15:80: 'nought' is not a number");
+    expect({{"1 1 0 -1", "1 1e999 0 -1"}}, "scene.dae:15:78: '1e999' is outside the range of double precision");
+    expect({{"1 1 0 -1", "1 INF 0 -1"}}, "scene.dae:15:78: 'INF' is not a finite number");
     expect({{"count=\"12\"", "count=\"11\""}}, "scene.dae:15:24: <float_array> has 12 numbers, expected its count, 11");
     expect({{"count=\"12\"", "count=\"many\""}}, "scene.dae:15:50: count is 'many', expected a whole number from 0");
     expect({{"count=\"4\" stride", "count=\"5\" stride"}},
@@ -109,12 +109,12 @@ TEST_F(ColladaMeshes, Errors) {
     expect({{"source=\"#numbers\"", "source=\"#number\""}},
            "scene.dae:16:29: there is no <float_array> 'number' in this <source>; did you mean 'numbers'?");
     expect({{"source=\"#positions\"", "source=\"#position\""}},
-           "scene.dae:18:50: there is no <source> 'position' in this <mesh>; did you mean 'positions'?");
+           "scene.dae:18:51: there is no <source> 'position' in this <mesh>; did you mean 'positions'?");
     expect({{"source=\"#corners\"", "source=\"#corner\""}},
-           "scene.dae:19:64: there is no <vertices> 'corner' in this <mesh>; did you mean 'corners'?");
+           "scene.dae:19:63: there is no <vertices> 'corner' in this <mesh>; did you mean 'corners'?");
     expect({{"semantic=\"POSITION\"", "semantic=\"PLACE\""}},
            "scene.dae:19:1: <polylist> has no input VERTEX with a POSITION, expected one");
-    expect({{"offset=\"0\"", "offset=\"4000000000\""}}, "scene.dae:19:82: offset is 4000000000, expected at most 63");
+    expect({{"offset=\"0\"", "offset=\"4000000000\""}}, "scene.dae:19:81: offset is 4000000000, expected at most 63");
     expect({{"<p>0 1 2 3", "<p>0 1 2 4"}},
            "scene.dae:19:1: <polylist> has the index 4 for POSITION, but there are only 4, counted from 0");
     expect({{"<p>0 1 2 3", "<p>0 1 -2 3"}}, "scene.dae:20:26: '-2' is not an index, expected a whole number from 0");

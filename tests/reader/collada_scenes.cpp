@@ -202,7 +202,7 @@ TEST_F(ColladaScenes, Pictures) {
 
 TEST_F(ColladaScenes, Errors) {
     const auto expect = [&](const Changes& changes, const std::string& message) { EXPECT_EQ(error_with(changes), message); };
-    expect({{"version=\"1.4.1\"", "version=\"1.3.0\""}}, "scene.dae:2:64: COLLADA version 1.3.0 is not known, expected 1.4 or 1.5");
+    expect({{"version=\"1.4.1\"", "version=\"1.3.0\""}}, "scene.dae:2:63: COLLADA version 1.3.0 is not known, expected 1.4 or 1.5");
     expect({{"Z_UP", "UP"}}, "scene.dae:3:8: the up axis is 'UP', expected X_UP, Y_UP or Z_UP");
     expect({{"<library_lights>", "<library_light>"}, {"</library_lights>", "</library_light>"}},
            "scene.dae:7:1: unknown element <library_light> in <COLLADA>; did you mean 'library_lights'?");
@@ -212,22 +212,22 @@ TEST_F(ColladaScenes, Errors) {
     expect({{"<aspect_ratio>2", "<aspect_ratio>-2"}}, "scene.dae:5:29: <aspect_ratio> is -2, expected more than 0");
     expect({{"<xfov>60</xfov>", "<xfov>60</xfov><yfov>60</yfov>"}},
            "scene.dae:5:44: <aspect_ratio> is 2, but the sizes along x and y make 1");
-    expect({{"<zfar>90", "<zfar>0.01"}}, "scene.dae:5:76: far_clip is 0.01, expected more than near_clip, 0.1");
+    expect({{"<zfar>90", "<zfar>0.01"}}, "scene.dae:5:77: far_clip is 0.01, expected more than near_clip, 0.1");
     expect({{"<color>1 2 3", "<color>1 -2 3"}}, "scene.dae:8:17: a colour is negative: -2");
     expect({{"<quadratic_attenuation>0.5", "<quadratic_attenuation>0"}},
            "scene.dae:8:1: the attenuations of a light are all 0, expected one that is not");
     expect({{"<lambert>", "<lambrt>"}, {"</lambert>", "</lambrt>"}},
-           "scene.dae:10:64: <technique> has no shader, expected <blinn>, <constant>, <lambert> or <phong>");
+           "scene.dae:10:60: <technique> has no shader, expected <blinn>, <constant>, <lambert> or <phong>");
     expect({{"<diffuse>", "<difuse/><diffuse>"}},
            "scene.dae:11:10: unknown element <difuse> in <lambert>; did you mean 'diffuse'?");
     expect({{"0.2 0.1 1", "0.2"}}, "scene.dae:11:19: <color> has 2 numbers, expected 3 or 4");
     expect({{"<color>0.6 0.2 0.1 1</color>", "<texture texture='wood' texcoord=''/>"}},
            "scene.dae:11:28: there is no <newparam> 'wood' in this effect");
     expect({{"#paint-effect", "#pain-effect"}},
-           "scene.dae:13:61: there is no <effect> 'pain-effect'; did you mean 'paint-effect'?");
+           "scene.dae:13:56: there is no <effect> 'pain-effect'; did you mean 'paint-effect'?");
     expect({{"url=\"#lamp\"", "url=\"other.dae#lamp\""}},
-           "scene.dae:24:64: 'other.dae#lamp' is in another file, expected '#' and an id of this one");
-    expect({{"url=\"#lamp\"", "url=\"#lump\""}}, "scene.dae:24:64: there is no <light> 'lump'; did you mean 'lamp'?");
+           "scene.dae:24:61: 'other.dae#lamp' is in another file, expected '#' and an id of this one");
+    expect({{"url=\"#lamp\"", "url=\"#lump\""}}, "scene.dae:24:61: there is no <light> 'lump'; did you mean 'lamp'?");
     expect({{"<translate>1 2 3", "<translate>1 2"}}, "scene.dae:25:18: <translate> has 2 numbers, expected 3");
     expect({{"<translate>1 2 3</translate>", "<translat>1 2 3</translat>"}},
            "scene.dae:25:18: unknown element <translat> in <node>; did you mean 'translate'?");
@@ -247,7 +247,7 @@ TEST_F(ColladaScenes, Errors) {
         "<instance_geometry>");
     expect({{"symbol=\"paint\"", "symbol=\"pain\""}},
            "scene.dae:26:1: no material is bound to the symbol 'paint' at scene.dae:19:11; bound: pain; did you mean 'pain'?");
-    expect({{"target=\"#red\"", "target=\"#blue\""}}, "scene.dae:27:36: there is no <material> 'blue'");
+    expect({{"target=\"#red\"", "target=\"#blue\""}}, "scene.dae:27:35: there is no <material> 'blue'");
     expect({{"<instance_visual_scene url=\"#main\"/>", ""}},
            "scene.dae:30:1: <scene> has no <instance_visual_scene> inside, expected one");
     EXPECT_EQ(dae_error("<collada/>"), "scene.dae:1:1: the outermost element is <collada>, expected <COLLADA>");
@@ -260,7 +260,7 @@ TEST_F(ColladaScenes, SeveralErrors) {
         "scene.dae:5:20: 'x' is not a number\n"
         "scene.dae:8:8: <color> has 2 numbers, expected 3 or 4\n"
         "scene.dae:11:30: 'red' is not a number\n"
-        "scene.dae:15:77: 'z' is not a number");
+        "scene.dae:15:80: 'z' is not a number");
 }
 
 // 10 nodes that hold the next ten times each are refused, and not visited 10¹⁰ times.
