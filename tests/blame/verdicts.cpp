@@ -56,7 +56,7 @@ const std::map<Bug, std::set<std::string>>& kinds() {
 }
 
 class VerdictsSlow : public testing::TestWithParam<std::uint64_t> {};
-INSTANTIATE_TEST_SUITE_P(Seeds, VerdictsSlow, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Seeds, VerdictsSlow, testing::Values(1));
 
 // The bounce is named for all twenty mistakes, and the kind for at least 15.
 TEST_P(VerdictsSlow, NameTheBounceAndTheKind) {

@@ -52,7 +52,8 @@ RawScene read_collada(const std::string& path, Warnings& warnings, Problems& pro
     const collada::SceneNodes nodes = collada::read_nodes(file, warnings, problems);
     const std::vector<collada::Lamp> lamps = collada::add_lights(nodes.lights, up, import);
     const Bounds bounds = collada::add_shapes(nodes.geometries, lamps, import);
-    problems.attempt(root.place, [&] { collada::add_camera(nodes.cameras, bounds, up, import); });
+    if (!problems.attempt(root.place, [&] { collada::add_camera(nodes.cameras, bounds, up, import); }))
+        add(scene.root, make_object("sensor", "perspective", root.place));
     return scene;
 }
 

@@ -1,0 +1,134 @@
+// Meshes of COLLADA files: what their arrays, indices and primitives mean.
+#include "tests/reader/collada_files.h"
+
+#include <fmt/format.h>
+
+namespace neumann::collada_meshes_test {
+
+using ColladaMeshes = ColladaTest;
+
+const std::string polylist = "<vcount>4</vcount><p>0 1 2 3</p></polylist>", head = "<polylist material=\"paint\" count=\"1\">";
+
+ColladaTest::Changes as(const std::string& tag, const std::string& count, const std::string& body) {
+    return {{head, "<" + tag + " material=\"paint\" count=\"" + count + "\">"}, {polylist, body + "</" + tag + ">"}};
+}
+
+// The square of the file, [-1, 1]², twice as large and moved by (1, 2, 3).
+const std::vector<Vec3> square = {{-1, 0, 3}, {3, 0, 3}, {3, 4, 3}, {-1, 0, 3}, {3, 4, 3}, {-1, 4, 3}};
+
+TEST_F(ColladaMeshes, Primitives) {
+    EXPECT_EQ(corners(mesh(read_dae(small()))), square);
+    EXPECT_EQ(corners(mesh(read_changed(as("triangles", "2", "<p>0 1 2 0 2 3</p>")))), square);
+    EXPECT_EQ(corners(mesh(read_changed(as("polygons", "1", "<p>0 1 2 3</p>")))), square);
+    EXPECT_EQ(corners(mesh(read_changed(as("trifans", "1", "<p>0 1 2 3</p>")))), square);
+    // Of a strip, every other triangle is turned, so that all face the same way.
+    const std::vector<Vec3> strip = {{-1, 0, 3}, {3, 0, 3}, {-1, 4, 3}, {3, 0, 3}, {3, 4, 3}, {-1, 4, 3}};
+    EXPECT_EQ(corners(mesh(read_changed(as("tristrips", "1", "<p>0 1 3 2</p>")))), strip);
+    // Lines have no area.
+    EXPECT_EQ(read_changed({{"</polylist>", "</polylist><lines count='1'><p>0 1</p></lines>"}}).shapes.size(), 1u);
+}
+
+// An accessor skips what has no name, begins at its offset and steps by its stride.
+TEST_F(ColladaMeshes, Accessors) {
+    EXPECT_EQ(corners(mesh(read_changed(
+                  {{"count=\"12\">-1 -1 0 1 -1 0 1 1 0 -1 1 0", "count=\"22\">9 9 -1 8 -1 0 7 1 8 -1 0 7 1 8 1 0 7 -1 8 1 0 7"},
+                   {"count=\"4\" stride=\"3\"><param name=\"X\"/>",
+                    "count=\"4\" offset=\"2\" stride=\"5\"><param name=\"X\"/><param type=\"float\"/>"}}))),
+              square);
+}
+
+// Each corner has an index of its own for normals and texture coordinates; a vertex is repeated for each of them.
+TEST_F(ColladaMeshes, NormalsAndCoordinates) {
+    write("a.pgm", "P2 2 2 255\n0 0 255 255\n");
+    const std::string more =
+        "<source id='slopes'><float_array id='n' count='6'>0 0 1 0 0.6 0.8</float_array><technique_common>"
+        "<accessor source='#n' count='2' stride='3'><param name='X'/><param name='Y'/><param "
+        "name='Z'/></accessor></technique_common>"
+        "</source><source id='maps'><float_array id='t' count='6'>0 0 1 0.25 0.5 1</float_array><technique_common>"
+        "<accessor source='#t' count='3' stride='2'><param name='S'/><param name='T'/></accessor></technique_common></source>";
+    const Changes changes = {
+        {"<vertices", more + "<vertices"},
+        {"offset=\"0\"/>",
+         "offset=\"2\"/><input semantic='NORMAL' source='#slopes' offset='0'/>"
+         "<input semantic='TEXCOORD' source='#maps' offset='1' set='3'/>"},
+        {"<p>0 1 2 3</p>", "<p>0 0 0 0 1 1 1 2 2 1 2 3</p>"},
+        {"<color>0.6 0.2 0.1 1</color>", "<texture texture='picture' texcoord='UV'/>"},
+        {"<library_effects>",
+         "<library_images><image id='picture'><init_from>a.pgm</init_from></image></library_images><library_effects>"}};
+    const SceneParts parts = read_changed(changes);
+    const TriangleMesh& m = mesh(parts);
+    EXPECT_EQ(corners(m), square);
+    ASSERT_EQ(m.normals.size(), 4u);
+    EXPECT_NEAR(glm::distance(m.normals[m.triangles[0][1]], Vec3(0, 0, 1)), 0.0, 1e-15);
+    EXPECT_NEAR(glm::distance(m.normals[m.triangles[0][2]], Vec3(0, 0.6, 0.8)), 0.0, 1e-15);
+    // v counts upwards in COLLADA and downwards in Mitsuba's pictures.
+    EXPECT_EQ(m.uv[m.triangles[0][1]], Vec2(1.0, 0.75));
+    EXPECT_EQ(m.uv[m.triangles[1][2]], Vec2(0.5, 0.0));
+    EXPECT_TRUE(mesh(read_dae(small())).uv.empty());
+
+    // Another set is used where the material binds it, and only then.
+    const auto bound = [&](const std::string& set) {
+        Changes all = changes;
+        all.push_back(
+            {"target=\"#red\"/>", "target=\"#red\">\n<bind_vertex_input semantic='UV' input_semantic='TEXCOORD' input_set='" + set +
+                                      "'/></instance_material>"});
+        return changed(all);
+    };
+    EXPECT_EQ(mesh(read_dae(bound("3"))).uv.size(), 4u);
+    EXPECT_EQ(dae_error(bound("1")), "scene.dae:19:1: <polylist> has no texture coordinates of set 1, which its material needs");
+}
+
+// Without normals a mesh is flat. A node that mirrors does not turn it inside out.
+TEST_F(ColladaMeshes, FlatAndMirrored) {
+    EXPECT_TRUE(mesh(read_dae(small())).normals.empty());
+    const TriangleMesh m = mesh(read_changed({{"<scale>2 2 2", "<scale>-2 2 2"}}));
+    const std::vector<Vec3> c = corners(m);
+    EXPECT_GT(glm::cross(c[1] - c[0], c[2] - c[0]).z, 0.0);
+}
+
+TEST_F(ColladaMeshes, WindowsLineEnds) {
+    std::string text = changed({{"-1 -1 0 1", "-1 -1\n0 1"}}), windows;
+    for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
+    EXPECT_EQ(corners(mesh(read_dae(windows))), square);
+    windows.replace(windows.find("0 1 -1"), 1, "x");
+    EXPECT_EQ(dae_error(windows), "scene.dae:16:1: 'x' is not a number");
+}
+
+TEST_F(ColladaMeshes, Errors) {
+    const auto expect = [&](const Changes& changes, const std::string& message) { EXPECT_EQ(error_with(changes), message); };
+    expect({{"1 1 0 -1", "1 1 nought -1"}}, "scene.dae:15:80: 'nought' is not a number");
+    expect({{"1 1 0 -1", "1 1e999 0 -1"}}, "scene.dae:15:78: '1e999' is outside the range of double precision");
+    expect({{"1 1 0 -1", "1 INF 0 -1"}}, "scene.dae:15:78: 'INF' is not a finite number");
+    expect({{"count=\"12\"", "count=\"11\""}}, "scene.dae:15:24: <float_array> has 12 numbers, expected its count, 11");
+    expect({{"count=\"12\"", "count=\"many\""}}, "scene.dae:15:50: count is 'many', expected a whole number from 0");
+    expect({{"count=\"4\" stride", "count=\"5\" stride"}},
+           "scene.dae:16:19: <accessor> reads 5 × 3 numbers from 0 on, but its array has only 12");
+    expect({{"stride=\"3\"", "stride=\"2\""}},
+           "scene.dae:16:19: the stride of <accessor> is 2, expected at least the 3 of its <param>s");
+    expect({{"<param name=\"Z\"/>", ""}}, "scene.dae:16:19: <accessor> has 2 named <param>, expected 3 for POSITION");
+    expect({{"source=\"#numbers\"", "source=\"#number\""}},
+           "scene.dae:16:29: there is no <float_array> 'number' in this <source>; did you mean 'numbers'?");
+    expect({{"source=\"#positions\"", "source=\"#position\""}},
+           "scene.dae:18:51: there is no <source> 'position' in this <mesh>; did you mean 'positions'?");
+    expect({{"source=\"#corners\"", "source=\"#corner\""}},
+           "scene.dae:19:63: there is no <vertices> 'corner' in this <mesh>; did you mean 'corners'?");
+    expect({{"semantic=\"POSITION\"", "semantic=\"PLACE\""}},
+           "scene.dae:19:1: <polylist> has no input VERTEX with a POSITION, expected one");
+    expect({{"offset=\"0\"", "offset=\"4000000000\""}}, "scene.dae:19:81: offset is 4000000000, expected at most 63");
+    expect({{"<p>0 1 2 3", "<p>0 1 2 4"}},
+           "scene.dae:19:1: <polylist> has the index 4 for POSITION, but there are only 4, counted from 0");
+    expect({{"<p>0 1 2 3", "<p>0 1 -2 3"}}, "scene.dae:20:26: '-2' is not an index, expected a whole number from 0");
+    expect({{"<p>0 1 2 3", "<p>0 1 2"}}, "scene.dae:20:19: <p> has 3 corners, but the polygons of <vcount> have more");
+    expect({{"<vcount>4", "<vcount>3"}}, "scene.dae:20:19: <p> has 4 corners, but the polygons of <vcount> have fewer");
+    expect({{"<vcount>4", "<vcount>2"}}, "scene.dae:20:1: a polygon has 2 corners, expected at least 3");
+    expect({{"paint\" count=\"1\"", "paint\" count=\"2\""}}, "scene.dae:19:28: the count of <polylist> is 2, but there are 1");
+    expect({{"offset=\"0\"", "offset=\"2\""}},
+           "scene.dae:20:19: <p> has 4 numbers, expected a multiple of 3, the indices of a corner");
+    expect(as("triangles", "1", "<p>0 1 2 3</p>"), "scene.dae:20:1: <p> has 4 numbers, expected a multiple of 3, three corners");
+    expect(as("polygons", "1", "<ph/>"), "scene.dae:20:1: a polygon with holes, <ph>, is not supported; expected triangles");
+    expect(as("trifans", "1", "<p>0 1</p>"), "scene.dae:20:1: <p> has 2 corners, expected at least 3");
+    expect({{"<mesh>\n", "<spline>\n"}, {"</mesh>", "</spline>"}},
+           "scene.dae:14:21: <geometry> has no <mesh> inside, expected one; <convex_mesh>, <spline> and <brep> are not supported");
+}
+
+}  // namespace neumann::collada_meshes_test

@@ -1,0 +1,280 @@
+// The scenes of COLLADA files: nodes, cameras, lights and materials.
+#include "tests/reader/collada_files.h"
+
+#include <fmt/format.h>
+
+namespace neumann::collada_scenes_test {
+
+using ColladaScenes = ColladaTest;
+
+const std::string transforms = "<translate>1 2 3</translate><scale>2 2 2</scale>",
+                  lens = "<xfov>60</xfov><aspect_ratio>2</aspect_ratio>";
+
+TEST_F(ColladaScenes, TransformsInTheirOrder) {
+    // Where the corner (1, -1, 0) comes to.
+    const auto corner = [&](const std::string& text) { return corners(mesh(read_changed({{transforms, text}}))).at(1); };
+    const auto expect = [&](const std::string& text, const Vec3& p) {
+        EXPECT_NEAR(glm::distance(corner(text), p), 0.0, 1e-14) << text;
+    };
+    expect("<translate>1 2 3</translate><rotate>0 0 1 90</rotate>", {2, 3, 3});
+    expect("<rotate>0 0 1 90</rotate><translate>1 2 3</translate>", {-1, 2, 3});
+    expect("<matrix>0 -1 0 5 1 0 0 6 0 0 1 7 0 0 0 1</matrix><scale>3 1 1</scale>", {6, 9, 7});
+    // At (5, 0, 0), −z towards the origin, +y up: +x is −z of the world.
+    expect("<lookat>5 0 0 0 0 0 0 1 0</lookat>", {5, -1, -1});
+    expect("<translate>10 0 0</translate><node/>", {11, -1, 0});
+}
+
+TEST_F(ColladaScenes, NodesInNodes) {
+    const SceneParts parts = read_changed(
+        {{"<library_visual_scenes>",
+          "<library_nodes><node id='pair'><translate>0 0 1</translate><node><scale>2 2 2</scale>"
+          "<instance_geometry url='#square'/></node><instance_geometry url='#square'/></node></library_nodes>"
+          "<library_visual_scenes>"},
+         {"<node id=\"floor\">", "<node><rotate>0 0 1 180</rotate><instance_node url='#pair'/></node><node id=\"floor\">"}});
+    ASSERT_EQ(parts.shapes.size(), 3u);
+    EXPECT_NEAR(glm::distance(corners(mesh(parts, 0)).at(1), Vec3(-2, 2, 1)), 0.0, 1e-14);
+    EXPECT_NEAR(glm::distance(corners(mesh(parts, 1)).at(1), Vec3(-1, 1, 1)), 0.0, 1e-14);
+    EXPECT_EQ(warnings(parts),
+              std::vector<std::string>{"no material is bound to a part of a geometry, which is taken as diffuse with "
+                                       "the albedo 0.5"});
+}
+
+TEST_F(ColladaScenes, Cameras) {
+    const SceneParts parts = read_dae(small());
+    // Mitsuba's camera looks along +z, with +x to the left.
+    EXPECT_EQ(parts.camera.to_world, Mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 5, 1));
+    EXPECT_EQ(parts.camera.fov, glm::radians(60.0));
+    EXPECT_EQ(parts.camera.near_clip, 0.1);
+    EXPECT_EQ(parts.camera.far_clip, 90.0);
+    EXPECT_EQ(parts.film.width, 768);
+    EXPECT_EQ(parts.film.height, 384);
+    EXPECT_EQ(parts.sampler, SamplerKind::sobol);
+
+    const auto film_height = [&](const std::string& text) { return read_changed({{lens, text}}).film.height; };
+    EXPECT_EQ(film_height("<xfov>60</xfov>"), 576);
+    EXPECT_EQ(film_height("<xfov>90</xfov><yfov>53.13010235415598</yfov>"), 384);  // tan 45° is twice tan 26.6°
+    const SceneParts high = read_changed({{lens, "<yfov>50</yfov><aspect_ratio>0.5</aspect_ratio>"}});
+    EXPECT_EQ(high.camera.fov_axis, FovAxis::y);
+    EXPECT_EQ(high.film.height, 1536);
+
+    const SceneParts flat = read_changed({{lens, "<ymag>3</ymag><aspect_ratio>2</aspect_ratio>"},
+                                          {"<perspective>", "<orthographic>"},
+                                          {"</perspective>", "</orthographic>"}});
+    EXPECT_EQ(flat.camera.kind, SensorOptions::Kind::orthographic);
+    EXPECT_EQ(Vec3(flat.camera.to_world[0]), Vec3(-6, 0, 0));
+
+    const SceneParts scaled = read_changed({{"<translate>0 0 5</translate>", "<translate>0 0 5</translate><scale>7 7 7</scale>"}});
+    EXPECT_EQ(scaled.camera.to_world, parts.camera.to_world);
+}
+
+TEST_F(ColladaScenes, Definitions) {
+    const SceneParts parts =
+        read_dae(small(), {{"width", "32"}, {"height", "16"}, {"spp", "4"}, {"camera", "1 0 0 0 0 1 0 0 0 0 1 -9 0 0 0 1"}});
+    EXPECT_EQ(parts.film.width, 32);
+    EXPECT_EQ(parts.film.height, 16);
+    EXPECT_EQ(Vec3(parts.camera.to_world[3]), Vec3(0, 0, -9));
+}
+
+// The whole scene from its front: the square [-1, 3] × [0, 4] at z = 3, the radius of whose sphere is √8.
+TEST_F(ColladaScenes, NoCamera) {
+    const SceneParts parts = read_changed({{"<instance_camera url=\"#cam\"/>", ""}});
+    EXPECT_NEAR(glm::distance(Vec3(parts.camera.to_world[3]), Vec3(1, 2 - 3 * std::sqrt(8.0), 3)), 0.0, 1e-13);
+    EXPECT_NEAR(glm::distance(Vec3(parts.camera.to_world[2]), Vec3(0, 1, 0)), 0.0, 1e-15);
+    EXPECT_NEAR(glm::distance(Vec3(parts.camera.to_world[1]), Vec3(0, 0, 1)), 0.0, 1e-15);
+    EXPECT_EQ(warnings(parts), std::vector<std::string>{"the file has no camera; the whole scene is seen from the front"});
+}
+
+TEST_F(ColladaScenes, Lights) {
+    const std::string point =
+        "<point><color>1 2 "
+        "3</color><constant_attenuation>0</constant_attenuation><quadratic_attenuation>0.5</quadratic_attenuation></point>";
+    const auto light = [&](const std::string& text) { return read_changed({{point, text}}); };
+    const auto arrives = [&](const std::string& text, const Vec3& at) {
+        return beam(light(text).lights.delta.at(0), at, {}).irradiance;
+    };
+    // color / (0.5 r²), at a distance of 2 from (0, 0, 2).
+    EXPECT_EQ(arrives(point, {0, 0, 0}), Rgb(0.5, 1.0, 1.5));
+    // What falls off otherwise agrees at the distance 1.
+    EXPECT_EQ(arrives("<point><color>4 4 4</color><linear_attenuation>1</linear_attenuation></point>", {0, 0, 1}), Rgb(2.0));
+    EXPECT_EQ(warnings(light("<point><color>4 4 4</color></point>")),
+              std::vector<std::string>{
+                  "a light falls off otherwise than with the square of the distance; it is taken as one that does, as "
+                  "bright as that at the distance 1"});
+    EXPECT_EQ(arrives("<directional><color>1 2 3</color></directional>", {0, 0, 0}), Rgb(1, 2, 3));
+    EXPECT_GT(beam(light("<directional><color>1 2 3</color></directional>").lights.delta.at(0), {}, {}).from.z, -1e-15);
+    // A full angle; the edge is sharp without an exponent.
+    const std::string spot =
+        "<spot><color>1 1 1</color><quadratic_attenuation>1</quadratic_attenuation><constant_attenuation>0"
+        "</constant_attenuation><falloff_angle>90</falloff_angle></spot>";
+    EXPECT_EQ(arrives(spot, {0.99, 0, 1}), Rgb(1 / (1 + 0.99 * 0.99)));
+    EXPECT_EQ(arrives(spot, {1.01, 0, 1}), Rgb(0.0));
+    EXPECT_EQ(radiance(light("<ambient><color>1 2 3</color></ambient>").lights.environment.value(), {0, 0, -1}), Rgb(1, 2, 3));
+}
+
+// A spot light of cos² and the linear one that is taken for it give off the same power: ∫ cos²θ sinθ dθ to 45° is (1 − 2^-1.5) / 3.
+TEST_F(ColladaScenes, SpotOfTheSamePower) {
+    const SceneParts parts = read_changed(
+        {{"<point><color>1 2 "
+          "3</color><constant_attenuation>0</constant_attenuation><quadratic_attenuation>0.5</quadratic_attenuation></point>",
+          "<spot><color>3 3 3</color><constant_attenuation>0</constant_attenuation><quadratic_attenuation>1</quadratic_attenuation>"
+          "<falloff_angle>90</falloff_angle><falloff_exponent>2</falloff_exponent></spot>"}});
+    double power = 0.0;
+    constexpr int steps = 10000;
+    for (int i = 0; i < steps; ++i) {
+        const double theta = (i + 0.5) * 0.25 * M_PI / steps;
+        power += beam(parts.lights.delta.at(0), Vec3(std::sin(theta), 0, 2 - std::cos(theta)), {}).irradiance.r * std::sin(theta);
+    }
+    EXPECT_NEAR(power * 0.25 * M_PI / steps, 1.0 - std::pow(2.0, -1.5), 1e-7);
+}
+
+TEST_F(ColladaScenes, Materials) {
+    const std::string lambert = "<lambert><diffuse><color>0.6 0.2 0.1 1</color></diffuse></lambert>";
+    const auto material = [&](const std::string& text) { return read_changed({{lambert, text}}); };
+    const SceneParts red = read_dae(small());
+    EXPECT_TRUE(std::holds_alternative<Diffuse>(front(red)));
+    EXPECT_EQ(largest_albedo(front(red)), Rgb(0.6, 0.2, 0.1));
+    EXPECT_EQ(red.sides_of_shape.at(0).front, red.sides_of_shape.at(0).back);
+    EXPECT_TRUE(warnings(red).empty());
+
+    const SceneParts lamp = material("<constant><emission><color>4 5 6</color></emission></constant>");
+    EXPECT_EQ(lamp.sides_of_shape.at(0).front, Materials::absorbing);
+    EXPECT_EQ(lamp.lights.of_shape.at(0), 0);
+
+    EXPECT_EQ(
+        warnings(material("<phong><diffuse><color>1 1 1</color></diffuse><specular><color>0.5 0.5 0.5</color></specular><shininess>"
+                          "<float>50</float></shininess></phong>")),
+        std::vector<std::string>{
+            "material 'red': its highlights are left out: <specular> and <shininess> are no law of reflection"});
+    EXPECT_EQ(warnings(material(
+                  "<lambert><diffuse><color>1 1 1</color></diffuse><reflectivity><float>0.5</float></reflectivity></lambert>")),
+              std::vector<std::string>{"material 'red': its mirror image, <reflective>, is left out"});
+
+    const SceneParts by_parameter = read_changed(
+        {{"<technique sid=\"common\">", "<newparam sid='c'><float3>0.1 0.2 0.3</float3></newparam><technique sid=\"common\">"},
+         {"<color>0.6 0.2 0.1 1</color>", "<param ref='c'/>"}});
+    EXPECT_EQ(largest_albedo(front(by_parameter)), Rgb(0.1, 0.2, 0.3));
+}
+
+// The four ways of saying how opaque a material is, and what programs write without one.
+TEST_F(ColladaScenes, Opacity) {
+    const auto opacity = [&](const std::string& text) {
+        const SceneParts parts = read_changed({{"</diffuse>", "</diffuse>" + text}});
+        if (!std::holds_alternative<Mask>(front(parts))) return 1.0;
+        // A mask lets a ray pass with the weight 1 − opacity as its probability.
+        double passed = 0.0;
+        constexpr int steps = 1000;
+        for (int i = 0; i < steps; ++i) passed += sample(front(parts), {}, Vec3(0, 0, 1), Vec2((i + 0.5) / steps, 0.5)).wi.z < 0.0;
+        return 1.0 - passed / steps;
+    };
+    const std::string half = "<transparency><float>0.5</float></transparency>";
+    EXPECT_EQ(opacity(""), 1.0);
+    EXPECT_EQ(opacity("<transparency><float>1</float></transparency>"), 1.0);
+    EXPECT_NEAR(opacity(half), 0.5, 1e-9);
+    EXPECT_NEAR(opacity("<transparent><color>1 1 1 0.5</color></transparent>" + half), 0.25, 1e-9);
+    EXPECT_NEAR(opacity("<transparent opaque='A_ZERO'><color>1 1 1 0.5</color></transparent>" + half), 0.75, 1e-9);
+    EXPECT_NEAR(opacity("<transparent opaque='RGB_ZERO'><color>0.2 0.2 0.2 1</color></transparent>" + half), 0.9, 1e-9);
+    EXPECT_NEAR(opacity("<transparent opaque='RGB_ONE'><color>0.2 0.2 0.2 1</color></transparent>" + half), 0.1, 1e-9);
+}
+
+// By way of a sampler and a surface, with the names of files that programs write.
+TEST_F(ColladaScenes, Pictures) {
+    const auto albedo = [&](const std::string& address) {
+        return largest_albedo(front(read_changed(
+                                  {{"<technique sid=\"common\">",
+                                    "<newparam sid='s'><surface type='2D'><init_from>image</init_from></surface></newparam>"
+                                    "<newparam sid='m'><sampler2D><source>s</source><wrap_s>CLAMP</wrap_s><wrap_t>CLAMP</wrap_t>"
+                                    "</sampler2D></newparam><technique sid=\"common\">"},
+                                   {"<color>0.6 0.2 0.1 1</color>", "<texture texture='m' texcoord='UV'/>"},
+                                   {"<library_effects>", "<library_images><image id='image'><init_from>" + address +
+                                                             "</init_from></image></library_images><library_effects>"},
+                                   {"<vertices id=\"corners\">",
+                                    "<vertices id=\"corners\"><input semantic='TEXCOORD' source='#positions'/>"}})))
+            .r;
+    };
+    write("my pictures/größe 1.pfm", std::string("Pf\n1 1\n-1.0\n") + std::string("\0\0\0\x3f", 4));  // 0.5
+    EXPECT_EQ(albedo("my pictures/größe 1.pfm"), 0.5);
+    EXPECT_EQ(albedo("./my%20pictures/gr%C3%B6%C3%9Fe%201.pfm"), 0.5);
+    EXPECT_EQ(albedo("my pictures\\größe 1.pfm"), 0.5);
+    EXPECT_EQ(albedo("file://" + path("my%20pictures/größe 1.pfm")), 0.5);
+    write("beside.pfm", std::string("Pf\n1 1\n-1.0\n") + std::string("\0\0\x80\x3e", 4));  // 0.25
+    EXPECT_EQ(albedo("file:///C:/Users/someone/beside.pfm"), 0.25);
+}
+
+TEST_F(ColladaScenes, Errors) {
+    const auto expect = [&](const Changes& changes, const std::string& message) { EXPECT_EQ(error_with(changes), message); };
+    expect({{"version=\"1.4.1\"", "version=\"1.3.0\""}}, "scene.dae:2:63: COLLADA version 1.3.0 is not known, expected 1.4 or 1.5");
+    expect({{"Z_UP", "UP"}}, "scene.dae:3:8: the up axis is 'UP', expected X_UP, Y_UP or Z_UP");
+    expect({{"<library_lights>", "<library_light>"}, {"</library_lights>", "</library_light>"}},
+           "scene.dae:7:1: unknown element <library_light> in <COLLADA>; did you mean 'library_lights'?");
+    expect({{"<xfov>60</xfov>", ""}}, "scene.dae:5:1: <perspective> has neither <xfov> nor <yfov>, expected one or both");
+    expect({{"<xfov>60", "<xfov>200"}}, "scene.dae:5:14: <xfov> is 200, expected less than 180 degrees");
+    expect({{"<xfov>60", "<xfov>60 61"}}, "scene.dae:5:14: <xfov> has 2 numbers, expected 1");
+    expect({{"<aspect_ratio>2", "<aspect_ratio>-2"}}, "scene.dae:5:29: <aspect_ratio> is -2, expected more than 0");
+    expect({{"<xfov>60</xfov>", "<xfov>60</xfov><yfov>60</yfov>"}},
+           "scene.dae:5:44: <aspect_ratio> is 2, but the sizes along x and y make 1");
+    expect({{"<zfar>90", "<zfar>0.01"}}, "scene.dae:5:77: far_clip is 0.01, expected more than near_clip, 0.1");
+    expect({{"<color>1 2 3", "<color>1 -2 3"}}, "scene.dae:8:17: a colour is negative: -2");
+    expect({{"<quadratic_attenuation>0.5", "<quadratic_attenuation>0"}},
+           "scene.dae:8:1: the attenuations of a light are all 0, expected one that is not");
+    expect({{"<lambert>", "<lambrt>"}, {"</lambert>", "</lambrt>"}},
+           "scene.dae:10:60: <technique> has no shader, expected <blinn>, <constant>, <lambert> or <phong>");
+    expect({{"<diffuse>", "<difuse/><diffuse>"}},
+           "scene.dae:11:10: unknown element <difuse> in <lambert>; did you mean 'diffuse'?");
+    expect({{"0.2 0.1 1", "0.2"}}, "scene.dae:11:19: <color> has 2 numbers, expected 3 or 4");
+    expect({{"<color>0.6 0.2 0.1 1</color>", "<texture texture='wood' texcoord=''/>"}},
+           "scene.dae:11:28: there is no <newparam> 'wood' in this effect");
+    expect({{"#paint-effect", "#pain-effect"}},
+           "scene.dae:13:56: there is no <effect> 'pain-effect'; did you mean 'paint-effect'?");
+    expect({{"url=\"#lamp\"", "url=\"other.dae#lamp\""}},
+           "scene.dae:24:61: 'other.dae#lamp' is in another file, expected '#' and an id of this one");
+    expect({{"url=\"#lamp\"", "url=\"#lump\""}}, "scene.dae:24:61: there is no <light> 'lump'; did you mean 'lamp'?");
+    expect({{"<translate>1 2 3", "<translate>1 2"}}, "scene.dae:25:18: <translate> has 2 numbers, expected 3");
+    expect({{"<translate>1 2 3</translate>", "<translat>1 2 3</translat>"}},
+           "scene.dae:25:18: unknown element <translat> in <node>; did you mean 'translate'?");
+    expect({{transforms, "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1</matrix>"}},
+           "scene.dae:25:18: <matrix> has 15 numbers, expected 16");
+    expect({{transforms, "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 2 1</matrix>"}},
+           "scene.dae:25:18: the last row of <matrix> is not 0 0 0 1");
+    expect({{transforms, "<rotate>0 0 0 90</rotate>"}}, "scene.dae:25:18: the axis of <rotate> is zero");
+    expect({{transforms, "<skew>45 0 1 0 1 0 0</skew>"}},
+           "scene.dae:25:18: <skew> is not supported, expected the same as a <matrix>");
+    expect({{transforms, "<scale>0 1 1</scale>"}}, "scene.dae:25:1: to_world of shape 'ply' has no inverse");
+    expect({{"<instance_geometry url", "<instance_node url='#floor'/><instance_geometry url"}},
+           "scene.dae:25:1: nodes and instances of nodes are nested more than 100 deep, or stand inside themselves");
+    expect(
+        {{"<instance_geometry url", "<instance_controller url='#skin'/><instance_geometry url"}},
+        "scene.dae:26:1: <instance_controller> is not supported: a skin or morph of a mesh; expected the posed mesh, exported as "
+        "<instance_geometry>");
+    expect({{"symbol=\"paint\"", "symbol=\"pain\""}},
+           "scene.dae:26:1: no material is bound to the symbol 'paint' at scene.dae:19:11; bound: pain; did you mean 'pain'?");
+    expect({{"target=\"#red\"", "target=\"#blue\""}}, "scene.dae:27:35: there is no <material> 'blue'");
+    expect({{"<instance_visual_scene url=\"#main\"/>", ""}},
+           "scene.dae:30:1: <scene> has no <instance_visual_scene> inside, expected one");
+    EXPECT_EQ(dae_error("<collada/>"), "scene.dae:1:1: the outermost element is <collada>, expected <COLLADA>");
+}
+
+// Everything that is wrong is told at once.
+TEST_F(ColladaScenes, SeveralErrors) {
+    EXPECT_EQ(
+        error_with({{"<xfov>60", "<xfov>x"}, {"<color>1 2 3", "<color>1 2"}, {"0.6 0.2", "0.6 red"}, {"1 1 0 -1", "1 1 z -1"}}),
+        "scene.dae:5:20: 'x' is not a number\n"
+        "scene.dae:8:8: <color> has 2 numbers, expected 3 or 4\n"
+        "scene.dae:11:30: 'red' is not a number\n"
+        "scene.dae:15:80: 'z' is not a number");
+}
+
+// 10 nodes that hold the next ten times each are refused, and not visited 10¹⁰ times.
+TEST_F(ColladaScenes, TooManyInstances) {
+    std::string nodes = "<library_nodes>";
+    for (int i = 0; i < 10; ++i) {
+        nodes += fmt::format("<node id='n{}'>", i);
+        for (int j = 0; j < 10 && i < 9; ++j) nodes += fmt::format("<instance_node url='#n{}'/>", i + 1);
+        nodes += "</node>";
+    }
+    const std::string message = error_with({{"<library_visual_scenes>", nodes + "</library_nodes><library_visual_scenes>"},
+                                            {"<node id=\"floor\">", "<instance_node url='#n0'/><node id=\"floor\">"},
+                                            {"<node id=\"eye\">", "<node><instance_node url='#n0'/></node><node id=\"eye\">"}});
+    EXPECT_NE(message.find("there are more than 262144 nodes and instances of nodes"), std::string::npos) << message.substr(0, 500);
+}
+
+}  // namespace neumann::collada_scenes_test
