@@ -1,6 +1,6 @@
 // Renders, as `neumann render` makes and writes them.
 #include "apps/commands/interrupt.h"
-#include "apps/commands/patch_scene.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/render_command.h"
 #include "apps/files/run_json.h"

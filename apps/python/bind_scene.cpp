@@ -1,5 +1,5 @@
 // Reads scenes and returns information about them.
-#include "apps/commands/patch_scene.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/files/plan_json.h"
 #include "apps/python/module.h"
 #include "core/base/stopwatch.h"
