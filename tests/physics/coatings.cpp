@@ -13,12 +13,13 @@ struct Named {
     std::string name;
     Bsdf bsdf;
 };
+// Beyond its critical angle a bubble reflects all; that angle has the cosine 1/2, where cells of directions end.
 std::vector<Named> coatings() {
     const auto matt = shared(Diffuse(Rgb(0.2, 0.6, 0.95))), rough = shared(RoughConductor(Ggx(0.3), {}, Rgb(0.9, 0.6, 0.3))),
                mirror = shared(Conductor({}, Rgb(0.8)));
     return {{"matt", Coating(matt, 1.5, Rgb(0.0), tint)},
             {"matt, stained", Coating(matt, 1.5, stain, tint)},
-            {"matt, a bubble", Coating(matt, 1.0 / 1.33, stain, tint)},
+            {"matt, a bubble", Coating(matt, std::sqrt(0.75), stain, tint)},
             {"rough", Coating(rough, 1.7, stain, tint)},
             {"mirror", Coating(mirror, 1.5, stain, tint)},
             {"twice", Coating(shared(Coating(rough, 1.3, stain, Rgb(1.0))), 1.5, Rgb(0.0), tint)},
