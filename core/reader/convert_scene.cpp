@@ -7,10 +7,12 @@
 #include "core/reader/xml/document.h"
 #include "core/reader/xml/write_xml.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -92,6 +94,15 @@ private:
     std::map<std::string, std::string> names_;  // by what they were called
 };
 
+// What is read here and not by Mitsuba 3.
+void warn_of_others(const Element& e, Warnings& warnings) {
+    constexpr std::string_view others[] = {"bsdf coating", "bsdf mixturebsdf", "bsdf phong",          "bsdf retroreflector",
+                                           "bsdf ward",    "texture scale",    "texture vertexcolors"};
+    if (const Attribute* type = e.find("type"); type && std::ranges::find(others, e.tag + " " + type->value) != std::end(others))
+        warnings.add(fmt::format("{} '{}' is none of Mitsuba 3's", e.tag, type->value));
+    for (const Element& child : e.children) warn_of_others(child, warnings);
+}
+
 }  // namespace
 
 }  // namespace reader
@@ -105,6 +116,7 @@ ConvertedScene convert_scene(const std::string& path, const std::map<std::string
     Document document = read_document(read_raw_scene(path, definitions, told, problems), definitions, told, problems);
     problems.check(document.files);
     FilesBeside(document, result.files).collect(document.root);
+    warn_of_others(document.root, result.warnings);
     result.xml = write_xml(document.root);
     return result;
 }

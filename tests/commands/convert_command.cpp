@@ -62,6 +62,15 @@ TEST_F(ConvertCommand, AnOldFileBecomesANewOne) {
     EXPECT_EQ(again.err, "");
 }
 
+TEST_F(ConvertCommand, WhatMitsuba3DoesNotKnowIsWarnedOf) {
+    write("scene.xml",
+          "<scene version='0.6.0'><shape type='sphere'><bsdf type='phong'/></shape>"
+          "<sensor type='perspective'><float name='fov' value='40'/></sensor></scene>");
+    const Finished done = run({"convert", "scene.xml", "new.xml"});
+    EXPECT_EQ(done.exit_code, 0);
+    EXPECT_NE(done.err.find("warning: bsdf 'phong' is none of Mitsuba 3's\n"), std::string::npos) << done.err;
+}
+
 TEST_F(ConvertCommand, WrongScenesWriteNothing) {
     write("scene.xml", room_);
     EXPECT_EQ(refused({"convert", "scene.xml", "out/new.xml"}), "scene.xml:1:66: there is no file 'a.ply'; looked in: .\n");
