@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -35,13 +36,12 @@ public:
         check_children(light, parts_of_light, import_.problems);
         const Element* course = course_technique(light);
         const Element& technique = course ? *course : required_child(light, "technique_common");
-        if (course)
-            check_children(technique, course_kinds, import_.problems);
-        else
-            check_children(technique, common_kinds, import_.problems);
+        const std::span<const std::string> kinds = course ? std::span<const std::string>(course_kinds) : common_kinds;
+        check_children(technique, kinds, import_.problems);
         if (technique.children.empty())
             throw InputError(technique.place, "<technique> of a light has no light inside, expected one");
         const Element& kind = technique.children.front();
+        if (std::ranges::find(kinds, kind.tag) == kinds.end()) throw Told();
         check_children(kind, parts_of_kind, import_.problems);
         const Rgb color = read_color(required_child(kind, "color")).rgb;
         if (kind.tag == "directional") add_directional(instance, kind, color);
