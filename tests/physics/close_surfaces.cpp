@@ -230,6 +230,26 @@ TEST(CloseSurfaces, AreMetWhereBoxesTouchAndOverlap) {
             }
 }
 
+// A light without extent may lie on a face, which then hides nothing from it.
+TEST(CloseSurfaces, SeeALightWithoutExtentThatLiesOnAFace) {
+    known::SceneMaker maker;
+    for (const double z : {0.0, 1e-9}) maker.add(known::parallelogram({-1, -1, z}, {2, 0, 0}, {0, 2, 0}), known::matte(0.5));
+    maker.add(known::parallelogram({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}), known::matte(0.5));
+    const Scene scene = maker.make();
+    SurfacePoint light;
+    light.position = Vec3(0.3, 0.1, 1.0);
+    light.shape = SurfacePoint::infinity;
+    int close = 0;
+    for (int i = 0; i < 1000; ++i) {
+        SurfacePoint x;
+        const Vec3 from(-0.9 + 0.0018 * i, 0.4 - 0.0007 * i, 0.5);
+        ASSERT_TRUE(scene.geometry.first_hit(from, Vec3(0, 0, -1), 10.0, x));
+        close += x.close;
+        EXPECT_TRUE(scene.geometry.visible(x, light)) << i;
+    }
+    EXPECT_EQ(close, 1000);
+}
+
 // The ground of a room is a giant, and the walls of a room are none.
 TEST(CloseSurfaces, GiantsAreWhatDwarfsAllElse) {
     const std::vector<Shape> in_room{make_rectangle(glm::scale(Mat4(1.0), Vec3(5.0))), box({0, 0, 0}, {1, 1, 1})};
