@@ -79,7 +79,7 @@ public:
             pending.pop_back();
             notes_.problems.attempt(nodes_.place_of(next.node), [&] { visit(next, pending); });
         }
-        for (const auto& [placed, skin] : skinned_) notes_.problems.attempt(placed.place, [&] { place_skinned(placed, skin); });
+        for (const auto& s : skinned_) notes_.problems.attempt(s.first.place, [&] { place_skinned(s.first, s.second); });
         return std::move(result_);
     }
 

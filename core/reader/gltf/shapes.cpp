@@ -54,22 +54,22 @@ const Material& Shapes::material_of(JsonObject& primitive) {
     const auto index = primitive.index("material", materials_, "material");
     if (!index && primitive.has("material")) throw Told();
     if (!index) return default_material_;
-    auto [found, is_new] = known_materials_.try_emplace(*index);
+    const auto [found, is_new] = known_materials_.try_emplace(*index);
     if (is_new)
-        notes_.problems.attempt(materials_.place_of(*index), [&] {
-            found->second = std::make_unique<const Material>(read_material(materials_.object(*index), textures_));
+        notes_.problems.attempt(materials_.place_of(*index), [&, &material = found->second] {
+            material = std::make_unique<const Material>(read_material(materials_.object(*index), textures_));
         });
     if (!found->second) throw Told();
     return *found->second;
 }
 
 std::string Shapes::bsdf_of(Element& scene, const Material& material, const OnMesh& mesh) {
-    auto [found, is_new] = bsdfs_.try_emplace({&material, mesh});
+    const auto [found, is_new] = bsdfs_.try_emplace({&material, mesh});
     if (is_new)
-        notes_.problems.attempt(material.place, [&] {
+        notes_.problems.attempt(material.place, [&, &known = found->second] {
             const std::string id = ids_.unique(material.name);
             neumann::reader::add(scene, make_bsdf(material, mesh, id, pictures_, notes_.warnings));
-            found->second = id;
+            known = id;
         });
     if (found->second.empty()) throw Told();
     return found->second;

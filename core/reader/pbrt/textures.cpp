@@ -33,11 +33,11 @@ const std::vector<std::string> texture_types = {"checkerboard", "constant", "ima
 Textures::Textures(PbrtScene& scene, Importer& importer) : importer_(importer) {
     std::map<std::string, Location> places[2];
     for (TextureEntity& e : scene.textures) {
-        const auto [known, is_new] = places[e.is_float].try_emplace(e.name, e.place());
+        const auto known = places[e.is_float].try_emplace(e.name, e.place());
         importer.problems.attempt(e.place(), [&] {
-            if (!is_new)
+            if (!known.second)
                 throw InputError(e.place(), fmt::format("a second texture '{}', the first is at {}", printable(e.name),
-                                                        to_string(known->second)));
+                                                        to_string(known.first->second)));
         });
         const auto made = importer.problems.attempt(e.place(), [&] { return make(e); });
         textures_[e.is_float].try_emplace(e.name, made.value_or(TextureValue{Rgb(0.5)}));
