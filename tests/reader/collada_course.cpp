@@ -102,7 +102,9 @@ TEST_F(ColladaCourse, AmbientIsASky) {
             w[axis] = sine;
             irradiance += radiance(sky, w).r * sine;
             w[axis] = -sine;
-            if (sine > 0.02) EXPECT_EQ(radiance(sky, w).r, 0.0);
+            if (sine > 0.02) {
+                EXPECT_EQ(radiance(sky, w).r, 0.0);
+            }
         }
         EXPECT_NEAR(2.0 * M_PI * irradiance / steps, M_PI, 1e-4);
     }

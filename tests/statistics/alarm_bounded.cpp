@@ -147,7 +147,9 @@ TEST(BoundedSamples, NeedALargestAlbedo) {
         SceneMaker maker;
         maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.5, 1.0));
         maker.add(Sphere{{0, 0, 0}, 0.3, false}, made_of(Ward(WardLobe(variant, Beckmann(0.2)), Rgb(0.5), Rgb(0.2))));
-        EXPECT_EQ(samples_are_bounded(maker.make(), {.generator = PathGenerator::walk}), variant == Variant::balanced);
+        SamplingSettings settings;
+        settings.generator = PathGenerator::walk;
+        EXPECT_EQ(samples_are_bounded(maker.make(), settings), variant == Variant::balanced);
     }
 }
 
