@@ -215,7 +215,6 @@ private:
         if (c.bounces.first == 0)
             for (const WrongPictures& moved : moved_pictures({c}, are_sums()))
                 if (evidence_for(theirs, moved.terms[0], c.ours) > strong_evidence) return true;
-
         const auto none = std::ranges::find(wrong, Mistake::none, &WrongTerms::mistake);  // of the same paths
         return std::any_of(wrong.begin(), wrong.end(), [&](const WrongTerms& w) {
             return w.mistake != Mistake::clamped && evidence_for(theirs, w.terms[i], none->terms[i]) > strong_evidence &&
@@ -255,7 +254,9 @@ private:
         // Of each kind the likeliest.
         std::set<std::string> seen;
         std::erase_if(result_.suspects, [&](const Suspect& s) { return !seen.insert(s.name).second; });
-    }  // A cause that leaves nothing unexplained comes before factors and offsets that were fitted and say no why.
+    }
+
+    // A cause that leaves nothing unexplained comes before factors and offsets that were fitted and say no why.
     void put_causes_first() {
         constexpr double unexplained = 1e-3, most_of_it = 0.9;
         const ComparedTerm& c = compared_[*result_.first_wrong];

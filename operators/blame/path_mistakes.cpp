@@ -126,6 +126,7 @@ private:
 
         const WrongPaths& paths;
         std::vector<Rgb> factor, now;  // by mistake: of the path so far, and what this bounce brings
+        std::vector<Rgb> arrived;      // the factors before this bounce's reflection
         std::vector<Rgb> found;        // by mistake and range
     };
     LampSample sample_lamp(const SurfacePoint& x, Sampler& sampler) const;
@@ -296,13 +297,17 @@ void WrongPaths::Walk::follow(int column, int row, Sampler& sampler) {
         const SurfaceSide side = scene.materials.side(x, wo);
         if (!side.bsdf) return;
         const Vec3 local = side.p.frame.to_local(wo);
-        const bool is_mirror = lobe(*side.bsdf).kind == Lobe::Kind::specular;
-        reflect(side, x, local, beta, bounce, is_mirror);
-        if (!is_mirror && !paths.lights_.empty()) ask_lamp(side, x, local, beta, sampler);
+        arrived = factor;
+        reflect(side, x, local, beta, bounce, false);
+        if (!paths.lights_.empty()) ask_lamp(side, x, local, beta, sampler);
         const BsdfSample sampled = sample(*side.bsdf, side.p, local, sampler.next2());
         if (!(sampled.pdf > 0.0) || is_black(sampled.weight)) {
             put(bounce);
             return;
+        }
+        if (sampled.pdf == delta_pdf) {
+            factor = arrived;
+            reflect(side, x, local, beta, bounce, true);
         }
         const Vec3 w = side.p.frame.to_world(sampled.wi);
         had_diffuse = had_diffuse || sampled.pdf != delta_pdf;

@@ -27,7 +27,7 @@ enum class Mistake {
     twice_light,
     no_shadows,
     lamps_shine_back,
-    light_twice,  // samples of lamps and directions that find them count in full
+    light_twice,  // samples of lamps and directions that hit them both count in full
     no_light_after_mirror,
     no_caustics,         // no light that comes by mirrors or glass to other surfaces
     no_mirrors,          // mirrors and glass reflect nothing
