@@ -36,6 +36,7 @@ std::vector<double> probabilities(const Emitters& emitters, LightChoice choice, 
 Vec3 center_of(const Sphere& sphere) { return sphere.center; }
 Vec3 center_of(const Disk& disk) { return disk.center; }
 Vec3 center_of(const Cylinder& cylinder) { return cylinder.center(); }
+Vec3 center_of(const MeshInstance& instance) { return instance.bounds().center(); }
 
 }  // namespace
 

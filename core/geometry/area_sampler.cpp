@@ -1,10 +1,24 @@
 #include "core/geometry/area_sampler.h"
 
+#include "core/base/error.h"
+
+#include <fmt/format.h>
 #include <algorithm>
 
 namespace neumann {
 
+namespace {
+
+constexpr std::size_t most_primitives = 100'000'000;  // 16 bytes each; only instances make more
+
+}  // namespace
+
 AreaSampler::AreaSampler(const Geometry& geometry) : geometry_(geometry) {
+    std::size_t count = 0;
+    for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) count += geometry.primitive_count(shape);
+    if (count > most_primitives)
+        throw InputError(fmt::format("points on all surfaces need a list of the scene's {} triangles; expected at most {}", count,
+                                     most_primitives));
     double total = 0.0;
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive) {

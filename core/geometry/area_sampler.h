@@ -7,6 +7,7 @@ namespace neumann {
 
 class AreaSampler {
 public:
+    // Throws InputError if there are more than 10⁸ triangles, as instances may have.
     explicit AreaSampler(const Geometry& geometry);
 
     // The pdf is 1/area() per area. The scene must have surfaces.

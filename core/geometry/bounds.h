@@ -3,6 +3,7 @@
 
 #include "core/base/vec.h"
 
+#include <cmath>
 #include <limits>
 
 namespace neumann {
@@ -25,5 +26,12 @@ struct Bounds {
     Bounds grown(double by) const { return {low - by, high + by}; }
     friend Bounds intersection(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
 };
+
+// The power of two that scales a box to about unit size.
+inline double scale_to_one(const Bounds& b) {
+    int exponent = 0;
+    std::frexp(0.5 * max_component(b.high - b.low), &exponent);
+    return std::ldexp(1.0, -exponent);
+}
 
 }  // namespace neumann

@@ -78,9 +78,10 @@ void cut_to_triangle(Polygon& polygon, const Triangle& b, double distance) {
 
 std::optional<CloseRegion> region_of_triangle(const DoubleFaces& faces, const Face& a, const Face& b, double distance) {
     const std::array<Vec3, 3> corners = faces.vertices(a);
-    const Triangle& t = *faces.triangle(a);
+    const TriangleOfFace of_a = faces.triangle(a);
+    const Triangle& t = *of_a;
     Polygon polygon(corners);
-    if (const Triangle* other = faces.triangle(b)) {
+    if (const TriangleOfFace other = faces.triangle(b)) {
         cut_to_triangle(polygon, *other, distance);
     } else {
         const Shape& shape = faces.shapes()[b.shape];
@@ -116,10 +117,10 @@ std::optional<CloseRegion> region_of_triangle(const DoubleFaces& faces, const Fa
 }  // namespace
 
 std::optional<CloseRegion> close_region(const DoubleFaces& faces, const Face& a, const Face& b, double distance) {
-    if (faces.triangle(a)) return region_of_triangle(faces, a, b, distance);
+    if (faces.is_triangle(a)) return region_of_triangle(faces, a, b, distance);
     Bounds bounds = intersection(faces.bounds(a).grown(distance), faces.bounds(b).grown(distance));
     if (const auto* sphere = std::get_if<Sphere>(&faces.shapes()[a.shape])) {
-        if (const Triangle* t = faces.triangle(b)) {
+        if (const TriangleOfFace t = faces.triangle(b)) {
             if (inside(faces.vertices(b), *sphere, distance)) return std::nullopt;
             const auto circle = around_circle(*sphere, t->vertex(), t->normal(), distance);
             if (!circle) return std::nullopt;

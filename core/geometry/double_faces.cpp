@@ -107,22 +107,22 @@ int meet_round(const Vec3& across, const Vec3& d_across, double radius, bool sta
 
 }  // namespace
 
-std::array<Vec3, 3> DoubleFaces::vertices(const Face& f) const {
-    const auto& mesh = std::get<TriangleMesh>((*shapes_)[f.shape]);
-    const auto& t = mesh.triangles[f.primitive];
-    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+TriangleOfFace DoubleFaces::triangle_of_instance(const Face& f) const {
+    const auto* instance = std::get_if<MeshInstance>(&(*shapes_)[f.shape]);
+    if (!instance) return nullptr;
+    const TriangleCorners corners = corners_of(*instance, f.primitive);
+    return TriangleOfFace(Triangle(corners.at[0], corners.at[1], corners.at[2], errors_[f.shape]));
 }
 
 Bounds DoubleFaces::bounds(const Face& f) const {
-    if (!triangle(f)) return bounds_of((*shapes_)[f.shape]);
-    Bounds bounds;
-    for (const Vec3& v : vertices(f)) bounds.add(v);
-    return bounds;
+    const Shape& shape = (*shapes_)[f.shape];
+    return is_triangle(f) ? corners_of(shape, f.primitive).bounds() : bounds_of(shape);
 }
 
 std::vector<Face> DoubleFaces::all() const {
     std::vector<Face> faces;
     for (std::uint32_t shape = 0; shape < shapes_->size(); ++shape) {
+        if (is_of_instance({shape, 0})) continue;
         const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape]);
         const std::size_t n = mesh ? mesh->triangles.size() : has_extent((*shapes_)[shape]);
         for (std::uint32_t i = 0; i < n; ++i) faces.push_back({shape, i});
@@ -131,7 +131,7 @@ std::vector<Face> DoubleFaces::all() const {
 }
 
 bool DoubleFaces::is_near(const Face& f, const Vec3& p, double distance) const {
-    if (const Triangle* t = triangle(f)) {
+    if (const TriangleOfFace t = triangle(f)) {
         if (!(std::abs(glm::dot(p - t->vertex(), t->normal())) <= distance)) return false;
         const Vec2 w = t->weights(p);
         return w.x >= -distance * glm::length(t->dual1()) && w.y >= -distance * glm::length(t->dual2()) &&
@@ -158,7 +158,7 @@ DoubleFaces::Height DoubleFaces::height(const Face& f, const Vec3& p) const {
         const double length = glm::length(across);
         return Height{across / length, length - radius, rounding};
     };
-    if (const Triangle* t = triangle(f)) return above_plane(t->vertex(), t->normal());
+    if (const TriangleOfFace t = triangle(f)) return above_plane(t->vertex(), t->normal());
     const Shape& shape = (*shapes_)[f.shape];
     if (const auto* sphere = std::get_if<Sphere>(&shape))
         return above_round(p - sphere->center, sphere->radius, rounding_at(p, sphere->center + sphere->radius));
@@ -172,7 +172,7 @@ DoubleFaces::Height DoubleFaces::height(const Face& f, const Vec3& p) const {
 int DoubleFaces::meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2], double roundings) const {
     const Vec3& p = start.position;
     const bool starts_there = start.face == f || holds(f, p);
-    const Triangle* t = triangle(f);
+    const TriangleOfFace t = triangle(f);
     if (starts_there && t) return 0;
     const auto is_hit = [&](const auto& face, double distance) {
         return distance > 0.0 && Passings(face, p, direction, distance).are_inside(roundings);
@@ -205,7 +205,7 @@ std::optional<Vec3> DoubleFaces::off_edge(const Face& f, const Vec3& p, const Ve
         if (inwards == Vec3(0.0)) return std::nullopt;
         return inwards;
     };
-    if (triangle(f)) return off({vertices(f), p, direction, distance});
+    if (is_triangle(f)) return off({vertices(f), p, direction, distance});
     const Shape& shape = (*shapes_)[f.shape];
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return off({*cylinder, p, direction, distance});
     if (const auto* disk = std::get_if<Disk>(&shape)) return off({*disk, p, direction, distance});

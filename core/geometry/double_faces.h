@@ -14,27 +14,44 @@
 
 namespace neumann {
 
+// The triangle of a face, which an instance makes when it is asked; null if the face is round.
+class TriangleOfFace {
+public:
+    TriangleOfFace(const Triangle* stored = nullptr) : stored_(stored) {}
+    explicit TriangleOfFace(const Triangle& made) : made_(made) {}
+
+    explicit operator bool() const { return stored_ || made_; }
+    const Triangle& operator*() const { return made_ ? *made_ : *stored_; }
+    const Triangle* operator->() const { return &**this; }
+
+private:
+    const Triangle* stored_ = nullptr;
+    std::optional<Triangle> made_;
+};
+
 class DoubleFaces {
 public:
-    // Geometry's arrays, which must outlive this object: triangles, and errors of round shapes, by shape.
+    // Geometry's arrays, which must outlive this object, by shape: triangles of meshes, and errors of other shapes.
     DoubleFaces(const std::vector<Shape>& shapes, std::span<const std::vector<Triangle>> triangles, std::span<const double> errors)
         : shapes_(&shapes), triangles_(triangles), errors_(errors) {}
 
     const std::vector<Shape>& shapes() const { return *shapes_; }
-    // Null if the face is not a triangle.
-    const Triangle* triangle(const Face& f) const {
+    TriangleOfFace triangle(const Face& f) const {
         const auto& of_shape = triangles_[f.shape];
-        return of_shape.empty() ? nullptr : &of_shape[f.primitive];
+        return of_shape.empty() ? triangle_of_instance(f) : &of_shape[f.primitive];
     }
-    std::array<Vec3, 3> vertices(const Face& f) const;
+    bool is_triangle(const Face& f) const { return !triangles_[f.shape].empty() || is_of_instance(f); }
+    bool is_of_instance(const Face& f) const { return std::holds_alternative<MeshInstance>((*shapes_)[f.shape]); }
+    std::array<Vec3, 3> vertices(const Face& f) const { return corners_of((*shapes_)[f.shape], f.primitive).at; }
     // How far rounding to float moves the face, and a hit on it.
     double error(const Face& f) const {
-        const Triangle* t = triangle(f);
-        return t ? t->error() : errors_[f.shape];
+        const auto& of_shape = triangles_[f.shape];
+        return of_shape.empty() ? errors_[f.shape] : of_shape[f.primitive].error();
     }
     Bounds bounds(const Face& f) const;
     // Diameter of the sphere around the face's bounding box.
     double size(const Face& f) const { return 2.0 * bounds(f).radius(); }
+    // Without those of instances.
     std::vector<Face> all() const;
 
     // Whether p is at most `distance` from the face; near corners the limit is a little larger.
@@ -60,6 +77,8 @@ public:
     std::optional<Vec3> off_edge(const Face& f, const Vec3& p, const Vec3& direction, double distance) const;
 
 private:
+    TriangleOfFace triangle_of_instance(const Face& f) const;
+
     const std::vector<Shape>* shapes_;
     std::span<const std::vector<Triangle>> triangles_;
     std::span<const double> errors_;

@@ -33,11 +33,18 @@ struct Query : EmbreeContext {
     }
 };
 
+// The number of the shape that Embree has hit: that of the instance, if it is one.
+inline std::uint32_t shape_of(std::uint32_t instance, std::uint32_t geometry) {
+    return instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance;
+}
+
 inline void filter(const RTCFilterFunctionNArguments* args) {
     const auto* query = static_cast<const Query*>(args->context);
-    for (unsigned i = 0; i < args->N; ++i)
-        if (args->valid[i] && query->leaves_out(RTCHitN_geomID(args->hit, args->N, i), RTCHitN_primID(args->hit, args->N, i)))
-            args->valid[i] = 0;
+    const unsigned N = args->N;
+    for (unsigned i = 0; i < N; ++i) {
+        const std::uint32_t shape = shape_of(RTCHitN_instID(args->hit, N, i, 0), RTCHitN_geomID(args->hit, N, i));
+        if (args->valid[i] && query->leaves_out(shape, RTCHitN_primID(args->hit, N, i))) args->valid[i] = 0;
+    }
 }
 
 #if RTC_VERSION_MAJOR >= 4

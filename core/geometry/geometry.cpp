@@ -6,44 +6,13 @@
 #include "core/geometry/round_surface.h"
 #include "core/geometry/rounding.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
-#include <string>
-
-#include <oneapi/tbb/parallel_for.h>
 
 namespace neumann {
 
 namespace {
-
-double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::length(glm::cross(b - a, c - a)); }
-
-std::size_t erase_degenerate_triangles(TriangleMesh& mesh) {
-    const std::size_t count = mesh.triangles.size();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto t = mesh.triangles[i];
-        if (!(twice_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) > 0.0)) continue;
-        mesh.triangles[kept] = t;
-        for (MeshAttribute& a : mesh.attributes)
-            if (a.of_triangles) a.values[kept] = a.values[i];
-        ++kept;
-    }
-    mesh.triangles.resize(kept);
-    for (MeshAttribute& a : mesh.attributes)
-        if (a.of_triangles) a.values.resize(kept);
-    return count - kept;
-}
-
-void validate(const TriangleMesh& mesh) {
-    for (const Vec3& v : mesh.vertices)
-        if (!is_finite(v)) throw InputError("mesh vertex is not finite");
-    for (const auto& t : mesh.triangles)
-        for (const std::uint32_t index : t)
-            if (index >= mesh.vertices.size())
-                throw InputError("mesh vertex index " + std::to_string(index) + " is out of range, the mesh has " +
-                                 std::to_string(mesh.vertices.size()) + " vertices");
-}
 
 void validate_round(const Shape& shape) {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -65,8 +34,10 @@ Geometry::Geometry(std::vector<Shape> shapes) {
     Bounds bounds;
     for (Shape& shape : shapes) {
         if (auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-            validate(*mesh);
+            expect_valid(*mesh);
             degenerate_count_ += erase_degenerate_triangles(*mesh);
+        } else if (const auto* instance = std::get_if<MeshInstance>(&shape)) {
+            degenerate_count_ += instance->shared()->degenerate_count();
         } else {
             validate_round(shape);
             degenerate_count_ += !has_extent(shape);
@@ -83,12 +54,7 @@ Geometry::Geometry(std::vector<Shape> shapes) {
 
     // Embree's coordinates are scaled to about unit size.
     const Bounds& seen = giants.rest.is_empty() ? bounds : giants.rest;
-    double scale = 1.0;
-    if (!seen.is_empty()) {
-        int exponent = 0;
-        std::frexp(0.5 * largest_component(seen.high - seen.low), &exponent);
-        scale = std::ldexp(1.0, -exponent);
-    }
+    const double scale = seen.is_empty() ? 1.0 : scale_to_one(seen);
     caster_ = std::make_unique<RayCaster>(*shapes_, giants_, seen.is_empty() ? Vec3(0.0) : seen.center(), scale);
     triangles_.resize(shapes_->size());
     error_.resize(shapes_->size());
@@ -102,11 +68,13 @@ Geometry::Geometry(std::vector<Shape> shapes) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape])) {
             triangles_[shape].reserve(mesh->triangles.size());
             for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
-                const auto& t = mesh->triangles[i];
-                const Vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
-                const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
-                triangles_[shape].emplace_back(a, b, c, error({shape, i}, longest));
+                const TriangleCorners corners = corners_of(*mesh, i);
+                const auto& [a, b, c] = corners.at;
+                triangles_[shape].emplace_back(a, b, c, error({shape, i}, corners.longest_edge()));
             }
+        } else if (const auto* instance = std::get_if<MeshInstance>(&(*shapes_)[shape])) {
+            // Embree moves the ray into the coordinates of the mesh, in floats.
+            error_[shape] = error({shape, 0}, instance->longest_edge()) * (1.0 + instance->distortion());
         } else if (const auto* sphere = std::get_if<Sphere>(&(*shapes_)[shape])) {
             error_[shape] = error({shape, 0}, sphere->radius);
         } else if (const auto* disk = std::get_if<Disk>(&(*shapes_)[shape])) {
@@ -123,10 +91,15 @@ SurfacePoint Geometry::round_point(const Face& face, const RoundPoint& p) const 
 }
 
 void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    const Triangle& t = triangles_[hit.shape][hit.primitive];
-    const Triangle::Meeting m = t.meet(origin, direction);
-    p = {t.is_hit(m) ? m.position : t.near(m, hit.u, hit.v, edges(hit.shape, hit.primitive)), t.normal(), t.error(), hit.shape,
-         hit.primitive};
+    const TriangleOfFace t = neighbours_->faces().triangle({hit.shape, hit.primitive});
+    const Triangle::Meeting m = t->meet(origin, direction);
+    Vec3 position = m.position;
+    if (!t->is_hit(m)) {
+        const auto* instance = std::get_if<MeshInstance>(&(*shapes_)[hit.shape]);
+        const bool exchanged = instance && instance->mirrors();
+        position = t->near(m, exchanged ? hit.v : hit.u, exchanged ? hit.u : hit.v, edges(hit.shape, hit.primitive));
+    }
+    p = {position, t->normal(), t->error(), hit.shape, hit.primitive};
 }
 
 bool Geometry::put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
@@ -140,7 +113,7 @@ bool Geometry::put_among_others(const RayStart& start, const Vec3& direction, co
 SurfacePoint Geometry::hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const {
     const Vec3& origin = start.position;
     SurfacePoint p;
-    if (triangles_[hit.shape].empty())
+    if (!neighbours_->faces().is_triangle({hit.shape, hit.primitive}))
         p = round_point({hit.shape, hit.primitive},
                         hit_round((*shapes_)[hit.shape], origin, direction, hit.distance, error_[hit.shape]));
     else
@@ -167,10 +140,18 @@ bool Geometry::settle(const RayStart& start, const Vec3& direction, SurfacePoint
 
 SurfacePoint Geometry::point_on(const Face& face, const StartedRay& ray, double distance) const {
     const Vec3 position = ray.start.position + ray.direction * distance;
-    const auto& of_shape = triangles_[face.shape];
-    SurfacePoint p = of_shape.empty() ? round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]))
-                                      : on_triangle(face.shape, face.primitive, position);
+    SurfacePoint p;
+    if (const TriangleOfFace t = neighbours_->faces().triangle(face))
+        p = on_triangle(*t, face.shape, face.primitive, position);
+    else
+        p = round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]));
     look_around(p, &ray);
+    return p;
+}
+
+SurfacePoint Geometry::point_on_instance(const Face& face, const Vec3& position) const {
+    SurfacePoint p = on_triangle(*neighbours_->faces().triangle(face), face.shape, face.primitive, position);
+    look_around(p);
     return p;
 }
 
@@ -292,14 +273,14 @@ bool Geometry::visible_in_double(const SurfacePoint& x, const SurfacePoint& y) c
 }
 
 std::uint32_t Geometry::primitive_count(std::uint32_t shape) const {
-    const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape]);
+    const TriangleMesh* mesh = mesh_of((*shapes_)[shape]);
     return mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
 }
 
 double Geometry::area(std::uint32_t shape, std::uint32_t primitive) const {
-    if (const auto* mesh = std::get_if<TriangleMesh>(&(*shapes_)[shape])) {
-        const auto& t = mesh->triangles[primitive];
-        return Triangle::area(mesh->vertices[t[0]], mesh->vertices[t[1]], mesh->vertices[t[2]]);
+    if (mesh_of((*shapes_)[shape])) {
+        const TriangleCorners corners = corners_of((*shapes_)[shape], primitive);
+        return Triangle::area(corners.at[0], corners.at[1], corners.at[2]);
     }
     return round_area((*shapes_)[shape]);
 }
@@ -310,8 +291,14 @@ double Geometry::area(std::uint32_t shape) const {
     return sum;
 }
 
-SurfacePoint Geometry::point_on_round_surface(std::uint32_t shape, const Vec2& uv) const {
-    SurfacePoint p = round_point({shape, 0}, sample_round((*shapes_)[shape], uv, error_[shape]));
+SurfacePoint Geometry::point_off_meshes(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
+    SurfacePoint p;
+    if (const TriangleOfFace t = neighbours_->faces().triangle({shape, primitive})) {
+        const Vec2 weights = uniform_triangle(uv);
+        p = {t->at(weights.x, weights.y, edges(shape, primitive)), t->normal(), t->error(), shape, primitive};
+    } else {
+        p = round_point({shape, 0}, sample_round((*shapes_)[shape], uv, error_[shape]));
+    }
     look_around(p);
     return p;
 }

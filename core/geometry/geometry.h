@@ -128,7 +128,7 @@ public:
     // The same in two steps, for a primitive that is sampled often. The place is valid as long as the geometry.
     struct Place {
         std::uint32_t shape, primitive;
-        const Triangle* triangle;  // null on a round shape
+        const Triangle* triangle;  // null on a round shape or an instance
         Triangle::Edges edges;
     };
     Place place(std::uint32_t shape, std::uint32_t primitive) const {
@@ -136,7 +136,7 @@ public:
         return {shape, primitive, &triangles_[shape][primitive], edges(shape, primitive)};
     }
     SurfacePoint point(const Place& place, const Vec2& uv) const {
-        if (!place.triangle) return point_on_round_surface(place.shape, uv);
+        if (!place.triangle) return point_off_meshes(place.shape, place.primitive, uv);
         const Triangle& t = *place.triangle;
         const Vec2 weights = uniform_triangle(uv);
         SurfacePoint p{t.at(weights.x, weights.y, place.edges), t.normal(), t.error(), place.shape, place.primitive};
@@ -146,8 +146,10 @@ public:
 
     // Moves a point near the plane of a triangle onto the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
-        SurfacePoint p = on_triangle(shape, primitive, position);
-        if (const Triangle& t = triangles_[shape][primitive]; !t.is_clear(t.weights(p.position))) look_around(p);
+        if (triangles_[shape].empty()) return point_on_instance({shape, primitive}, position);
+        const Triangle& t = triangles_[shape][primitive];
+        SurfacePoint p = on_triangle(t, shape, primitive, position);
+        if (!t.is_clear(t.weights(p.position))) look_around(p);
         return p;
     }
     // The inverse of point() on a sphere or a disc: the (u, v) of a point there.
@@ -163,10 +165,8 @@ public:
 
 private:
     Triangle::Edges edges(std::uint32_t shape, std::uint32_t primitive) const {
-        const auto& mesh = *std::get_if<TriangleMesh>(&(*shapes_)[shape]);
-        const auto& t = mesh.triangles[primitive];
-        const Vec3& a = mesh.vertices[t[0]];
-        return {mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a};
+        const TriangleCorners corners = corners_of((*shapes_)[shape], primitive);
+        return {corners.at[1] - corners.at[0], corners.at[2] - corners.at[0]};
     }
     static const Vec3& position(const Vec3& p) { return p; }
     template <class Start>
@@ -192,8 +192,7 @@ private:
     SurfacePoint hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const;
     void put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint round_point(const Face& face, const RoundPoint& p) const;
-    SurfacePoint on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
-        const Triangle& t = triangles_[shape][primitive];
+    SurfacePoint on_triangle(const Triangle& t, std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
     }
     // Sets p.close, and moves a point that is close off faces that cross its own.
@@ -204,6 +203,7 @@ private:
     bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                         std::vector<Face> faces, SurfacePoint& hit) const;
     SurfacePoint point_on(const Face& face, const StartedRay& ray, double distance) const;
+    SurfacePoint point_on_instance(const Face& face, const Vec3& position) const;
     // Intersects the faces around close points, and giants, in double, and all others with Embree.
     bool first_hit_in_double(const SurfacePoint& from, const Vec3& direction, SurfacePoint& hit) const;
     bool visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const;
@@ -215,15 +215,15 @@ private:
         for (std::size_t i = 0; i < n; ++i) found |= static_cast<std::uint32_t>(ask(i)) << i;
         return found;
     }
-    SurfacePoint point_on_round_surface(std::uint32_t shape, const Vec2& uv) const;
+    SurfacePoint point_off_meshes(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const;
 
     std::shared_ptr<const std::vector<Shape>> shapes_;
     std::size_t degenerate_count_ = 0;
     Vec3 center_{0.0};
     double radius_ = 0.0;
     std::unique_ptr<RayCaster> caster_;
-    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty if the shape is not a mesh
-    std::vector<double> error_;                     // by shape: spheres, discs and cylinders
+    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty if the shape is not a mesh of its own
+    std::vector<double> error_;                     // by shape: of those that are not meshes of their own
     std::vector<Face> giants_;
     std::unique_ptr<Neighbours> neighbours_;
 };

@@ -55,14 +55,15 @@ Giants find_giants(const std::vector<Shape>& shapes) {
     };
     for (std::uint32_t shape = 0; shape < shapes.size(); ++shape) {
         if (!has_extent(shapes[shape])) continue;
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[shape])) {
+        if (const auto* instance = std::get_if<MeshInstance>(&shapes[shape])) {
+            result.rest.add(instance->bounds());
+            count += instance->mesh().triangles.size();
+        } else if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[shape])) {
             for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
-                const auto& t = mesh->triangles[i];
-                const Vec3 &a = mesh->vertices[t[0]], &b = mesh->vertices[t[1]], &c = mesh->vertices[t[2]];
-                const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-                Bounds bounds;
-                for (const Vec3& v : {a, b, c}) bounds.add(v);
-                add({{shape, i}, longest, bounds});
+                const TriangleCorners corners = corners_of(*mesh, i);
+                const auto& [a, b, c] = corners.at;
+                const double longest = corners.longest_edge();
+                add({{shape, i}, longest, corners.bounds()});
                 thinnest = std::min(thinnest, glm::length(glm::cross(b - a, c - a)) / longest);
             }
         } else {
@@ -72,7 +73,7 @@ Giants find_giants(const std::vector<Shape>& shapes) {
             thinnest = std::min(thinnest, std::max({extent.x, extent.y, extent.z}));
         }
     }
-    if (count == 0) return result;
+    if (largest.empty()) return result;
 
     std::sort(largest.begin(), largest.end(), is_larger);
     // The largest number of giants that dwarf the rest.
@@ -83,7 +84,7 @@ Giants find_giants(const std::vector<Shape>& shapes) {
     };
     while (giants > 0 && !dwarf()) result.rest.add(largest[--giants].bounds);
     const double longest = largest.front().size;
-    if (giants == 0 && count <= most_giants && longest > longer * thinnest && longest < largest_ratio * thinnest) {
+    if (giants == 0 && count == largest.size() && longest > longer * thinnest && longest < largest_ratio * thinnest) {
         giants = count;
         result.rest = {};
     }

@@ -24,7 +24,7 @@ struct Giants {
     std::optional<Part> near_rest(const Vec3& origin, const Vec3& direction, double distance) const;
 };
 
-// Shapes without extent are left out.
+// Shapes without extent are left out; faces of instances are no giants.
 Giants find_giants(const std::vector<Shape>& shapes);
 
 }  // namespace neumann

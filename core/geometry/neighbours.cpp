@@ -28,7 +28,7 @@ int cells_for(std::size_t boxes) {
 }
 
 bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
-    if (!faces.triangle(a) || !faces.triangle(b)) return false;
+    if (!faces.is_triangle(a) || !faces.is_triangle(b)) return false;
     const auto of_a = faces.vertices(a), of_b = faces.vertices(b);
     return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
@@ -37,7 +37,8 @@ bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
 // that starts beside a, or ends on either of them, is still on the right side of both.
 bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
     constexpr double bend = 0.5, rounding = 1e-12;
-    const Triangle &t = *faces.triangle(a), &other = *faces.triangle(b);
+    const TriangleOfFace of_a = faces.triangle(a), of_b = faces.triangle(b);
+    const Triangle &t = *of_a, &other = *of_b;
     if (std::abs(glm::dot(t.normal(), other.normal())) < bend) return false;
     Vec3 largest(-std::numeric_limits<double>::infinity());  // of b's corners, the weights in a
     for (const Vec3& corner : faces.vertices(b)) {
@@ -52,11 +53,14 @@ bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
 Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster)
     : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), round_(faces.shapes().size(), State::unknown) {
     for (const Face& f : large_) largest_error_ = std::max(largest_error_, faces_.error(f));
+    for (std::uint32_t shape = 0; shape < faces_.shapes().size(); ++shape)
+        if (faces_.is_of_instance({shape, 0})) error_of_rest_ = std::max(error_of_rest_, faces_.error({shape, 0}));
+    largest_error_ = std::max(largest_error_, error_of_rest_);
     if (large_.size() <= largest_asked_one_by_one) return;
     const auto rest = large_.begin() + largest_asked_one_by_one;
     std::nth_element(large_.begin(), rest, large_.end(),
                      [&](const Face& a, const Face& b) { return std::pair(-faces_.error(a), a) < std::pair(-faces_.error(b), b); });
-    error_of_rest_ = faces_.error(*rest);
+    error_of_rest_ = std::max(error_of_rest_, faces_.error(*rest));
     large_.erase(rest, large_.end());
     large_.insert(large_.end(), giants.faces.begin(), giants.faces.end());
     large_.shrink_to_fit();
@@ -122,9 +126,31 @@ bool Neighbours::is_clear_round(const Face& f) const {
     return state.load(std::memory_order_acquire) == State::clear;
 }
 
+double Neighbours::reach_of_close_points(const Face& f, const Face& other) const {
+    const double errors = faces_.error(f) + faces_.error(other);
+    const bool joined = share_corner(faces_, f, other);
+    if (joined && continues(faces_, f, other)) return 0.0;
+    const Bounds bounds = faces_.bounds(f);
+    const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
+    return touch ? errors : reach(f, other);
+}
+
+bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
+    const Face f{p.shape, p.primitive};
+    std::vector<Face> others;
+    append_near(p.position, reach_in_errors * p.error + aside, others);
+    return std::any_of(others.begin(), others.end(), [&](const Face& other) {
+        const double most = reach_in_errors * (p.error + faces_.error(other)) + aside;
+        if (other == f || !faces_.is_near(other, p.position, most)) return false;
+        const double reach = reach_of_close_points(f, other);
+        return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
+    });
+}
+
 bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
-    if (const Triangle* t = faces_.triangle(f)) {
+    if (faces_.is_of_instance(f)) return is_near_other(p, 0.0);
+    if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
         if (!t->is_examined()) examine(f);
         if (t->is_clear(w)) return false;
@@ -137,7 +163,9 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
 
 bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const Face f{p.shape, p.primitive};
-    if (const Triangle* t = faces_.triangle(f)) {
+    if (faces_.is_of_instance(f))
+        return std::abs(cosine) < Triangle::grazing || is_near_other(p, largest_error_ / std::abs(cosine));
+    if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
         if (t->is_clear(w, cosine)) return false;
         if (t->is_near_edge(w, cosine)) return true;
@@ -160,10 +188,8 @@ void Neighbours::examine(const Face& f) const {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
         if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;
-        const bool joined = share_corner(faces_, f, other);
-        if (joined && continues(faces_, f, other)) continue;
-        const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
-        const double near = touch ? errors : reach(f, other);
+        const double near = reach_of_close_points(f, other);
+        if (near == 0.0) continue;
         const auto steep = close_region(faces_, f, other, near + largest_error_);
         if (steep && steep->from_corner <= along_edges) {
             corner = std::max(corner, steep->from_corner);
@@ -182,15 +208,15 @@ void Neighbours::examine(const Face& f) const {
         kept = &surroundings_.emplace(f, Surroundings{std::move(cells), Boxes(boxes)}).first->second.cells;
     }
     // Rounded up, and above 0, so that points on an edge are never clear.
-    if (const Triangle* t = faces_.triangle(f))
+    if (const TriangleOfFace t = faces_.triangle(f))
         t->set_close(std::nextafter(static_cast<float>(strip), 1.0f), std::nextafter(static_cast<float>(corner), 1.0f), kept);
     else
         std::atomic_ref(round_[f.shape]).store(kept ? State::not_clear : State::clear, std::memory_order_release);
 }
 
 bool Neighbours::is_behind(const Face& f, const Face& own_face, const Vec3& direction) const {
-    const Triangle* own = faces_.triangle(own_face);
-    if (!own || !faces_.triangle(f)) return false;
+    const TriangleOfFace own = faces_.triangle(own_face);
+    if (!own || !faces_.is_triangle(f)) return false;
     const Vec3 n = glm::dot(own->normal(), direction) < 0.0 ? -own->normal() : own->normal();
     const auto corners = faces_.vertices(f);
     return std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {

@@ -68,6 +68,10 @@ private:
         WeightCells cells;
         Boxes boxes;
     };
+    // Points of f that are nearer than this to the other face are close; 0 if the other continues f.
+    double reach_of_close_points(const Face& f, const Face& other) const;
+    // For instances, of which nothing is cached: whether another face is that near, plus `aside`.
+    bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
     // Whether the state of a round face is `clear`.
     bool is_clear_round(const Face& f) const;

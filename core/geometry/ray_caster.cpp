@@ -1,6 +1,7 @@
 #include "core/geometry/ray_caster.h"
 
 #include "core/base/error.h"
+#include "core/geometry/affine.h"
 #include "core/geometry/embree_query.h"
 #include "core/geometry/embree_rounds.h"
 
@@ -8,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 
 namespace neumann {
@@ -48,14 +50,24 @@ struct Valid {
 }  // namespace
 
 struct RayCaster::Impl {
+    // The scene of a mesh that has instances, in the coordinates (x − center) · scale.
+    struct SharedScene {
+        RTCScene scene;
+        Vec3 center;
+        double scale;
+    };
+
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::map<const SharedMesh*, SharedScene> shared;
+    double distortion = 0.0;  // the largest of an instance
     std::vector<std::unique_ptr<embree::SphereData>> spheres;
     std::vector<std::unique_ptr<embree::DiskData>> disks;
     std::vector<std::unique_ptr<embree::CylinderData>> cylinders;
 
     ~Impl() {
         if (scene) rtcReleaseScene(scene);
+        for (const auto& [mesh, own] : shared) rtcReleaseScene(own.scene);
         if (device) rtcReleaseDevice(device);
     }
 
@@ -63,6 +75,13 @@ struct RayCaster::Impl {
         const RTCError code = rtcGetDeviceError(device);
         if (code == RTC_ERROR_OUT_OF_MEMORY) throw RunError(std::string("not enough memory while ") + what);
         if (code != RTC_ERROR_NONE) throw RunError("Embree error " + std::to_string(code) + " while " + what);
+    }
+
+    RTCScene new_scene() const {
+        RTCScene made = rtcNewScene(device);
+        // In robust mode no ray passes between two triangles that share an edge.
+        rtcSetSceneFlags(made, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::filters_allowed));
+        return made;
     }
 
     template <class Data>
@@ -76,14 +95,21 @@ struct RayCaster::Impl {
         attach(geometry, id);
     }
 
-    void attach(RTCGeometry geometry, std::uint32_t id) {
+    void attach(RTCGeometry geometry, std::uint32_t id) { attach(scene, geometry, id); }
+    static void attach(RTCScene to, RTCGeometry geometry, std::uint32_t id) {
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene, geometry, id);
+        rtcAttachGeometryByID(to, geometry, id);
         rtcReleaseGeometry(geometry);
     }
 
     void attach_mesh(const TriangleMesh& mesh, std::uint32_t id, std::span<const Face> without, const RayCaster& caster) {
         if (mesh.triangles.empty() || without.size() == mesh.triangles.size()) return;
+        attach(make_mesh(mesh, id, without, [&](const Vec3& p) { return caster.to_embree(p); }), id);
+    }
+
+    template <class ToEmbree>
+    RTCGeometry make_mesh(const TriangleMesh& mesh, std::uint32_t id, std::span<const Face> without,
+                          const ToEmbree& to_embree) const {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                      3 * sizeof(float), mesh.vertices.size()));
@@ -104,9 +130,38 @@ struct RayCaster::Impl {
         }
         check("building the scene");
         for (const Vec3& world : mesh.vertices) {
-            const Vec3 p = caster.to_embree(world);
+            const Vec3 p = to_embree(world);
             for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(p[axis]);
         }
+        return geometry;
+    }
+
+    const SharedScene& scene_of(const SharedMesh& mesh) {
+        const auto [entry, is_new] = shared.try_emplace(&mesh);
+        SharedScene& own = entry->second;
+        if (!is_new) return own;
+        const Bounds& bounds = mesh.bounds();
+        own = {new_scene(), bounds.center(), scale_to_one(bounds)};
+        attach(own.scene, make_mesh(mesh.mesh(), 0, {}, [&](const Vec3& p) { return (p - own.center) * own.scale; }), 0);
+        rtcCommitScene(own.scene);
+        check("building the scene");
+        return own;
+    }
+
+    void attach_instance(const MeshInstance& instance, std::uint32_t id, const RayCaster& caster) {
+        const SharedScene& of_mesh = scene_of(*instance.shared());
+        const Mat4& m = instance.to_world();
+        const glm::dmat3 linear = glm::dmat3(m) * (caster.scale_ / of_mesh.scale);
+        const Vec3 center = caster.to_embree(transformed_point(m, of_mesh.center));
+        float columns[12];
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int column = 0; column < 3; ++column) columns[3 * column + axis] = static_cast<float>(linear[column][axis]);
+            columns[9 + axis] = static_cast<float>(center[axis]);
+        }
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, of_mesh.scene);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        distortion = std::max(distortion, instance.distortion());
         attach(geometry, id);
     }
 
@@ -140,9 +195,7 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> wit
     : center_(center), scale_(scale), impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) throw RunError("Embree could not be started");
-    impl_->scene = rtcNewScene(impl_->device);
-    // In robust mode no ray passes between two triangles that share an edge.
-    rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | embree::filters_allowed));
+    impl_->scene = impl_->new_scene();
     for (std::uint32_t id = 0; id < shapes.size(); ++id) {
         const auto begin = std::lower_bound(without.begin(), without.end(), Face{id, 0});
         const std::span<const Face> of_shape(begin, std::lower_bound(begin, without.end(), Face{id + 1, 0}));
@@ -151,6 +204,7 @@ RayCaster::RayCaster(const std::vector<Shape>& shapes, std::span<const Face> wit
             continue;
         }
         if (!has_extent(shapes[id]) || !of_shape.empty()) continue;
+        if (const auto* instance = std::get_if<MeshInstance>(&shapes[id])) impl_->attach_instance(*instance, id, *this);
         if (const auto* sphere = std::get_if<Sphere>(&shapes[id])) impl_->attach_sphere(*sphere, id, *this);
         if (const auto* disk = std::get_if<Disk>(&shapes[id])) impl_->attach_disk(*disk, id, *this);
         if (const auto* cylinder = std::get_if<Cylinder>(&shapes[id])) impl_->attach_cylinder(*cylinder, id, *this);
@@ -174,7 +228,8 @@ bool RayCaster::intersect(const Vec3& origin, const Vec3& direction, double dist
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::trace(impl_->scene, query, embree::Query(without));
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    hit = {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / scale_};
+    hit = {embree::shape_of(query.hit.instID[0], query.hit.geomID), query.hit.primID, query.hit.u, query.hit.v,
+           query.ray.tfar / scale_};
     return true;
 }
 
@@ -212,7 +267,8 @@ std::uint32_t RayCaster::intersect(const Packet& packet, std::span<Hit> hits, Ra
     for (std::size_t i = 0; i < packet.size_; ++i) {
         if (queries.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
         found |= 1u << i;
-        hits[i] = {queries.hit.geomID[i], queries.hit.primID[i], queries.hit.u[i], queries.hit.v[i], queries.ray.tfar[i] / scale_};
+        hits[i] = {embree::shape_of(queries.hit.instID[0][i], queries.hit.geomID[i]), queries.hit.primID[i], queries.hit.u[i],
+                   queries.hit.v[i], queries.ray.tfar[i] / scale_};
     }
     return found;
 }
@@ -228,8 +284,8 @@ std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
 
 void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) const {
     const Vec3 at = to_embree(p);
-    // The radius covers the rounding of the boxes and of p to float.
-    const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_);
+    // The radius covers the rounding of the boxes, of p to float, and of p in the coordinates of an instance.
+    const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_) * (1.0 + impl_->distortion);
     RTCPointQuery query{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z), 0.0f,
                         std::nextafter(static_cast<float>(radius), infinity)};
     RTCPointQueryContext context;
@@ -237,7 +293,9 @@ void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) c
     rtcPointQuery(
         impl_->scene, &query, &context,
         [](RTCPointQueryFunctionArguments* args) {
-            static_cast<std::vector<Face>*>(args->userPtr)->push_back({args->geomID, args->primID});
+            const RTCPointQueryContext& query_context = *args->context;
+            const std::uint32_t shape = query_context.instStackSize > 0 ? query_context.instID[0] : args->geomID;
+            static_cast<std::vector<Face>*>(args->userPtr)->push_back({shape, args->primID});
             return false;
         },
         &found);

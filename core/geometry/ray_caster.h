@@ -1,5 +1,6 @@
 // The only user of Embree (3.13 or 4): closest hits and occlusion, in floats and in coordinates of about unit size. Spheres, discs
-// and cylinders are intersected in double, so they are as exact as the ray.
+// and cylinders are intersected in double, so they are as exact as the ray. Instances are Embree's; their mesh, too, is moved and
+// scaled to unit size.
 #pragma once
 
 #include "core/geometry/face.h"

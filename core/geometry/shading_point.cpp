@@ -13,17 +13,32 @@ bool is_direction(const Vec3& v) {
     return length > 0.0 && std::isfinite(length);
 }
 
-template <class T>
-T interpolate(const std::vector<T>& values, const TriangleMesh& mesh, const SurfacePoint& p) {
-    const Vec3 weights = vertex_weights(mesh, p);
-    const auto& t = mesh.triangles[p.primitive];
-    return values[t[0]] * weights.x + values[t[1]] * weights.y + values[t[2]] * weights.z;
+Vec3 weights_at(const TriangleCorners& corners, const Vec3& p) {
+    const Vec3 &a = corners.at[0], e1 = corners.at[1] - a, e2 = corners.at[2] - a, d = p - a;
+    const Vec3 n = glm::cross(e1, e2);
+    const double square = glm::dot(n, n);
+    const double v = glm::dot(glm::cross(d, e2), n) / square, w = glm::dot(glm::cross(e1, d), n) / square;
+    return {1.0 - v - w, v, w};
 }
+
+template <class ValueOf>
+auto interpolate(const TriangleCorners& corners, const SurfacePoint& p, const ValueOf& value) {
+    const Vec3 weights = weights_at(corners, p.position);
+    const auto& t = corners.vertices;
+    return value(t[0]) * weights.x + value(t[1]) * weights.y + value(t[2]) * weights.z;
+}
+
+Vec3 unit_or(const Vec3& otherwise, const Vec3& v) { return is_direction(v) ? v / glm::length(v) : otherwise; }
 
 Vec3 shading_normal(const TriangleMesh& mesh, const SurfacePoint& p) {
     if (mesh.normals.empty()) return p.normal;
-    const Vec3 n = interpolate(mesh.normals, mesh, p);
-    return is_direction(n) ? n / glm::length(n) : p.normal;
+    return unit_or(p.normal, interpolate(corners_of(mesh, p.primitive), p, [&](std::uint32_t i) { return mesh.normals[i]; }));
+}
+Vec3 shading_normal(const MeshInstance& instance, const SurfacePoint& p) {
+    const std::vector<Vec3>& normals = instance.mesh().normals;
+    if (normals.empty()) return p.normal;
+    return unit_or(p.normal, interpolate(corners_of(instance, p.primitive), p,
+                                         [&](std::uint32_t i) { return instance.normal_to_world(normals[i]); }));
 }
 template <class Round>
 Vec3 shading_normal(const Round&, const SurfacePoint& p) {
@@ -37,28 +52,39 @@ struct OnTriangle {
     Vec3 e1, e2;                      // edges, from the first vertex
     Vec2 d1{1.0, 0.0}, d2{0.0, 1.0};  // changes of (u, v) along the edges
 
-    OnTriangle(const TriangleMesh& mesh, std::uint32_t triangle) {
-        const auto& t = mesh.triangles[triangle];
-        e1 = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-        e2 = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-        if (mesh.uv.empty()) return;
-        d1 = mesh.uv[t[1]] - mesh.uv[t[0]];
-        d2 = mesh.uv[t[2]] - mesh.uv[t[0]];
+    OnTriangle(const TriangleCorners& corners, const std::vector<Vec2>& uv)
+        : e1(corners.at[1] - corners.at[0]), e2(corners.at[2] - corners.at[0]) {
+        if (uv.empty()) return;
+        const auto& t = corners.vertices;
+        d1 = uv[t[1]] - uv[t[0]];
+        d2 = uv[t[2]] - uv[t[0]];
     }
     double determinant() const { return d1.x * d2.y - d1.y * d2.x; }
+    Vec3 along_u() const { return (e1 * d2.y - e2 * d1.y) / determinant(); }
+    Vec3 along_v() const { return (e2 * d1.x - e1 * d2.x) / determinant(); }
 };
+Vec2 coordinates(const TriangleCorners& corners, const std::vector<Vec2>& uv, const SurfacePoint& p) {
+    if (!uv.empty()) return interpolate(corners, p, [&](std::uint32_t i) { return uv[i]; });
+    const Vec3 weights = weights_at(corners, p.position);
+    return {weights.y, weights.z};
+}
+
 Vec3 along_u(const TriangleMesh& mesh, const SurfacePoint& p) {
-    const OnTriangle t(mesh, p.primitive);
-    return (t.e1 * t.d2.y - t.e2 * t.d1.y) / t.determinant();
+    return OnTriangle(corners_of(mesh, p.primitive), mesh.uv).along_u();
 }
 Vec3 along_v(const TriangleMesh& mesh, const SurfacePoint& p) {
-    const OnTriangle t(mesh, p.primitive);
-    return (t.e2 * t.d1.x - t.e1 * t.d2.x) / t.determinant();
+    return OnTriangle(corners_of(mesh, p.primitive), mesh.uv).along_v();
 }
-Vec2 coordinates(const TriangleMesh& mesh, const SurfacePoint& p) {
-    if (!mesh.uv.empty()) return interpolate(mesh.uv, mesh, p);
-    const Vec3 weights = vertex_weights(mesh, p);
-    return {weights.y, weights.z};
+Vec2 coordinates(const TriangleMesh& mesh, const SurfacePoint& p) { return coordinates(corners_of(mesh, p.primitive), mesh.uv, p); }
+
+Vec3 along_u(const MeshInstance& instance, const SurfacePoint& p) {
+    return OnTriangle(corners_of(instance, p.primitive), instance.mesh().uv).along_u();
+}
+Vec3 along_v(const MeshInstance& instance, const SurfacePoint& p) {
+    return OnTriangle(corners_of(instance, p.primitive), instance.mesh().uv).along_v();
+}
+Vec2 coordinates(const MeshInstance& instance, const SurfacePoint& p) {
+    return coordinates(corners_of(instance, p.primitive), instance.mesh().uv, p);
 }
 
 Vec3 on_unit_sphere(const Sphere& sphere, const SurfacePoint& p) {
@@ -117,13 +143,9 @@ Vec2 coordinates(const Cylinder& cylinder, const SurfacePoint& p) {
 
 }  // namespace
 
-Vec3 vertex_weights(const TriangleMesh& mesh, const SurfacePoint& p) {
-    const auto& t = mesh.triangles[p.primitive];
-    const Vec3 &a = mesh.vertices[t[0]], e1 = mesh.vertices[t[1]] - a, e2 = mesh.vertices[t[2]] - a, d = p.position - a;
-    const Vec3 n = glm::cross(e1, e2);
-    const double square = glm::dot(n, n);
-    const double v = glm::dot(glm::cross(d, e2), n) / square, w = glm::dot(glm::cross(e1, d), n) / square;
-    return {1.0 - v - w, v, w};
+VertexWeights vertex_weights(const Shape& shape, const SurfacePoint& p) {
+    const TriangleCorners corners = corners_of(shape, p.primitive);
+    return {corners.vertices, weights_at(corners, p.position)};
 }
 
 ShadingPoint shading_point(const Shape& shape, const SurfacePoint& p) {
@@ -157,7 +179,7 @@ Tangents tangents(const ShadingPoint& p) {
 }
 
 bool has_smooth_normals(const Shape& shape) {
-    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    const TriangleMesh* mesh = mesh_of(shape);
     return mesh && !mesh->normals.empty();
 }
 

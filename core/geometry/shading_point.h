@@ -30,8 +30,12 @@ struct Tangents {
 };
 Tangents tangents(const ShadingPoint& p);
 
-// The weights of a triangle's vertices at p.
-Vec3 vertex_weights(const TriangleMesh& mesh, const SurfacePoint& p);
+// The vertices of the triangle of a mesh or an instance on which p lies, and their weights there.
+struct VertexWeights {
+    std::array<std::uint32_t, 3> vertices;
+    Vec3 weights;
+};
+VertexWeights vertex_weights(const Shape& shape, const SurfacePoint& p);
 
 // Whether shading normals of the shape may differ from geometric ones.
 bool has_smooth_normals(const Shape& shape);

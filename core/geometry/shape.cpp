@@ -1,5 +1,7 @@
 #include "core/geometry/shape.h"
 
+#include "core/geometry/affine.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,9 +9,6 @@
 namespace neumann {
 
 namespace {
-
-Vec3 transform_point(const Mat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
-Vec3 transform_vector(const Mat4& m, const Vec3& v) { return Vec3(m * glm::dvec4(v, 0.0)); }
 
 // A mirroring transform reverses the winding, but Mitsuba's own shapes still face the same side.
 void orient(TriangleMesh& mesh, const Mat4& to_world, bool flip_normals) {
@@ -19,13 +18,18 @@ void orient(TriangleMesh& mesh, const Mat4& to_world, bool flip_normals) {
 
 }  // namespace
 
-const MeshAttribute* TriangleMesh::attribute(const std::string& name) const {
-    const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const MeshAttribute& a) { return a.name == name; });
-    return found == attributes.end() ? nullptr : &*found;
+const TriangleMesh* mesh_of(const Shape& shape) {
+    if (const auto* instance = std::get_if<MeshInstance>(&shape)) return &instance->mesh();
+    return std::get_if<TriangleMesh>(&shape);
+}
+
+TriangleCorners corners_of(const Shape& shape, std::uint32_t triangle) {
+    if (const auto* instance = std::get_if<MeshInstance>(&shape)) return corners_of(*instance, triangle);
+    return corners_of(std::get<TriangleMesh>(shape), triangle);
 }
 
 bool has_extent(const Shape& shape) {
-    if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return !mesh->triangles.empty();
+    if (const auto* mesh = mesh_of(shape)) return !mesh->triangles.empty();
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius > 0.0;
     if (const auto* disk = std::get_if<Disk>(&shape)) return glm::length(glm::cross(disk->u, disk->v)) > 0.0;
     return std::get<Cylinder>(shape).has_extent();
@@ -38,6 +42,7 @@ Bounds bounds_of(const Shape& shape) {
             for (const std::uint32_t index : t) bounds.add(mesh->vertices[index]);
         return bounds;
     }
+    if (const auto* instance = std::get_if<MeshInstance>(&shape)) return instance->bounds();
     Vec3 center, extent;
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
         center = sphere->center;
@@ -57,7 +62,7 @@ Bounds bounds_of(const Shape& shape) {
 TriangleMesh make_rectangle(const Mat4& to_world, bool flip_normals) {
     TriangleMesh mesh;
     for (const Vec3 corner : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)})
-        mesh.vertices.push_back(transform_point(to_world, corner));
+        mesh.vertices.push_back(transformed_point(to_world, corner));
     mesh.uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     orient(mesh, to_world, flip_normals);
@@ -76,7 +81,7 @@ TriangleMesh make_cube(const Mat4& to_world, bool flip_normals) {
     for (const Face& f : faces) {
         const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
         for (const Vec2 uv : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) {
-            mesh.vertices.push_back(transform_point(to_world, f.corner + f.u * uv.x + f.v * uv.y));
+            mesh.vertices.push_back(transformed_point(to_world, f.corner + f.u * uv.x + f.v * uv.y));
             mesh.uv.push_back(uv);
         }
         mesh.triangles.push_back({first, first + 2, first + 1});
@@ -88,9 +93,9 @@ TriangleMesh make_cube(const Mat4& to_world, bool flip_normals) {
 
 Disk make_disk(const Mat4& to_world, bool flip_normals) {
     Disk disk;
-    disk.center = transform_point(to_world, Vec3(0.0));
-    disk.u = transform_vector(to_world, {1, 0, 0});
-    disk.v = transform_vector(to_world, {0, 1, 0});
+    disk.center = transformed_point(to_world, Vec3(0.0));
+    disk.u = transformed_vector(to_world, {1, 0, 0});
+    disk.v = transformed_vector(to_world, {0, 1, 0});
     const Vec3 across = glm::cross(disk.u, disk.v);
     const double side = (glm::determinant(glm::dmat3(to_world)) < 0.0) == flip_normals ? 1.0 : -1.0;
     disk.normal = glm::length(across) > 0.0 ? side * glm::normalize(across) : Vec3(0, 0, 1);

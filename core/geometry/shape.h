@@ -1,35 +1,14 @@
-// The shapes: triangle meshes, and exact (not tessellated) spheres, discs and cylinders. Scene units, double.
+// The shapes: triangle meshes, instances of them, and exact (not tessellated) spheres, discs and cylinders. Scene units, double.
 #pragma once
 
 #include "core/base/frame.h"
 #include "core/geometry/bounds.h"
+#include "core/geometry/mesh_instance.h"
+#include "core/geometry/triangle_mesh.h"
 
-#include <array>
-#include <cstdint>
-#include <string>
 #include <variant>
-#include <vector>
 
 namespace neumann {
-
-// Colours that a file assigns to the vertices or triangles of a mesh ("vertex_color", "face_color"). Float, as in files.
-struct MeshAttribute {
-    std::string name;
-    bool of_triangles = false;
-    std::vector<std::array<float, 3>> values = {};
-};
-
-// Front side: vertices counter-clockwise.
-struct TriangleMesh {
-    std::vector<Vec3> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    // One for each vertex, or empty: shading normals, on the front side, and texture coordinates.
-    std::vector<Vec3> normals = {};
-    std::vector<Vec2> uv = {};
-    std::vector<MeshAttribute> attributes = {};
-
-    const MeshAttribute* attribute(const std::string& name) const;
-};
 
 // Front side: outside, or inside when flipped.
 struct Sphere {
@@ -66,10 +45,16 @@ struct Cylinder {
     Vec3 center() const { return base + axis * (0.5 * length); }
 };
 
-using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder>;
+using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder, MeshInstance>;
+
+// The mesh of a mesh or of an instance; otherwise null.
+const TriangleMesh* mesh_of(const Shape& shape);
+// Of a mesh or of an instance.
+TriangleCorners corners_of(const Shape& shape, std::uint32_t triangle);
 
 // For a mesh: whether it has triangles. Triangles without area must have been removed before.
 bool has_extent(const Shape& shape);
+// Of an instance, they may be larger than necessary.
 Bounds bounds_of(const Shape& shape);
 
 // Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed. Texture coordinates [0,1]² on each face.

@@ -8,6 +8,7 @@
 namespace neumann {
 
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat4& to_world);
+MeshInstance transformed(const MeshInstance& instance, const Mat4& to_world);
 Disk transformed(const Disk& disk, const Mat4& to_world);
 // Nothing if the result would be an ellipsoid: the scale must be the same in all directions, to 10⁻⁴.
 std::optional<Sphere> transformed(const Sphere& sphere, const Mat4& to_world);

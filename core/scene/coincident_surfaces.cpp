@@ -6,7 +6,13 @@ namespace {
 
 // Points away from edges and diagonals, where rays could hit neighbours.
 constexpr Vec2 places[] = {Vec2(0.5), Vec2(0.21, 0.34), Vec2(0.72, 0.13), Vec2(0.37, 0.81)};
-constexpr std::size_t many = 100'000;  // with more primitives, only one point of each is tested
+constexpr std::size_t many = 100'000;      // with more primitives, only one point of each is tested
+constexpr std::uint32_t of_instance = 64;  // about as many triangles of an instance are tested
+
+std::uint32_t step(const Shape& shape) {
+    const auto* instance = std::get_if<MeshInstance>(&shape);
+    return instance ? static_cast<std::uint32_t>(instance->mesh().triangles.size()) / of_instance + 1 : 1;
+}
 
 }  // namespace
 
@@ -14,13 +20,15 @@ CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials
                                        const std::vector<int>& light_of_shape) {
     const auto shapes = static_cast<std::uint32_t>(geometry.shapes().size());
     std::size_t primitives = 0;
-    for (std::uint32_t shape = 0; shape < shapes; ++shape) primitives += geometry.primitive_count(shape);
+    for (std::uint32_t shape = 0; shape < shapes; ++shape)
+        primitives += geometry.primitive_count(shape) / step(geometry.shapes()[shape]);
     const std::size_t looks = primitives > many ? 1 : std::size(places);
     CoincidentSurfaces found;
     for (std::uint32_t shape = 0; shape < shapes; ++shape) {
-        if (geometry.area(shape) == 0.0) continue;
+        if (!has_extent(geometry.shapes()[shape])) continue;
         bool is_unlike = false;
-        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape); ++primitive) {
+        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape);
+             primitive += step(geometry.shapes()[shape])) {
             bool is_covered = false;
             for (std::size_t k = 0; k < looks; ++k) {
                 const SurfacePoint point = geometry.point(shape, primitive, places[k]);

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
+#include <map>
 
 namespace neumann {
 
@@ -10,10 +11,26 @@ namespace {
 // Smallest value of twice the area, in Embree's coordinates; below it products of floats underflow.
 constexpr double least_area = 1e-30;
 
-bool is_lost(const RayCaster& caster, const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-    const auto rounded = [&](std::uint32_t vertex) { return Vec3(glm::vec3(caster.to_embree(mesh.vertices[vertex]))); };
-    const Vec3 a = rounded(t[0]), b = rounded(t[1]), c = rounded(t[2]);
+template <class ToEmbree>
+bool is_lost(const TriangleMesh& mesh, std::uint32_t triangle, const ToEmbree& to_embree) {
+    TriangleCorners corners = corners_of(mesh, triangle);
+    for (Vec3& corner : corners.at) corner = Vec3(glm::vec3(to_embree(corner)));
+    const auto& [a, b, c] = corners.at;
     return glm::length(glm::cross(b - a, c - a)) < least_area;
+}
+
+// Embree scales a mesh that has instances to unit size, so it is the same for all of them.
+std::size_t count_lost(const SharedMesh& shared) {
+    const double scale = scale_to_one(shared.bounds());
+    std::size_t lost = 0;
+    for (std::uint32_t k = 0; k < shared.mesh().triangles.size(); ++k)
+        lost += is_lost(shared.mesh(), k, [&](const Vec3& p) { return (p - shared.bounds().center()) * scale; });
+    return lost;
+}
+
+bool is_too_small(const MeshInstance& instance, const Geometry& geometry) {
+    constexpr double least_part = 1e-7;
+    return instance.bounds().radius() < least_part * geometry.radius();
 }
 
 // The median of the triangles' vertices, coordinate by coordinate.
@@ -35,13 +52,22 @@ Vec3 median_vertex(const TriangleMesh& mesh) {
 
 LostTriangles lost_triangles(const Geometry& geometry) {
     const auto& shapes = geometry.shapes();
+    std::map<const SharedMesh*, std::size_t> of_shared;
+    for (const Shape& shape : shapes)
+        if (const auto* instance = std::get_if<MeshInstance>(&shape); instance && !of_shared.contains(instance->shared().get()))
+            of_shared[instance->shared().get()] = count_lost(*instance->shared());
     std::vector<std::size_t> lost(shapes.size());
     oneapi::tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
+        if (const auto* instance = std::get_if<MeshInstance>(&shapes[i])) {
+            lost[i] =
+                is_too_small(*instance, geometry) ? instance->mesh().triangles.size() : of_shared.at(instance->shared().get());
+            return;
+        }
         const auto* mesh = std::get_if<TriangleMesh>(&shapes[i]);
         if (!mesh) return;
         const auto& giants = geometry.giants();
         for (std::uint32_t k = 0; k < mesh->triangles.size(); ++k)
-            lost[i] += is_lost(geometry.caster(), *mesh, mesh->triangles[k]) &&
+            lost[i] += is_lost(*mesh, k, [&](const Vec3& p) { return geometry.caster().to_embree(p); }) &&
                        !std::binary_search(giants.begin(), giants.end(), Face{static_cast<std::uint32_t>(i), k});
     });
     LostTriangles found;

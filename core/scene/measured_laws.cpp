@@ -60,7 +60,7 @@ MeasuredLaws measure_laws(const Geometry& geometry, const Materials& materials) 
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         for (const bool front : {true, false}) {
             const Bsdf* bsdf = materials.at(shape, front);
-            if (!bsdf || is_lawful(*bsdf) || geometry.area(shape) == 0.0 || !known.insert(bsdf).second) continue;
+            if (!bsdf || is_lawful(*bsdf) || !has_extent(geometry.shapes()[shape]) || !known.insert(bsdf).second) continue;
             places.push_back({shape, front, 0.0});
             bsdfs.push_back(bsdf);
         }

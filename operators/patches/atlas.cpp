@@ -8,12 +8,7 @@ namespace neumann {
 
 namespace {
 
-struct Corners {
-    Vec3 a, b, c;
-    Corners(const TriangleMesh& mesh, std::size_t i)
-        : a(mesh.vertices[mesh.triangles[i][0]]), b(mesh.vertices[mesh.triangles[i][1]]), c(mesh.vertices[mesh.triangles[i][2]]) {}
-    Vec3 across() const { return glm::cross(b - a, c - a); }
-};
+Vec3 across(const std::array<Vec3, 3>& corners) { return glm::cross(corners[1] - corners[0], corners[2] - corners[0]); }
 
 bool before(const Vec3& x, const Vec3& y) { return std::array{x.x, x.y, x.z} < std::array{y.x, y.y, y.z}; }
 
@@ -57,21 +52,22 @@ void Atlas::add_mesh(std::uint32_t shape, const TriangleMesh& mesh, double patch
     add_pairs(shape, mesh, has_chart);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (has_chart[i]) continue;
-        const Corners t(mesh, i);
-        const double twice = glm::length(t.across());
-        const Vec3 normal = t.across() / twice;
         const auto number = static_cast<std::uint32_t>(i);
+        const std::array<Vec3, 3> corners = corners_of(mesh, number).at;
+        const auto& [a, b, c] = corners;
+        const double twice = glm::length(across(corners));
+        const Vec3 normal = across(corners) / twice;
         Primitive& primitive = primitives_[first_of_shape_[shape] + i];
         primitive.chart = static_cast<std::uint32_t>(charts_.size());
         if (0.5 * twice <= patch_area) {
-            charts_.emplace_back(shape, std::array{t.a, t.b, t.c, t.c}, normal, number, number);
+            charts_.emplace_back(shape, std::array{a, b, c, c}, normal, number, number);
             continue;
         }
-        const Vec3 middle = (t.a + t.b + t.c) / 3.0, ab = 0.5 * (t.a + t.b), bc = 0.5 * (t.b + t.c), ca = 0.5 * (t.c + t.a);
-        charts_.emplace_back(shape, std::array{t.a, ab, middle, ca}, normal, number, number);
-        charts_.emplace_back(shape, std::array{t.b, bc, middle, ab}, normal, number, number);
-        charts_.emplace_back(shape, std::array{t.c, ca, middle, bc}, normal, number, number);
-        cut_.emplace_back(t.a, t.b, t.c, 0.0);
+        const Vec3 middle = (a + b + c) / 3.0, ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+        charts_.emplace_back(shape, std::array{a, ab, middle, ca}, normal, number, number);
+        charts_.emplace_back(shape, std::array{b, bc, middle, ab}, normal, number, number);
+        charts_.emplace_back(shape, std::array{c, ca, middle, bc}, normal, number, number);
+        cut_.emplace_back(a, b, c, 0.0);
         primitive.cut = static_cast<std::uint32_t>(cut_.size());
     }
 }
@@ -80,9 +76,8 @@ void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector
     // The longest shared edges come first: these are the diagonals of rectangles.
     std::map<EdgeEnds, std::vector<std::uint32_t>> at_edge;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Corners t(mesh, i);
-        for (const auto& [x, y] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)})
-            at_edge[edge_between(x, y)].push_back(i);
+        const auto [a, b, c] = corners_of(mesh, i).at;
+        for (const auto& [x, y] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) at_edge[edge_between(x, y)].push_back(i);
     }
     struct Shared {
         double length;
@@ -97,14 +92,13 @@ void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector
     for (const Shared& pair : shared) {
         if (has_chart[pair.first] || has_chart[pair.second]) continue;
         // Rotated so that the triangles are a b c and a c d, which share the edge a c.
-        const Corners lower(mesh, pair.first), upper(mesh, pair.second);
-        const std::array low{lower.a, lower.b, lower.c}, up{upper.a, upper.b, upper.c};
+        const std::array<Vec3, 3> low = corners_of(mesh, pair.first).at, up = corners_of(mesh, pair.second).at;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
                 const Vec3 a = low[i], b = low[(i + 1) % 3], c = low[(i + 2) % 3];
                 if (has_chart[pair.first] || up[j] != a || up[(j + 1) % 3] != c) continue;
                 const std::array quad{a, b, c, up[(j + 2) % 3]};
-                const Vec3 normal = glm::normalize(lower.across());
+                const Vec3 normal = glm::normalize(across(low));
                 if (!is_plane_and_convex(quad, normal)) continue;
                 for (const std::uint32_t triangle : {pair.first, pair.second}) {
                     has_chart[triangle] = true;

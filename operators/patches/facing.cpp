@@ -21,9 +21,11 @@ Facing::Facing(const Geometry& geometry) : geometry_(geometry) {
             balls_.push_back({sphere->center, sphere->radius});
         } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
             balls_.push_back({cylinder->center(), glm::length(cylinder->extent())});
+        } else if (const auto* disk = std::get_if<Disk>(&shape)) {
+            balls_.push_back({disk->center, std::sqrt(glm::dot(disk->u, disk->u) + glm::dot(disk->v, disk->v))});
         } else {
-            const Disk& disk = std::get<Disk>(shape);
-            balls_.push_back({disk.center, std::sqrt(glm::dot(disk.u, disk.u) + glm::dot(disk.v, disk.v))});
+            const Bounds bounds = bounds_of(shape);
+            balls_.push_back({bounds.center(), bounds.radius()});
         }
     }
     if (balls_.size() <= most_points) return;

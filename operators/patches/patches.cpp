@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,13 @@ namespace neumann {
 
 namespace {
 
+std::size_t triangles_of_instances(const Geometry& geometry) {
+    std::size_t sum = 0;
+    for (const Shape& shape : geometry.shapes())
+        if (const auto* instance = std::get_if<MeshInstance>(&shape)) sum += instance->mesh().triangles.size();
+    return sum;
+}
+
 double total_area(const Geometry& geometry) {
     double sum = 0.0;
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) sum += geometry.area(shape);
@@ -18,6 +26,11 @@ double total_area(const Geometry& geometry) {
 }
 
 double positive_area(const Geometry& geometry) {
+    if (const std::size_t triangles = triangles_of_instances(geometry); triangles > 0)
+        throw InputError(
+            fmt::format("the scene has meshes that are in memory once and seen several times, {} triangles in all, and patches "
+                        "would hold each of these; the methods walk, bidirectional and pointwise do without patches",
+                        triangles));
     const double area = total_area(geometry);
     if (area == 0.0) throw InputError("the scene has no surfaces, so there is nothing to cut into patches");
     return area;

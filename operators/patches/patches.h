@@ -19,7 +19,7 @@ struct Patching {
 
 class Patches {
 public:
-    // Throws InputError if there are no surfaces, or if `patches` is 0.
+    // Throws InputError if there are no surfaces, if there are instances of meshes, or if `patches` is 0.
     Patches(const Geometry& geometry, const Patching& patching);
 
     // Patches twice as wide in both directions, if a chart has enough. point() must not be called on them.

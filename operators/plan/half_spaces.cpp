@@ -12,11 +12,15 @@ namespace {
 // Limit on the number of planes times vertices, which takes a fraction of a second.
 constexpr double most_work = 1e8;
 
-// max over the shape of n·(p − origin).
+// max over the shape of n·(p − origin); of an instance a bound.
 double support(const TriangleMesh& mesh, const Vec3& n, const Vec3& origin) {
     double most = -std::numeric_limits<double>::infinity();
     for (const Vec3& v : mesh.vertices) most = std::max(most, glm::dot(n, v - origin));
     return most;
+}
+double support(const MeshInstance& instance, const Vec3& n, const Vec3& origin) {
+    const Bounds b = instance.bounds();
+    return glm::dot(n, b.center() - origin) + 0.5 * glm::dot(glm::abs(n), b.high - b.low);
 }
 double support(const Sphere& s, const Vec3& n, const Vec3& origin) { return glm::dot(n, s.center - origin) + s.radius; }
 double support(const Disk& d, const Vec3& n, const Vec3& origin) {
@@ -41,7 +45,7 @@ HalfSpaces::HalfSpaces(const Geometry& geometry)
     : geometry_(geometry), shapes_(geometry.shapes()), rounding_(geometry.radius() * 0x1p-32) {
     double vertices = 0.0, planes = 0.0;
     for (const Shape& shape : shapes_) {
-        const auto* mesh = std::get_if<TriangleMesh>(&shape);
+        const TriangleMesh* mesh = mesh_of(shape);
         vertices += mesh ? static_cast<double>(mesh->vertices.size()) : 1.0;
         planes += mesh ? static_cast<double>(mesh->triangles.size()) : 1.0;
     }
@@ -72,6 +76,7 @@ bool HalfSpaces::all_others(const Round& round, const Distance& distance, const 
             return std::all_of(mesh->vertices.begin(), mesh->vertices.end(), [&](const Vec3& v) { return distance(v) <= most; });
         if (const auto* sphere = std::get_if<Sphere>(&shape)) return distance(sphere->center) + sphere->radius <= most;
         if (const auto* disk = std::get_if<Disk>(&shape)) return distance(disk->center) + reach(disk->u, disk->v) <= most;
+        if (std::holds_alternative<MeshInstance>(shape)) return false;
         return std::get_if<Round>(&shape) == &round;
     });
 }

@@ -23,6 +23,16 @@ inline const Place places[] = {
 inline TriangleMesh box(const Vec3& low, const Vec3& high) {
     return make_cube(glm::scale(glm::translate(Mat4(1.0), 0.5 * (low + high)), 0.5 * (high - low)));
 }
+// Each mesh in coordinates of its own, which are stretched and turned, and every second one mirrored.
+inline Geometry placed_as_instances(const std::vector<TriangleMesh>& meshes, const Mat4& to_world) {
+    std::vector<Shape> shapes;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const Mat4 own = glm::scale(glm::rotate(Mat4(1.0), 0.7, Vec3(0.6, 0, 0.8)), Vec3(i % 2 ? -0.1 : 0.1, 0.3, 0.2));
+        shapes.emplace_back(
+            MeshInstance(std::make_shared<const SharedMesh>(transformed(meshes[i], glm::inverse(own))), to_world * own));
+    }
+    return Geometry(std::move(shapes));
+}
 inline Geometry placed(const std::vector<TriangleMesh>& meshes, const Mat4& to_world) {
     std::vector<Shape> shapes;
     for (const TriangleMesh& mesh : meshes) shapes.emplace_back(transformed(mesh, to_world));

@@ -24,9 +24,9 @@ class Brute {
 public:
     explicit Brute(const Geometry& geometry) {
         for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
-            const auto& mesh = std::get<TriangleMesh>(geometry.shapes()[shape]);
-            for (const auto& t : mesh.triangles) {
-                const Long a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+            for (std::uint32_t i = 0; i < geometry.primitive_count(shape); ++i) {
+                const TriangleCorners corners = corners_of(geometry.shapes()[shape], i);
+                const Long a = corners.at[0], b = corners.at[1], c = corners.at[2];
                 planes_.push_back({a, b - a, c - a, glm::normalize(glm::cross(b - a, c - a))});
             }
         }
@@ -153,10 +153,9 @@ SurfacePoint anywhere(const Geometry& geometry, Sampler& random) {
 SurfacePoint near_edges(const Geometry& geometry, Sampler& random) {
     const auto shape = static_cast<std::uint32_t>(random.next() * static_cast<double>(geometry.shapes().size()));
     const auto primitive = static_cast<std::uint32_t>(random.next() * geometry.primitive_count(shape));
-    const auto& mesh = std::get<TriangleMesh>(geometry.shapes()[shape]);
-    const auto& t = mesh.triangles[primitive];
-    const int k = static_cast<int>(3.0 * random.next());
-    const Vec3 &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]], &c = mesh.vertices[t[(k + 2) % 3]];
+    const std::array<Vec3, 3> corners = corners_of(geometry.shapes()[shape], primitive).at;
+    const auto k = static_cast<std::size_t>(3.0 * random.next());
+    const Vec3 &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
     const double along = random.next(), in = std::pow(10.0, -8.0 * random.next());
     return geometry.point_on_triangle(shape, primitive, glm::mix(glm::mix(a, b, along), c, in));
 }
@@ -228,6 +227,23 @@ TEST(CloseSurfaces, AreMetWhereBoxesTouchAndOverlap) {
                 const Counts counts = compare(geometry, 10000, 3, [&](Sampler& random) { return near_edges(geometry, random); });
                 EXPECT_EQ(counts.wrong, 0) << place.name << ", gap " << gap << ", of " << counts.rays << ", close " << counts.close;
             }
+}
+
+// The faces of instances as well, although nothing is kept of where they are close.
+TEST(CloseSurfaces, AreMetOnInstances) {
+    for (const Place& place : places)
+        for (const double gap : {0.0, 1e-9, 1e-6, 1e-3}) {
+            const Geometry geometry =
+                placed_as_instances({quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), known::box({-0.5, -0.5, gap}, {0, 0, 0.5 + gap}),
+                                     known::box({gap, -0.4, 0}, {0.3, 0.1, 0.3}), known::box({-0.1, -0.1, -0.1}, {0.2, 0.2, 0.2}),
+                                     known::box({-0.5, -0.5, 0.5 + 2 * gap}, {0, 0, 0.7})},
+                                    place.to_world);
+            const Counts counts = compare(geometry, 3000, 4, [&](Sampler& random) {
+                return random.next() < 0.5 ? anywhere(geometry, random) : near_edges(geometry, random);
+            });
+            EXPECT_EQ(counts.wrong, 0) << place.name << ", gap " << gap << ", of " << counts.rays << ", close " << counts.close;
+            EXPECT_GT(counts.close, 0);
+        }
 }
 
 // A light without extent may lie on a face, which then hides nothing from it.

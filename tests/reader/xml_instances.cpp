@@ -1,5 +1,4 @@
 // Shape groups and their instances.
-#include "core/base/memory.h"
 #include "core/reader/read_scene.h"
 #include "tests/reader/xml_scene_files.h"
 
@@ -16,6 +15,11 @@ protected:
     }
     static std::string to_world(const std::string& transform) { return "<transform name='to_world'>" + transform + "</transform>"; }
     static const TriangleMesh& mesh(const SceneParts& parts, std::size_t i) { return std::get<TriangleMesh>(parts.shapes.at(i)); }
+    static std::string repeated(const std::string& text, int times) {
+        std::string all;
+        for (int i = 0; i < times; ++i) all += text;
+        return all;
+    }
     static Vec3 normal(const TriangleMesh& mesh) {
         const auto& t = mesh.triangles.at(0);
         return glm::normalize(glm::cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
@@ -130,8 +134,8 @@ TEST_F(XmlInstances, Errors) {
               "scene.xml:4:1: to_world of shape 'instance' moves a shape out of the range of numbers");
 }
 
-// What cannot fit is refused before the first copy.
-TEST_F(XmlInstances, Memory) {
+// Copies of more than a million triangles stay instances of meshes that are in memory once.
+TEST_F(XmlInstances, ManyTrianglesAreShared) {
     constexpr int triangles = 100'000;
     std::string ply = fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -141,15 +145,32 @@ TEST_F(XmlInstances, Memory) {
     ply.append(reinterpret_cast<const char*>(positions), sizeof(positions));
     for (int i = 0; i < triangles; ++i) ply.append({3, 0, 1, 2});
     write("many.ply", ply);
-    const int fitting = static_cast<int>(0.5 * physical_memory() / (300.0 * triangles));
-    std::string text =
-        "<shape type='shapegroup' id='g'><shape type='ply'><string name='filename' value='many.ply'/></shape></shape>\n";
-    for (int i = 0; i <= fitting; ++i) text += "<shape type='instance'><ref id='g'/></shape>\n";
-    const double all = (fitting + 1.0) * triangles;
-    EXPECT_EQ(error(text),
-              fmt::format("scene.xml:{}:1: with this instance there are {:.0f} triangles of instances, each of them kept; "
-                          "they need about {:.1f} GiB, more than half of the machine's {:.1f}",
-                          fitting + 3, all, 300.0 * all / 0x1p30, physical_memory() / 0x1p30));
+    const auto instances = [&](int count) {
+        std::string text =
+            "<shape type='shapegroup' id='g'><shape type='sphere'/>"
+            "<shape type='ply'><string name='filename' value='many.ply'/><boolean name='face_normals' "
+            "value='true'/></shape></shape>\n";
+        for (int i = 0; i < count; ++i)
+            text +=
+                fmt::format("<shape type='instance'><ref id='g'/>{}</shape>\n", to_world(fmt::format("<translate x='{}'/>", i)));
+        return read(text);
+    };
+    EXPECT_TRUE(std::holds_alternative<TriangleMesh>(instances(9).shapes.at(1)));
+    const SceneParts parts = instances(11);
+    ASSERT_EQ(parts.shapes.size(), 22u);
+    const auto shared = std::get<MeshInstance>(parts.shapes[1]).shared();
+    for (std::size_t i = 0; i < 11; ++i) {
+        EXPECT_EQ(std::get<Sphere>(parts.shapes[2 * i]).center, Vec3(static_cast<double>(i), 0, 0));
+        const auto& instance = std::get<MeshInstance>(parts.shapes[2 * i + 1]);
+        EXPECT_EQ(instance.shared(), shared);
+        EXPECT_EQ(corners_of(instance, 99'999).at, (std::array<Vec3, 3>{Vec3(i, 0, 0), Vec3(i + 1, 0, 0), Vec3(i, 1, 0)}));
+    }
+    const std::string far = to_world("<scale value='1e300'/><scale value='1e300'/>");
+    EXPECT_EQ(
+        error("<shape type='shapegroup' id='g'><shape type='ply'><string name='filename' value='many.ply'/></shape></shape>\n" +
+              repeated("<shape type='instance'><ref id='g'/></shape>\n", 11) + "<shape type='instance'><ref id='g'/>\n" + far +
+              "</shape>"),
+        "scene.xml:15:1: to_world of shape 'instance' moves a shape out of the range of numbers");
 }
 
 }  // namespace neumann::xml_instances_test

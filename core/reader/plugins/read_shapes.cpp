@@ -1,6 +1,5 @@
 #include "core/reader/plugins/read_shapes.h"
 
-#include "core/base/memory.h"
 #include "core/geometry/transformed.h"
 #include "core/reader/xml/properties.h"
 
@@ -16,9 +15,8 @@ namespace neumann::reader {
 
 namespace {
 
-// Memory per triangle, including its part of the vertices and of the acceleration structures.
-constexpr double bytes_of_triangle = 300.0;
-constexpr double part_of_memory = 0.5;
+// Copies are faster to trace and can be cut into patches.
+constexpr double most_copied_triangles = 1e6;
 
 struct Reading {
     const Element* element;
@@ -42,11 +40,13 @@ struct Item {
 const std::string& type_of(const Element& e) { return e.attribute("type").value; }
 
 double triangle_count(const Shape& shape) {
-    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    const TriangleMesh* mesh = mesh_of(shape);
     return mesh ? static_cast<double>(mesh->triangles.size()) : 1.0;
 }
 
 bool has_finite_vertices(const Shape& shape) {
+    if (const auto* instance = std::get_if<MeshInstance>(&shape))
+        return is_finite(instance->bounds().low) && is_finite(instance->bounds().high);
     const auto* mesh = std::get_if<TriangleMesh>(&shape);
     return !mesh || std::all_of(mesh->vertices.begin(), mesh->vertices.end(), [](const Vec3& v) { return is_finite(v); });
 }
@@ -82,7 +82,7 @@ public:
     }
 
     void hand_out(const std::function<void(ReadShape)>& take) {
-        add_up_instances();
+        share_meshes();
         for (Item& item : items_) {
             if (item.shape) {
                 if (!item.shape->is_right) continue;
@@ -102,6 +102,7 @@ public:
 private:
     struct Group {
         std::vector<Reading*> shapes;
+        int instances = 0;
         bool is_finished = false;
     };
 
@@ -176,23 +177,29 @@ private:
         for (const auto& [name, range] : reading.textures.attributes) context_.textures.widen(name, range);
     }
 
-    // Adds up the triangles of instances before any is expanded, and finds the first that does not fit in memory.
-    void add_up_instances() {
+    static bool is_instance(const Item& item) { return item.group && item.group != item.element; }
+
+    // Shares the meshes of groups with several instances, unless there are few triangles to copy.
+    void share_meshes() {
+        double triangles = 0.0;
         for (const Item& item : items_) {
-            if (!item.group || item.group == item.element) continue;
-            for (const Reading* reading : groups_.at(item.group).shapes) expanded_ += triangle_count(reading->shape.shape);
-            if (expanded_ * bytes_of_triangle <= part_of_memory * physical_memory()) continue;
-            too_many_ = &item;
-            return;
+            if (!is_instance(item)) continue;
+            Group& group = groups_.at(item.group);
+            ++group.instances;
+            for (const Reading* reading : group.shapes) triangles += triangle_count(reading->shape.shape);
         }
+        if (triangles <= most_copied_triangles) return;
+        for (auto& [element, group] : groups_)
+            if (group.instances > 1)
+                for (Reading* reading : group.shapes) share(reading->shape.shape);
+    }
+
+    static void share(Shape& shape) {
+        if (auto* mesh = std::get_if<TriangleMesh>(&shape))
+            shape = MeshInstance(std::make_shared<const SharedMesh>(std::move(*mesh)), Mat4(1.0));
     }
 
     void expand(const Item& item, const Group& group, const std::function<void(ReadShape)>& take) {
-        if (too_many_)
-            throw InputError(too_many_->element->place,
-                             fmt::format("with this instance there are {:.0f} triangles of instances, each of them kept; they need "
-                                         "about {:.1f} GiB, more than half of the machine's {:.1f}",
-                                         expanded_, expanded_ * bytes_of_triangle / 0x1p30, physical_memory() / 0x1p30));
         for (const Reading* reading : group.shapes) {
             const ReadShape& shape = reading->shape;
             std::optional<Shape> placed = transformed(shape.shape, item.to_world);
@@ -212,8 +219,6 @@ private:
     std::deque<Reading> readings_;  // in the order in which hand_out() comes to them
     std::map<const Element*, Group> groups_;
     std::set<std::string> known_files_;
-    double expanded_ = 0.0;           // triangles of instances
-    const Item* too_many_ = nullptr;  // the first instance that does not fit
 };
 
 }  // namespace

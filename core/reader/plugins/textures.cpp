@@ -118,12 +118,11 @@ Texture read_mesh_attribute(Properties& p, const Context& context) {
     p.finish();
     const TextureStore::Range range = context.textures.attributes[name];
     return {{[name, scale](const ShadingPoint& at) {
-                 const auto& mesh = std::get<TriangleMesh>(*at.on);
-                 const MeshAttribute& a = *mesh.attribute(name);
+                 const MeshAttribute& a = *mesh_of(*at.on)->attribute(name);
                  const auto value = [&](std::uint32_t i) { return Rgb(a.values[i][0], a.values[i][1], a.values[i][2]); };
                  if (a.of_triangles) return value(at.primitive) * scale;
-                 const auto& t = mesh.triangles[at.primitive];
-                 const Vec3 w = glm::max(vertex_weights(mesh, at), 0.0);
+                 const auto [t, weights] = vertex_weights(*at.on, at);
+                 const Vec3 w = glm::max(weights, 0.0);
                  return (value(t[0]) * w.x + value(t[1]) * w.y + value(t[2]) * w.z) * (scale / (w.x + w.y + w.z));
              },
              range.largest * scale},
