@@ -1,7 +1,8 @@
 #include "core/reader/collada/shapes.h"
 
-#include "core/base/memory.h"
+#include "core/reader/collada/corners.h"
 #include "core/reader/collada/materials.h"
+#include "core/reader/collada/meshes.h"
 #include "core/reader/collada/texts.h"
 #include "core/reader/import/make_elements.h"
 
@@ -14,9 +15,6 @@
 namespace neumann::reader::collada {
 
 namespace {
-
-// Memory per triangle of a shape, including its part of the vertices and of the acceleration structures.
-constexpr double bytes_of_triangle = 300.0;
 
 const std::array<std::string, 10> parts_of_mesh = {"extra",  "lines",     "linestrips", "polygons",  "polylist",
                                                    "source", "triangles", "trifans",    "tristrips", "vertices"};
@@ -49,9 +47,33 @@ public:
             if (has_triangles(primitive)) import_.problems.attempt(primitive.place, [&] { add_part(instance, *mesh, primitive); });
     }
 
+    // Adds all of these to the scene: meshes that stand at several places with the same material as instances.
+    void finish() {
+        using Part = std::pair<std::string, std::string>;
+        const auto part = [](const Placed& placed) { return Part(placed.mesh, placed.bound.bsdf); };
+        std::map<Part, int> places;
+        for (const Placed& placed : placed_) ++places[part(placed)];
+        std::set<Part> groups;
+        for (Placed& placed : placed_)
+            if (placed.mesh.empty() || placed.bound.emitter || places[part(placed)] == 1) {
+                add_alone(std::move(placed));
+            } else {
+                const bool is_first = groups.insert(part(placed)).second;
+                add_of_group(std::move(placed), is_first);
+            }
+    }
+
     Bounds bounds;
 
 private:
+    // A shape without its place and material.
+    struct Placed {
+        Element shape;
+        const Instance* instance;
+        Bound bound;
+        std::string mesh = {};  // empty: a sphere
+        bool is_flat = false;   // a mesh without normals
+    };
     struct Mesh {
         std::string name;
         std::shared_ptr<const MeshFile> file;  // null if it has no triangles, or its problem is told
@@ -66,9 +88,9 @@ private:
     void add_sphere(const Instance& instance, const Element& radius) {
         const double r = read_number(radius);
         const Bound bound = materials_.bound(*instance.use, nullptr);
-        Element shape = make_object("shape", "sphere", instance.use->place);
-        add_float(shape, "radius", r, radius.place);
-        finish(std::move(shape), instance, bound);
+        Placed sphere{make_object("shape", "sphere", instance.use->place), &instance, bound};
+        add_float(sphere.shape, "radius", r, radius.place);
+        placed_.push_back(std::move(sphere));
         for (int i = 0; i < 8; ++i) {
             const Vec3 corner((i & 1) != 0 ? r : -r, (i & 2) != 0 ? r : -r, (i & 4) != 0 ? r : -r);
             bounds.add(transformed(instance.to_world, corner));
@@ -80,37 +102,55 @@ private:
         const Mesh& made = make(*instance.element, mesh, primitive, bound.coordinates);
         if (!made.file) return;
         const TriangleMesh& triangles = made.file->mesh;
-        triangles_ += static_cast<double>(triangles.triangles.size());
-        if (triangles_ * bytes_of_triangle > 0.5 * physical_memory())
-            throw InputError(instance.use->place,
-                             fmt::format("with this instance there are {:.0f} triangles, each of them kept; they need about {:.1f} "
-                                         "GiB, more than half of the machine's {:.1f}",
-                                         triangles_, triangles_ * bytes_of_triangle / 0x1p30, physical_memory() / 0x1p30));
+
         if (bound.emitter && is_on_a_lamp(triangles, instance)) {
             import_.warnings.add(fmt::format(
                 "the geometry '{}' gives off light and lies on an area light: its light counts once, and the geometry is left out",
                 required_attribute(*instance.element, "id").value));
             return;
         }
-        Element shape = make_object("shape", "ply", instance.use->place);
-        add_string(shape, "filename", made.name, primitive.place);
-        if (made.file->normals.empty()) {
-            add_boolean(shape, "face_normals", true, primitive.place);
-            if (is_mirror(instance.to_world)) add_boolean(shape, "flip_normals", true, instance.node->place);
-        }
-        if (!triangles.uv.empty()) add_boolean(shape, "flip_tex_coords", true, primitive.place);
-        finish(std::move(shape), instance, bound);
+        Placed part{make_object("shape", "ply", instance.use->place), &instance, bound, made.name, made.file->normals.empty()};
+        add_string(part.shape, "filename", made.name, primitive.place);
+        if (part.is_flat) add_boolean(part.shape, "face_normals", true, primitive.place);
+        if (!triangles.uv.empty()) add_boolean(part.shape, "flip_tex_coords", true, primitive.place);
+        placed_.push_back(std::move(part));
         for (const Vec3& v : triangles.vertices) bounds.add(transformed(instance.to_world, v));
     }
 
-    void finish(Element shape, const Instance& instance, const Bound& bound) const {
-        if (instance.to_world != Mat4(1.0)) add_matrix(shape, "to_world", instance.to_world, instance.node->place);
-        if (!bound.bsdf.empty())
-            add_reference(shape, bound.bsdf, instance.use->place);
-        else if (!bound.emitter)
-            reader::add(shape, default_bsdf(instance.use->place));
-        if (bound.emitter) reader::add(shape, *bound.emitter);
-        reader::add(import_.scene.root, std::move(shape));
+    void add_alone(Placed placed) const {
+        const Instance& instance = *placed.instance;
+        if (placed.is_flat && is_mirror(instance.to_world)) add_boolean(placed.shape, "flip_normals", true, instance.node->place);
+        add_to_world(placed.shape, instance);
+        add_surface(placed);
+        reader::add(import_.scene.root, std::move(placed.shape));
+    }
+
+    void add_of_group(Placed placed, bool is_first) const {
+        const Instance& instance = *placed.instance;
+        const std::string group = fmt::format("instances of {}, {}", placed.mesh, placed.bound.bsdf);
+        if (is_first) {
+            add_surface(placed);
+            Element e = make_object("shape", "shapegroup", instance.use->place);
+            e.attributes.push_back({"id", group, instance.use->place});
+            reader::add(e, std::move(placed.shape));
+            reader::add(import_.scene.root, std::move(e));
+        }
+        Element e = make_object("shape", "instance", instance.use->place);
+        add_reference(e, group, instance.use->place);
+        add_to_world(e, instance);
+        reader::add(import_.scene.root, std::move(e));
+    }
+
+    static void add_to_world(Element& e, const Instance& instance) {
+        if (instance.to_world != Mat4(1.0)) add_matrix(e, "to_world", instance.to_world, instance.node->place);
+    }
+    static void add_surface(Placed& placed) {
+        const Location& place = placed.instance->use->place;
+        if (!placed.bound.bsdf.empty())
+            add_reference(placed.shape, placed.bound.bsdf, place);
+        else if (!placed.bound.emitter)
+            reader::add(placed.shape, default_bsdf(place));
+        if (placed.bound.emitter) reader::add(placed.shape, *placed.bound.emitter);
     }
 
     const Mesh& make(const Element& geometry, const Element& mesh, const Element& primitive, const Coordinates& coordinates) {
@@ -143,7 +183,7 @@ private:
     MaterialReader materials_;
     std::map<std::tuple<const Element*, Coordinates>, Mesh> meshes_;
     std::set<const Element*> checked_;
-    double triangles_ = 0.0;
+    std::vector<Placed> placed_;
 };
 
 }  // namespace
@@ -153,6 +193,7 @@ Bounds add_shapes(const std::vector<Instance>& geometries, const std::vector<Lam
     for (const Instance& instance : geometries)
         if (instance.is_placed) import.problems.attempt(instance.use->place, [&] { adder.add(instance);
 });
+adder.finish();
 return adder.bounds;
 }  // namespace neumann::reader::collada
 
