@@ -75,7 +75,7 @@ private:
             return put(filename.value, "textures", picture->second->values.empty() ? ".png" : ".exr",
                        [&] { return encode(*picture->second); });
         const std::string path = document_.find_file(filename), ending = fs::path(path).extension().string();
-        const bool is_mesh = ending == ".obj" || ending == ".ply" || ending == ".serialized";
+        const bool is_mesh = ending == ".obj" || ending == ".ply" || ending == ".serialized" || ending == ".txt";  // of curves
         return put(path, is_mesh ? "meshes" : "textures", ending, [&] { return bytes_of(path); });
     }
     std::string put(const std::string& source, const std::string& folder, const std::string& ending,
@@ -107,12 +107,12 @@ void warn_of_others(const Element& e, Warnings& warnings) {
 
 }  // namespace reader
 
-ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions) {
+ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
     using namespace reader;
     ConvertedScene result;
-    result.warnings = read_scene_parts(path, definitions).warnings;
+    result.warnings = read_scene_parts(path, definitions, {.lenient = lenient}).warnings;
     Warnings told;
-    Problems problems;
+    Problems problems(lenient);
     Document document = read_document(read_raw_scene(path, definitions, told, problems), definitions, told, problems);
     problems.check(document.files);
     FilesBeside(document, result.files).collect(document.root);
