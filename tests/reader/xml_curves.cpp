@@ -1,5 +1,5 @@
 // Curves: tubes of triangles, closed, of the area of round ones, and as near to them as the manual says.
-#include "core/reader/meshes/curves.h"
+#include "core/reader/convert_scene.h"
 #include "tests/reader/xml_scene_files.h"
 
 #include <algorithm>
@@ -198,6 +198,17 @@ TEST_F(XmlCurves, SeveralCurvesAndEmptyLines) {
                        two = tube("linearcurve", "\n\n0 0 0 0.5\n0 0 3 0.5\n \n\n5 0 0 0.5\r\n5 0 3 0.5\r\n\r\n");
     EXPECT_EQ(two.triangles.size(), 2 * one.triangles.size());
     EXPECT_NEAR(area(two), 2.0 * area(one), 1e-12);
+}
+
+// The file comes along with a scene that is converted.
+TEST_F(XmlCurves, AreConverted) {
+    const std::string points = "0 0 0 0.5\n0 0 3 0.5\n";
+    write("locks/hair.txt", points);
+    write("scene.xml", scene("<shape type='linearcurve'><string name='filename' value='locks/hair.txt'/></shape>"));
+    const ConvertedScene converted = convert_scene(path("scene.xml"));
+    EXPECT_EQ(converted.files, (std::map<std::string, std::string>{{"meshes/hair.txt", points}}));
+    EXPECT_NE(converted.xml.find("<shape type=\"linearcurve\">"), std::string::npos);
+    EXPECT_NE(converted.xml.find("value=\"meshes/hair.txt\""), std::string::npos);
 }
 
 TEST_F(XmlCurves, Messages) {
