@@ -17,7 +17,7 @@ protected:
                 "<film type='hdrfilm'><integer name='width' value='8'/><integer name='height' value='6'/></film></sensor></scene>");
     }
     static constexpr const char* replaced =
-        "scene.xml:2:34: bsdf type 'cloth' is not supported; taken as 'diffuse' of reflectance 0.5";
+        "scene.xml:2:28: bsdf type 'cloth' is not supported; taken as 'diffuse' of reflectance 0.5";
     static std::string warning() { return std::string("warning: ") + replaced + "\n"; }
     static std::vector<std::string> render_of(const std::string& scene, const std::string& folder) {
         return {"render", scene, "-n", "1", "--spp", "4", "-o", folder};
@@ -75,7 +75,7 @@ TEST_F(LenientCommand, EveryCommandOnASceneTakesIt) {
         {"convert", "scene.xml", "converted.xml"}};
     for (const auto& command : commands) {
         const std::string refusal = refused(command);
-        EXPECT_TRUE(refusal.starts_with("scene.xml:2:34: bsdf type 'cloth' is not supported; allowed: ")) << refusal;
+        EXPECT_TRUE(refusal.starts_with("scene.xml:2:28: bsdf type 'cloth' is not supported; allowed: ")) << refusal;
         EXPECT_TRUE(refusal.ends_with("ward\n" + hint)) << refusal;
         const Finished done = run(leniently(command));
         EXPECT_EQ(done.exit_code, 0) << command.front() << ": " << done.err;
@@ -107,8 +107,8 @@ TEST_F(LenientCommand, RunsAreRepeated) {
 TEST_F(LenientCommand, ErrorsOfOtherKindsHaveNoHint) {
     write_scene("scene.xml", "<bsdf type='cloth'/><float name='radius' value='0'/>");
     const std::string refusal = refused(render_of("scene.xml", "out"));
-    EXPECT_TRUE(refusal.ends_with("scene.xml:2:76: radius is 0, expected more than 0\n")) << refusal;
-    EXPECT_EQ(refused(leniently(render_of("scene.xml", "out"))), "scene.xml:2:76: radius is 0, expected more than 0\n");
+    EXPECT_TRUE(refusal.ends_with("scene.xml:2:63: radius is 0, expected more than 0\n")) << refusal;
+    EXPECT_EQ(refused(leniently(render_of("scene.xml", "out"))), "scene.xml:2:63: radius is 0, expected more than 0\n");
 }
 
 // What is not known stays in a file that is converted, for those who know it; what is no plugin is left out.

@@ -37,7 +37,7 @@ class Errors(Case):
             '<integer name="height" value="6"/></film></sensor></scene>\n'
         )
         scene = neumann.load(path, lenient=True)
-        replaced = f"{path}:2:34: bsdf type 'cloth' is not supported; taken as 'diffuse' of reflectance 0.5"
+        replaced = f"{path}:2:28: bsdf type 'cloth' is not supported; taken as 'diffuse' of reflectance 0.5"
         self.assertEqual(scene.replaced, [replaced])
         self.assertEqual([str(w.message) for w in self.warned], [replaced])
         self.assertIn("lenient", repr(scene))
