@@ -113,11 +113,12 @@ TEST_F(LenientCommand, ErrorsOfOtherKindsHaveNoHint) {
 
 // What is not known stays in a file that is converted, for those who know it; what is no plugin is left out.
 TEST_F(LenientCommand, Converts) {
-    write_scene("scene.xml", unknown + "<ref id='fog'/><medium type='homogeneous' id='fog'/>");
+    write_scene("scene.xml", unknown + "<ref name='interior' id='fog'/><medium type='homogeneous' id='fog'/>");
     ASSERT_EQ(run(leniently({"convert", "scene.xml", "converted.xml"})).exit_code, 0);
     const std::string text = text_of(path("converted.xml"));
-    EXPECT_NE(text.find("<bsdf type=\"cloth\"/>"), std::string::npos) << text;
+    EXPECT_NE(text.find("<bsdf type=\"cloth\" />"), std::string::npos) << text;
     EXPECT_EQ(text.find("medium"), std::string::npos) << text;
+    EXPECT_EQ(text.find("fog"), std::string::npos) << text;
 }
 
 }  // namespace neumann::lenient_command_test
