@@ -67,7 +67,7 @@ TEST_F(LenientCommand, EveryCommandOnASceneTakesIt) {
     const std::vector<std::vector<std::string>> commands = {
         {"render", "scene.xml", "-n", "1", "--spp", "4", "-o", "render"},
         {"plan", "scene.xml"},
-        {"solve", "scene.xml", "--patches", "20", "-o", "solve"},
+        {"solve", "scene.xml", "--patches", "20"},
         {"spectrum", "scene.xml", "--patches", "20"},
         {"export", "scene.xml", "--patches", "20", "-o", "export"},
         {"study", "scene.xml", "--methods", "walk,walk:direct=bsdf", "--samples", "4,8", "--repeats", "2", "-n", "1", "--reference",
