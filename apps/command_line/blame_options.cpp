@@ -26,6 +26,7 @@ CLI::App* add_blame(CLI::App& app, BlameRequest& request) {
     add_seed(*command, request.seed);
     add_threads(*command, request.threads);
     add_definitions(*command, request.definitions);
+    add_lenient(*command, request.lenient);
     command->add_flag("--json", request.json, "Print JSON");
     return command;
 }

@@ -10,6 +10,7 @@ CLI::App* add_convert(CLI::App& app, ConvertRequest& request) {
     add_scene(*command, request.scene);
     command->add_option("OUTPUT", request.output, "Mitsuba 3 file to write")->type_name("FILE")->required();
     add_definitions(*command, request.definitions);
+    add_lenient(*command, request.lenient);
     command->add_flag("--quiet", request.quiet, "Print errors only");
     return command;
 }

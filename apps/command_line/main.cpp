@@ -84,6 +84,9 @@ int main(int argc, char** argv) try {
     }
     const auto given = std::ranges::find_if(commands, [](const neumann::Command& command) { return bool(*command.app); });
     return finish(given->run());
+} catch (const neumann::UnknownError& e) {
+    complain(std::string(e.what()) + "\n--lenient takes the scene without what is not known");
+    return wrong_input;
 } catch (const neumann::InputError& e) {
     complain(e.what());
     return wrong_input;

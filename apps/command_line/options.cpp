@@ -49,6 +49,13 @@ void add_definitions(CLI::App& command, std::vector<std::string>& texts) {
     command.add_option("-D", texts, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
 }
 
+void add_lenient(CLI::App& command, bool& lenient) {
+    command.add_flag(
+        "--lenient", lenient,
+        "Take a scene with things that are not known: materials become grey and diffuse, lights, shapes and parameters "
+        "are left out, and each is named in a warning");
+}
+
 void add_patch_options(CLI::App& command, PatchOptions& options) {
     add_scene(command, options.scene);
     command.add_option("--patches", options.patches, "Approximate number of patches")
@@ -63,6 +70,7 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
     add_threads(command, options.threads);
     add_memory(command, options.memory);
     add_definitions(command, options.definitions);
+    add_lenient(command, options.lenient);
     command.add_flag("--quiet", options.quiet, "Print no warnings");
     command.add_flag("--json", options.json, "Print JSON");
 }

@@ -24,6 +24,8 @@ void add_threads(CLI::App& command, int& threads);
 void add_memory(CLI::App& command, std::optional<double>& gibibytes);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
+// --lenient.
+void add_lenient(CLI::App& command, bool& lenient);
 
 // SCENE and the options of all commands that treat it as matrices.
 void add_patch_options(CLI::App& command, PatchOptions& options);

@@ -42,6 +42,7 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
     add_seed(*render, request.goal.seed);
     add_threads(*render, request.threads);
     add_definitions(*render, request.definition_texts);
+    add_lenient(*render, request.lenient);
     render->add_flag("--quiet", request.quiet, "Print nothing but errors");
     render->add_flag("--json", request.json, "Print run.json");
     return render;

@@ -50,6 +50,7 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
     add_seed(*study, request.seed, "Seed from which the seeds of all runs are derived");
     add_threads(*study, request.threads);
     add_definitions(*study, request.definition_texts);
+    add_lenient(*study, request.lenient);
     study->add_flag("--quiet", request.quiet, "Print nothing but errors");
     study->add_flag("--json", request.json, "Print study.json");
     return study;

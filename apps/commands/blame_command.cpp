@@ -3,6 +3,7 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
@@ -142,7 +143,8 @@ int blame_command(const BlameRequest& request) {
     settings.samples = request.samples;
     settings.seed = request.seed;
     const std::vector<DepthPicture> pictures = read_pictures(request);
-    const Scene scene = read_scene(request.pictures.back(), parse_definitions(request.definitions));
+    const Scene scene = read_scene(request.pictures.back(), parse_definitions(request.definitions), {.lenient = request.lenient});
+    print_warnings(scene.replaced, false);
     const ThreadLimit threads(request.threads);
     catch_interrupts();
     Watch watch;

@@ -13,6 +13,7 @@ struct BlameRequest {
     std::vector<std::string> again;        // the same with another seed
     std::optional<std::string> counts;     // mitsuba, pbrt, cycles or bounces
     std::vector<std::string> definitions;  // -D, as typed
+    bool lenient = false;
     std::optional<double> seconds;
     std::optional<std::uint64_t> samples;
     std::uint64_t seed = 0;

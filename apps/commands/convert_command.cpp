@@ -65,7 +65,7 @@ int convert_command(const ConvertRequest& request) {
     if (fs::is_directory(output, error)) throw InputError(fmt::format("{}: is a folder, expected a file", request.output));
     if (fs::equivalent(output, request.scene, error))
         throw InputError(fmt::format("{}: is the scene itself, expected another file", request.output));
-    const ConvertedScene converted = convert_scene(request.scene, parse_definitions(request.definitions));
+    const ConvertedScene converted = convert_scene(request.scene, parse_definitions(request.definitions), request.lenient);
     NewFiles written;
     for (const auto& [name, bytes] : converted.files) written.write(output.parent_path() / name, bytes);
     written.write(output, converted.xml);  // the last, so that what it names is there

@@ -9,6 +9,7 @@ namespace neumann {
 struct ConvertRequest {
     std::string scene, output;
     std::vector<std::string> definitions;  // -D, as typed
+    bool lenient = false;
     bool quiet = false;
 };
 

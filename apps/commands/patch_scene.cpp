@@ -4,6 +4,7 @@
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/files/scene_json.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
@@ -34,7 +35,8 @@ TracedSettings settings(const PatchOptions& options) {
 
 std::shared_ptr<const Scene> read(const PatchOptions& options) {
     settings(options);  // before anything is read
-    return std::make_shared<const Scene>(read_scene(options.scene, parse_definitions(options.definitions)));
+    return std::make_shared<const Scene>(
+        read_scene(options.scene, parse_definitions(options.definitions), {.lenient = options.lenient}));
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ nlohmann::ordered_json PatchScene::json() const {
     nlohmann::ordered_json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = options_.command_line;
-    json["scene"] = {{"file", options_.scene}, {"hash", scene_->hash}, {"definitions", definitions_}};
+    json["scene"] = scene_json(*scene_, options_.scene, definitions_);
     json["options"] = {{"patches", options_.patches}, {"directions", options_.rays}, {"seed", options_.seed}};
     json["patches"] = system_->space().patches().size();
     json["unknowns"] = system_->space().size();

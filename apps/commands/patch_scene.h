@@ -18,6 +18,7 @@ namespace neumann {
 struct PatchOptions {
     std::string scene;
     std::vector<std::string> definitions;  // -D name=value
+    bool lenient = false;
     std::uint64_t patches = 2000;
     std::uint64_t rays = 64;  // per facet
     std::uint64_t seed = 0;

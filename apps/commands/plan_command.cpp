@@ -1,6 +1,7 @@
 #include "apps/commands/plan_command.h"
 
 #include "apps/commands/parse_definitions.h"
+#include "apps/commands/print_warnings.h"
 #include "apps/files/plan_json.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/method_plan.h"
@@ -10,7 +11,9 @@
 namespace neumann {
 
 int plan_command(const PlanRequest& request) {
-    const Plan plan = plan_with_bounces(read_scene(request.scene, parse_definitions(request.definitions)));
+    const Scene scene = read_scene(request.scene, parse_definitions(request.definitions), {.lenient = request.lenient});
+    const Plan plan = plan_with_bounces(scene);
+    print_warnings(scene.replaced, false);
     if (request.json) {
         fmt::print("{}\n", plan_json(plan).dump(2));
         return 0;

@@ -9,6 +9,7 @@ namespace neumann {
 struct PlanRequest {
     std::string scene;
     std::vector<std::string> definitions;  // -D, as typed
+    bool lenient = false;
     bool json = false;
 };
 

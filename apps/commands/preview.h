@@ -7,13 +7,15 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <string>
+#include <utility>
 
 namespace neumann {
 
 class Preview {
 public:
-    // Keeps a reference to the folder.
-    explicit Preview(OutputFolder& folder) : folder_(folder) {}
+    // Keeps a reference to the folder. `kind` is appended to labels, such as ", lenient".
+    Preview(OutputFolder& folder, std::string kind) : folder_(folder), kind_(std::move(kind)) {}
 
     // As Watch::show. Takes at most a small part of the time; what comes too soon is left out, and what cannot be written is not
     // missed.
@@ -24,6 +26,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     OutputFolder& folder_;
+    std::string kind_;
     std::atomic<bool> is_there_ = false;
     Clock::time_point next_{};
 };

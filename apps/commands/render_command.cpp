@@ -6,6 +6,7 @@
 #include "apps/commands/preview.h"
 #include "apps/commands/progress_line.h"
 #include "apps/files/reference.h"
+#include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
 #include "apps/files/ways_files.h"
 #include "core/base/error.h"
@@ -120,18 +121,17 @@ int render_command(const RenderRequest& given) {
     catch_interrupts();
     const ThreadLimit threads(request.threads);
 
-    const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions));
+    const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     const double reading_seconds = clock.seconds();
     ProgressLine line(request.quiet);
     Watch watch;
     watch.stop = interrupted;
-    Preview preview(*folder);
+    Preview preview(*folder, lenient_label(*scene));
     watch.progress = [&](const RenderProgress& so_far) {
         line.show([&] { return progress_text(so_far) + (preview.is_there() ? "   so far: preview.png" : ""); });
     };
-    if (files.sheets || files.strips)
-        watch.show = [&](std::size_t bounces, const auto& term) { preview.show(bounces, term); };
+    if (files.sheets || files.strips) watch.show = [&](std::size_t bounces, const auto& term) { preview.show(bounces, term); };
     watch.chosen = [&](int bounces) {
         expect_pictures();  // before anything is sampled
         folder->expect_space(estimated_bytes(scene->film, bounces, fields, files));

@@ -11,7 +11,8 @@ struct RenderRequest {
     std::string scene;
     std::vector<std::string> definition_texts;       // -D name=value, as typed
     std::map<std::string, std::string> definitions;  // the same, parsed
-    std::string output;                              // a folder; empty: out/NAME
+    bool lenient = false;
+    std::string output;  // a folder; empty: out/NAME
     MethodText method;
     Goal goal;
     std::optional<double> memory;                    // GiB

@@ -23,6 +23,7 @@ using Json = nlohmann::ordered_json;
 struct RecordedRun {
     std::string scene, hash, version;
     std::map<std::string, std::string> definitions;
+    bool lenient = false;
     RecordedRender render;
     std::uint64_t samples = 0;
     Json named;  // the samples that the health report names
@@ -43,6 +44,7 @@ RecordedRun read_run(const std::string& folder) {
             throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
         run.scene = json.at("scene").at("file");
         json.at("scene").at("definitions").get_to(run.definitions);
+        run.lenient = json.at("scene").contains("replaced");
         run.hash = json.at("scene").at("hash");
         run.version = json.at("program").at("version");
         render.seed = options.at("seed");
@@ -161,7 +163,7 @@ int replay_command(const ReplayRequest& request) {
     if (!std::filesystem::exists(run.scene))
         throw InputError(fmt::format("{}: the scene of {} is not there; the name is relative to where the render was started",
                                      run.scene, request.folder));
-    const Scene scene = read_scene(run.scene, run.definitions);
+    const Scene scene = read_scene(run.scene, run.definitions, {.lenient = run.lenient});
     if (scene.hash != run.hash)
         fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n", run.scene,
                    request.folder);

@@ -201,7 +201,7 @@ int study_command(const StudyRequest& given) {
     const ThreadLimit threads(request.threads);
 
     const Stopwatch scene_watch;
-    const Scene scene = read_scene(request.scene, request.definitions);
+    const Scene scene = read_scene(request.scene, request.definitions, {.lenient = request.lenient});
     std::optional<Status> status(std::in_place, request.quiet);
     const auto show = [&](const std::string& what, double) { status->show(what); };
     const auto print = [&](const StudyData& data, const std::vector<StudiedPicture>& pictures, const Json& json) {

@@ -12,6 +12,7 @@ namespace neumann {
 struct StudyRequest {
     std::string scene;
     std::vector<std::string> definition_texts;
+    bool lenient = false;
     std::map<std::string, std::string> definitions;
     std::string output;
     std::vector<std::string> methods;  // as read_method() reads them

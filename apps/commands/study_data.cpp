@@ -80,6 +80,7 @@ std::string repeating_command(const StudyData& data, const StudyRun& run) {
     if (run.directions) effort.directions = static_cast<std::uint32_t>(run.directions);
     for (const auto& [name, value] : differences_of(with_effort(method, effort)).options) add("--" + name, value);
     for (const auto& [name, value] : data.request.definitions) add("-D", name + "=" + value);
+    if (!data.scene.replaced.empty()) command += " --lenient";
     return command;
 }
 

@@ -57,7 +57,7 @@ std::string keep_elsewhere(const Rendering& rendering, const std::string& output
     const fs::path path = folder_beside(output);
     try {
         OutputFolder folder(path, "render");
-        const std::vector<std::string> missing = write_terms_that_fit(folder, series);
+        const std::vector<std::string> missing = write_terms_that_fit(folder, series, *rendering.scene);
         if (missing.size() < static_cast<std::size_t>(series.bounces()) + 1) {
             folder.commit();
             return fmt::format("What fits is in {}: the bounces, the rest and series.csv{}{}", path.string(),

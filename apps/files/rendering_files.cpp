@@ -27,7 +27,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     Warnings warnings = rendering.warnings();
     PackedSeries packed(film.crop_width, film.crop_height, series.report.bounces.size() + (series.rest ? 1 : 0));
     const ChosenFiles& files = rendering.files;
-    const WrittenPictures written = write_pictures(folder, series, files, film, packed);
+    const WrittenPictures written = write_pictures(folder, series, files, *rendering.scene, packed);
     if (!written.warning.empty()) warnings.add(written.warning);
     if (files.page && packed.factor() > 1) warnings.add(packed.reduction());
     if (series.ways) write_ways(folder, *series.ways, files);

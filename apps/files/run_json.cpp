@@ -4,6 +4,7 @@
 #include "apps/files/json_number.h"
 #include "apps/files/method_json.h"
 #include "apps/files/plan_json.h"
+#include "apps/files/scene_json.h"
 #include "apps/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
 
@@ -153,7 +154,7 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = rendering.command_line;
-    json["scene"] = {{"file", rendering.scene_file}, {"hash", scene.hash}, {"definitions", rendering.definitions}};
+    json["scene"] = scene_json(scene, rendering.scene_file, rendering.definitions);
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
     json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
                                          : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};

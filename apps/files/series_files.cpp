@@ -1,6 +1,7 @@
 #include "apps/files/series_files.h"
 
 #include "apps/files/rendered_picture.h"
+#include "apps/files/scene_json.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 
@@ -16,8 +17,8 @@ std::string sum_file(std::size_t i) { return fmt::format("sum_{:03}.exr", i); }
 
 namespace {
 
-Attributes attributes_of(const BounceSeries& series, const std::string& quantity, std::size_t bounce, const PixelEstimate& picture,
-                         const PictureMeans& means, bool infinite_variance) {
+Attributes attributes_of(const BounceSeries& series, const Scene& scene, const std::string& quantity, std::size_t bounce,
+                         const PixelEstimate& picture, const PictureMeans& means, bool infinite_variance) {
     Attributes all{{"neumann:quantity", quantity},
                    {"neumann:bounce", static_cast<std::int64_t>(bounce)},
                    {"neumann:samples", static_cast<std::int64_t>(series.samples)},
@@ -27,6 +28,7 @@ Attributes attributes_of(const BounceSeries& series, const std::string& quantity
     if (!picture.least_error.pixels.empty())
         all["neumann:stderr"] = std::string("not below what few samples leave open; spread, where it differs, is for means");
     if (!picture.pixels_are_independent) all["neumann:pixels"] = std::string("correlated: their errors go together");
+    if (const std::string note = lenient_note(scene); !note.empty()) all["neumann:scene"] = note;
     all.merge(mean_attributes(means));
     return all;
 }
@@ -37,20 +39,21 @@ std::string power(const BounceSeries& series, const std::string& n) {
 
 }  // namespace
 
-std::string term_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& term) {
-    return encode_exr(term, attributes_of(series, power(series, "i"), i, term, series.means_of_term(i),
+std::string term_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& term) {
+    return encode_exr(term, attributes_of(series, scene, power(series, "i"), i, term, series.means_of_term(i),
                                           series.report.bounces[i].infinite_variance));
 }
 
-std::string sum_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& sum) {
+std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum) {
     const auto infinite = [](const BounceReport& bounce) { return bounce.infinite_variance; };
-    return encode_exr(sum, attributes_of(series, "sum of " + power(series, "k") + " for k <= i", i, sum, series.means_of_sum(i),
-                                         std::ranges::any_of(std::span(series.report.bounces).first(i + 1), infinite)));
+    return encode_exr(sum,
+                      attributes_of(series, scene, "sum of " + power(series, "k") + " for k <= i", i, sum, series.means_of_sum(i),
+                                    std::ranges::any_of(std::span(series.report.bounces).first(i + 1), infinite)));
 }
 
-std::string rest_exr(const BounceSeries& series) {
+std::string rest_exr(const BounceSeries& series, const Scene& scene) {
     return encode_exr(*series.rest,
-                      attributes_of(series, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1,
+                      attributes_of(series, scene, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1,
                                     *series.rest, *series.means_of_rest, series.report.rest_infinite_variance));
 }
 
@@ -61,7 +64,7 @@ double estimated_bytes(const Film& film, int bounces, bool has_discretisation, c
     return ((files.pictures ? 1.0 : 0.0) + (files.page ? 0.25 : 0.0)) * exr + 0x1p20;
 }
 
-std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series) {
+std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series, const Scene& scene) {
     std::vector<std::string> missing;
     const auto write = [&](const std::string& name, const std::string& bytes) {
         try {
@@ -70,8 +73,9 @@ std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const Bounce
             missing.push_back(name);
         }
     };
-    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) write(bounce_file(i), term_exr(series, i, series.term(i)));
-    if (series.rest) write("rest.exr", rest_exr(series));
+    for (std::size_t i = 0; i < series.report.bounces.size(); ++i)
+        write(bounce_file(i), term_exr(series, scene, i, series.term(i)));
+    if (series.rest) write("rest.exr", rest_exr(series, scene));
     write("series.csv", series_table(series.report));
     return missing;
 }

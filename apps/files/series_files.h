@@ -4,7 +4,7 @@
 #include "apps/files/chosen_files.h"
 #include "apps/files/output_folder.h"
 #include "apps/pages/packed_pictures.h"
-#include "core/sensor/sensor_options.h"
+#include "core/scene/scene.h"
 #include "operators/methods/bounce_series.h"
 
 #include <nlohmann/json.hpp>
@@ -20,20 +20,20 @@ struct WrittenPictures {
 
 // Writes bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png …, and packs the pictures for
 // index.html; what is chosen of them.
-WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Film& film,
+WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
                                PackedSeries& packed);
 
 // The contents of bounce_000.exr …, sum_000.exr … and rest.exr.
-std::string term_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& term);
-std::string sum_exr(const BounceSeries& series, std::size_t i, const PixelEstimate& sum);
-std::string rest_exr(const BounceSeries& series);
+std::string term_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& term);
+std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum);
+std::string rest_exr(const BounceSeries& series, const Scene& scene);
 
 // Approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files);
 
 // For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of those that do not
 // fit.
-std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series);
+std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series, const Scene& scene);
 
 // The contents of series.csv and of convergence.csv.
 std::string series_table(const SeriesReport& report);

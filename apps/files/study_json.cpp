@@ -1,6 +1,7 @@
 // study.json: all results of a study, and everything needed to repeat it.
 #include "apps/commands/study_data.h"
 #include "apps/files/json_number.h"
+#include "apps/files/scene_json.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/statistics/metrics.h"
 
@@ -87,7 +88,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = request.command_line;
     json["complete"] = data.complete;
-    json["scene"] = {{"file", request.scene}, {"hash", data.scene.hash}, {"definitions", request.definitions}};
+    json["scene"] = scene_json(data.scene, request.scene, request.definitions);
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
     json["repeats"] = request.repeats;

@@ -1,5 +1,6 @@
 #include "apps/files/jobs.h"
 #include "apps/files/rendered_picture.h"
+#include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
 #include "apps/sheets/contact_sheet.h"
 #include "apps/sheets/flip_book.h"
@@ -31,7 +32,7 @@ struct Means {
 };
 
 // Each picture is estimated once, for its file, for the page and for the sheets.
-Means write_estimates(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Film& film,
+Means write_estimates(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
                       PackedSeries& packed) {
     const std::size_t bounces = series.report.bounces.size();
     Means means{std::vector<Image>(bounces + (series.rest ? 1 : 0)), std::vector<Image>(bounces)};
@@ -40,13 +41,13 @@ Means write_estimates(OutputFolder& folder, const BounceSeries& series, const Ch
         jobs.emplace_back([&, i] {
             {
                 PixelEstimate term = series.term(i);
-                if (files.pictures) folder.write(bounce_file(i), term_exr(series, i, term));
+                if (files.pictures) folder.write(bounce_file(i), term_exr(series, scene, i, term));
                 if (files.page) packed.add_term(i, term);
                 means.terms[i] = std::move(term.mean);
             }
             {
                 PixelEstimate sum = series.sum(i);
-                if (files.pictures) folder.write(sum_file(i), sum_exr(series, i, sum));
+                if (files.pictures) folder.write(sum_file(i), sum_exr(series, scene, i, sum));
                 if (files.page) packed.add_sum(i, sum);
                 means.sums[i] = std::move(sum.mean);
             }
@@ -54,31 +55,32 @@ Means write_estimates(OutputFolder& folder, const BounceSeries& series, const Ch
         });
     if (series.rest)
         jobs.emplace_back([&] {
-            if (files.pictures) folder.write("rest.exr", rest_exr(series));
+            if (files.pictures) folder.write("rest.exr", rest_exr(series, scene));
             means.terms.back() = series.rest->mean;
             if (!files.page) return;
             packed.add_term(bounces, *series.rest);
             packed.pack(bounces);
         });
-    run_jobs(jobs, pictures_at_once(film));
+    run_jobs(jobs, pictures_at_once(scene.film));
     return means;
 }
 
 }  // namespace
 
-WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Film& film,
+WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
                                PackedSeries& packed) {
     const SeriesReport& report = series.report;
     const std::size_t N = report.bounces.size() - 1;
     if (!files.pictures && !files.page && !files.sheets && !files.strips) return {};
-    const auto [terms, sums] = write_estimates(folder, series, files, film, packed);
+    const auto [terms, sums] = write_estimates(folder, series, files, scene, packed);
 
-    const char* const kind = report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths";
+    const std::string lenient = lenient_label(scene), note = lenient_note(scene);
+    const std::string kind = (report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths") + lenient;
     std::vector<LabelledPicture> term_pictures, sum_pictures;
     for (std::size_t i = 0; i < terms.size(); ++i)
         term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
     for (std::size_t i = 0; i < sums.size(); ++i)
-        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + std::string(kind), &sums[i]});
+        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + kind, &sums[i]});
     // For importance all visible surfaces are "emitters", so the sum is used.
     const Image& emission = report.importance ? sums.back() : terms.front();
     const double exposure = exposure_for(sums.back(), emission);
@@ -92,7 +94,7 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
                                   series.rest ? &limit : nullptr,
                                   report.importance ? "K*" : "K",
                                   report.importance ? "We" : "Le",
-                                  series.paths == Paths::all ? "" : ", some paths"};
+                                  (series.paths == Paths::all ? "" : ", some paths") + lenient};
     const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
                 doubling = strip_of_doubling(pictures);
     const auto font = find_label_font();
@@ -107,12 +109,13 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
         folder.write("strip-sums.gif", book.gif(of_sums.front()));
         if (!doubling.empty()) folder.write("strip-doubling.gif", book.gif(doubling.front()));
     });
-    if (files.sheets) add("contact-sheet.png", [&] { return contact_sheet(term_pictures, sum_pictures, exposure, font); });
+    if (files.sheets)
+        add("contact-sheet.png", [&] { return contact_sheet(term_pictures, sum_pictures, exposure, font, {.comment = note}); });
     if (files.strips) {
         add("strip-terms.gif", [&] { return strip_gif(of_terms, exposure, font); });
-        add("strip-terms.png", [&] { return strip_png(of_terms, exposure, font); });
-        add("strip-sums.png", [&] { return strip_png(of_sums, exposure, font); });
-        if (!doubling.empty()) add("strip-doubling.png", [&] { return strip_png(doubling, exposure, font); });
+        add("strip-terms.png", [&] { return strip_png(of_terms, exposure, font, note); });
+        add("strip-sums.png", [&] { return strip_png(of_sums, exposure, font, note); });
+        if (!doubling.empty()) add("strip-doubling.png", [&] { return strip_png(doubling, exposure, font, note); });
     }
     run_jobs(jobs, jobs.size());
     return {font ? ""

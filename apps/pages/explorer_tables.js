@@ -5,6 +5,9 @@ const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole
 document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": A and B" : "");
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
 all.forEach(s => (s.run.health?.complaints ?? []).forEach(c => $("warnings").append(element("p", `${runName(s)}sick: ${c}`, "warning"))));
+const lenient = all.filter(s => s.run.scene.replaced);
+lenient.forEach(s => $("warnings").append(element("p", `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`, "warning")));
+$("lenient").hidden = lenient.length === 0;
 all.forEach(s => s.run.warnings.forEach(w => $("warnings").append(element("p", runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : ""), "warning"))));
 
 // Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.

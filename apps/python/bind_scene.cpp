@@ -13,12 +13,16 @@ namespace neumann {
 
 namespace {
 
-std::shared_ptr<LoadedScene> load(const std::string& path, const std::map<std::string, std::string>& definitions) {
+std::shared_ptr<LoadedScene> load(const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
     const Stopwatch watch;
     auto loaded = std::make_shared<LoadedScene>();
     loaded->path = path;
     loaded->definitions = definitions;
-    loaded->scene = std::make_shared<const Scene>(read_scene(path, definitions));
+    try {
+        loaded->scene = std::make_shared<const Scene>(read_scene(path, definitions, {.lenient = lenient}));
+    } catch (const UnknownError& e) {
+        throw InputError(std::string(e.what()) + "\nlenient=True takes the scene without what is not known");
+    }
     loaded->seconds = watch.seconds();
     return loaded;
 }
@@ -41,13 +45,14 @@ void bind_scene(py::module_& m) {
                                    return py::make_tuple(a.r, a.g, a.b);
                                })
         .def_property_readonly("warnings", [](const LoadedScene& s) { return texts(s.scene->warnings); })
+        .def_property_readonly("replaced", [](const LoadedScene& s) { return s.scene->replaced; })
         .def("plan", [](const std::shared_ptr<LoadedScene>& loaded) {
             return std::make_unique<Job>(0, [loaded](Job&) -> Job::Finish {
                 const std::string json = plan_json(plan_with_bounces(*loaded->scene)).dump();
                 return [json] { return py::str(json); };
             });
         });
-    m.def("load", &load, py::arg("path"), py::arg("definitions"), py::call_guard<py::gil_scoped_release>());
+    m.def("load", &load, py::arg("path"), py::arg("definitions"), py::arg("lenient"), py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace neumann

@@ -38,6 +38,7 @@ std::string command_line(const std::string& command, const LoadedScene& scene, c
     std::string line = "neumann " + command + " " + scene.path;
     for (const std::string& argument : arguments) line += " " + argument;
     for (const auto& [name, value] : scene.definitions) line += " -D " + name + "=" + value;
+    if (!scene.scene->replaced.empty()) line += " --lenient";
     return line;
 }
 

@@ -78,7 +78,7 @@ std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<cons
                 font);
     paste_block(sheet, sheet_margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure),
                 sums, exposure, font);
-    return encode_png(sheet);
+    return encode_png(sheet, headings.comment);
 }
 
 }  // namespace neumann

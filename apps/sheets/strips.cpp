@@ -89,8 +89,8 @@ Strip strip_of_doubling(const SeriesPictures& series) {
     return strip[0].empty() ? Strip() : strip;
 }
 
-std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font) {
-    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, font));
+std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font, const std::string& comment) {
+    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, font), comment);
 }
 
 std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font) {

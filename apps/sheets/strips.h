@@ -37,7 +37,8 @@ Strip strip_of_sums(const SeriesPictures& series);
 Strip strip_of_doubling(const SeriesPictures& series);
 
 // A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. The strip must not be empty.
-std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font);
+// The file carries the comment, unless that is empty.
+std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font, const std::string& comment = "");
 // A GIF file: each frame is a column of the strip, with its pictures side by side.
 std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font);
 

@@ -24,6 +24,11 @@ public:
     InputError(const Location& place, const std::string& what) : std::runtime_error(to_string(place) + ": " + what) {}
 };
 
+// All that is wrong with a scene is that things in it are not known; a lenient reader takes it without them.
+class UnknownError : public InputError {
+    using InputError::InputError;
+};
+
 // Something failed while running, such as a disk that is full (exit code 1).
 class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -37,7 +37,7 @@ void expect_pictures() { writer(); }
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
     return writer().encode_exr(picture, attributes);
 }
-std::string encode_png(const DisplayImage& picture) { return writer().encode_png(picture); }
+std::string encode_png(const DisplayImage& picture, const std::string& comment) { return writer().encode_png(picture, comment); }
 std::string encode_gif(const DisplayImage& picture) { return writer().encode_gif(picture); }
 PixelEstimate read_exr(const std::string& path, Attributes* attributes) { return reader().read_exr(path, attributes); }
 Texels read_texels(const std::string& path) { return reader().read_texels(path); }

@@ -29,8 +29,8 @@ using Attributes = std::map<std::string, Attribute>;
 // otherwise throws std::invalid_argument.
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes = {});
 
-// A PNG file with 8 bits a channel.
-std::string encode_png(const DisplayImage& picture);
+// A PNG file with 8 bits a channel, and with a comment in UTF-8 unless that is empty.
+std::string encode_png(const DisplayImage& picture, const std::string& comment = "");
 
 // A GIF file of 256 colours of its own, dithered (indexed_image.h): a frame for join_gif_frames().
 std::string encode_gif(const DisplayImage& picture);

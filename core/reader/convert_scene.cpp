@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -75,7 +76,7 @@ private:
             return put(filename.value, "textures", picture->second->values.empty() ? ".png" : ".exr",
                        [&] { return encode(*picture->second); });
         const std::string path = document_.find_file(filename), ending = fs::path(path).extension().string();
-        const bool is_mesh = ending == ".obj" || ending == ".ply" || ending == ".serialized";
+        const bool is_mesh = ending == ".obj" || ending == ".ply" || ending == ".serialized" || ending == ".txt";  // of curves
         return put(path, is_mesh ? "meshes" : "textures", ending, [&] { return bytes_of(path); });
     }
     std::string put(const std::string& source, const std::string& folder, const std::string& ending,
@@ -94,6 +95,17 @@ private:
     std::map<std::string, std::string> names_;  // by what they were called
 };
 
+// Removes what refers to elements that a lenient reader left out.
+void drop_references(Element& e, std::set<std::string>& lost) {
+    std::erase_if(e.children, [&](const Element& child) {
+        const Attribute* id = child.tag == "ref" || child.tag == "alias" ? child.find("id") : nullptr;
+        if (!id || !lost.contains(id->value)) return false;
+        if (const Attribute* as = child.find("as")) lost.insert(as->value);
+        return true;
+    });
+    for (Element& child : e.children) drop_references(child, lost);
+}
+
 // What is read here and not by Mitsuba 3.
 void warn_of_others(const Element& e, Warnings& warnings) {
     constexpr std::string_view others[] = {"bsdf coating", "bsdf mixturebsdf", "bsdf phong",          "bsdf retroreflector",
@@ -107,14 +119,15 @@ void warn_of_others(const Element& e, Warnings& warnings) {
 
 }  // namespace reader
 
-ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions) {
+ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
     using namespace reader;
     ConvertedScene result;
-    result.warnings = read_scene_parts(path, definitions).warnings;
+    result.warnings = read_scene_parts(path, definitions, {.lenient = lenient}).warnings;
     Warnings told;
-    Problems problems;
+    Problems problems(lenient);
     Document document = read_document(read_raw_scene(path, definitions, told, problems), definitions, told, problems);
     problems.check(document.files);
+    drop_references(document.root, document.lost.ids);
     FilesBeside(document, result.files).collect(document.root);
     warn_of_others(document.root, result.warnings);
     result.xml = write_xml(document.root);

@@ -15,7 +15,9 @@ struct ConvertedScene {
 };
 
 // The scene is read whole first, so it is one that read_scene() takes; throws InputError as that does. What a file includes is put
-// in, and so are its parameters. Meshes and pictures come along.
-ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions = {});
+// in, and so are its parameters. With `lenient`, plugins and parameters that
+// are not known stay in the file as they are, elements that are not known do not. Meshes and pictures come along.
+ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions = {},
+                             bool lenient = false);
 
 }  // namespace neumann

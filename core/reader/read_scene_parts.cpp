@@ -89,12 +89,13 @@ private:
 
 }  // namespace reader
 
-SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, bool optional) {
+SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions,
+                            const Reading& reading) {
     using namespace reader;
     SceneParts parts;
-    Problems problems;
-    const Document document =
-        read_document(read_raw_scene(path, definitions, parts.warnings, problems), definitions, parts.warnings, problems, optional);
+    Problems problems(reading.lenient);
+    const Document document = read_document(read_raw_scene(path, definitions, parts.warnings, problems), definitions,
+                                            parts.warnings, problems, reading.optional_definitions);
     const Objects objects(document.root, problems, document.lost);
     std::vector<std::string> mesh_files;
     TextureStore textures;
@@ -128,6 +129,8 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     }
     Unused(context, bsdfs, lights).check(document.root);
     problems.check(document.files);
+    parts.replaced = problems.replaced(document.files);
+    for (const std::string& what : parts.replaced) parts.warnings.add(what);
     for (const ReadShape& shape : shapes) parts.origins.push_back(origin(*shape.element, shape.bsdf));
     parts.bsdfs = bsdfs.take();
     parts.lights.area = lights.take();

@@ -33,6 +33,8 @@ struct SceneNotes {
     std::string hash;                  // of all files the scene was read from; empty if it was not read from files
     std::vector<Origin> origins = {};  // by shape; empty if it was not read from files
     Warnings warnings;
+    // What a lenient reader replaced or left out, with its place in the file, in the order of the file; also among the warnings.
+    std::vector<std::string> replaced = {};
 };
 
 // A scene is immutable. Copies share large data.

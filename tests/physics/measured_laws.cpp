@@ -73,7 +73,7 @@ TEST(MeasuredLaws, AreSaidOnceForAllMaterials) {
     EXPECT_EQ(laws.brightest, 2u);
     EXPECT_EQ(laws.least_reciprocal, 1u);
     EXPECT_EQ(scene.warnings.counts(),
-              (std::map<std::string, std::uint64_t>{
+              (Warnings::Counts{
                   {fmt::format("2 materials promise neither energy conservation nor reciprocity; the largest albedo is 0.750 "
                                "(bsdf 'normalmap' of shape 'sphere', room.xml:9:5) and the largest reciprocity defect {:.2g} "
                                "(bsdf 'bumpmap' of shape 'sphere', room.xml:7:5)",
@@ -91,7 +91,7 @@ TEST(MeasuredLaws, ReflectanceAboveOneIsNamed) {
     };
     maker.parts.origins = {origin(3, "diffuse"), origin(7, "diffuse"), origin(9, "normalmap")};
     const std::string head = "reflectance above 1: a surface (bsdf ";
-    using Texts = std::map<std::string, std::uint64_t>;
+    using Texts = Warnings::Counts;
     EXPECT_EQ(
         maker.make().warnings.counts(),
         (Texts{{head + "'diffuse' of shape 'sphere', room.xml:7:1) gives back up to 1 + 0.0003 times the light that it receives",
@@ -117,11 +117,10 @@ TEST(MeasuredLaws, ReflectanceWithoutLimitIsNamed) {
     maker.add(Sphere{{0, 0, 0}, 0.3, false}, made_of(Ward(WardLobe(WardLobe::Variant::duer, Beckmann(0.2)), Rgb(0.5), Rgb(0.2))));
     maker.parts.origins = {Origin{{"room.xml", 3, 1}, "shape 'sphere'", "bsdf 'diffuse'"},
                            Origin{{"room.xml", 7, 1}, "shape 'sphere'", "bsdf 'ward'"}};
-    EXPECT_EQ(
-        maker.make().warnings.counts(),
-        (std::map<std::string, std::uint64_t>{{"reflectance above 1: a surface (bsdf 'ward' of shape 'sphere', room.xml:7:1) gives "
-                                               "back, without limit, more light than it receives at grazing angles",
-                                               1}}));
+    EXPECT_EQ(maker.make().warnings.counts(),
+              (Warnings::Counts{{"reflectance above 1: a surface (bsdf 'ward' of shape 'sphere', room.xml:7:1) gives "
+                                 "back, without limit, more light than it receives at grazing angles",
+                                 1}}));
 }
 
 }  // namespace neumann::physics::measured_laws_test

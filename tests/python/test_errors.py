@@ -12,8 +12,9 @@ class Errors(Case):
         self.assertEqual(done.returncode, 2)
         with self.assertRaises(neumann.InputError) as caught:
             function()
-        # The command adds a hint to what its options say.
-        self.assertEqual(str(caught.exception), done.stderr.replace("Run with --help for more information.\n", "").rstrip("\n"))
+        # The command adds a hint to what its options say, and has another name for what is lenient.
+        said = done.stderr.replace("Run with --help for more information.\n", "").replace("\n--lenient takes", "\nlenient=True takes")
+        self.assertEqual(str(caught.exception), said.rstrip("\n"))
         self.assertEqual(done.stdout, "")
 
     def test_scenes(self):
@@ -22,9 +23,28 @@ class Errors(Case):
         self.expect_as_command(lambda: neumann.load(path), "render", path)
         with self.assertRaisesRegex(neumann.InputError, r"wrong\.xml:3:\d+: "):
             neumann.load(path)
+        with self.assertRaisesRegex(neumann.InputError, r"sphere'\?\nlenient=True takes the scene without what is not known$"):
+            neumann.load(path)
         self.expect_as_command(lambda: neumann.load(self.folder / "none.xml"), "render", self.folder / "none.xml")
         box = scene_file("cornell-box")
         self.expect_as_command(lambda: neumann.load(box, colour="red"), "render", box, "-D", "colour=red")
+
+    def test_lenient(self):
+        path = self.folder / "odd.xml"
+        path.write_text(
+            '<scene version="3.0.0">\n<shape type="sphere"><bsdf type="cloth"/></shape><emitter type="constant"/>\n'
+            '<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/>'
+            '<integer name="height" value="6"/></film></sensor></scene>\n'
+        )
+        scene = neumann.load(path, lenient=True)
+        replaced = f"{path}:2:28: bsdf type 'cloth' is not supported; taken as 'diffuse' of reflectance 0.5"
+        self.assertEqual(scene.replaced, [replaced])
+        self.assertEqual([str(w.message) for w in self.warned], [replaced])
+        self.assertIn("lenient", repr(scene))
+        series = scene.render(bounces=1, spp=4, quiet=True)
+        self.assertEqual(series.run["scene"]["replaced"], [replaced])
+        self.assertTrue(series.run["command"].endswith(" --lenient"), series.run["command"])
+        self.assertEqual(cornell().replaced, [])
 
     def test_arguments(self):
         box = scene_file("cornell-box")

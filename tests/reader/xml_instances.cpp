@@ -120,10 +120,10 @@ TEST_F(XmlInstances, Errors) {
     EXPECT_EQ(error("<shape type='shapegroup'><shape type='cube'>\n<emitter type='area'><float name='radiance' value='1'/>"
                     "</emitter></shape></shape>"),
               "scene.xml:3:1: emitter in a shapegroup: what emits cannot be instanced");
-    EXPECT_EQ(error("<shape type='shapegroup'><shape type='teapot'/></shape>"),
-              "scene.xml:2:33: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, merge, obj, ply, "
-              "rectangle, "
-              "serialized, shapegroup, sphere");
+    EXPECT_EQ(
+        error("<shape type='shapegroup'><shape type='teapot'/></shape>"),
+        "scene.xml:2:33: shape type 'teapot' is not supported; allowed: "
+        "bsplinecurve, cube, cylinder, disk, instance, linearcurve, merge, obj, ply, rectangle, serialized, shapegroup, sphere");
     EXPECT_EQ(error("<shape type='shapegroup'><shape type='cube'><bsdf type='plush'/></shape></shape>").substr(0, 62),
               "scene.xml:2:51: bsdf type 'plush' is not supported; allowed: b");
     EXPECT_EQ(error(instance("\n<shape type='sphere'/>", "<scale x='2'/>")),

@@ -39,10 +39,6 @@ TEST_F(XmlInsteadOf, MediaAndMotion) {
 }
 
 TEST_F(XmlInsteadOf, Shapes) {
-    for (const std::string type : {"bsplinecurve", "linearcurve"})
-        EXPECT_EQ(error("<shape type='" + type + "'/>"),
-                  "scene.xml:2:8: shape type '" + type +
-                      "' is not supported: curves are not read; a mesh of thin tubes, written as ply, can stand for them");
     EXPECT_EQ(error("<shape type='sdfgrid'/>"),
               "scene.xml:2:8: shape type 'sdfgrid' is not supported: a mesh of its surface, written as ply, can stand for it");
 }

@@ -165,7 +165,7 @@ TEST_F(XmlOlderBsdfs, ReflectancesAboveOneAreScaled) {
     expect_near(largest_albedo(side(parts, true).value()), Rgb(0.99), 1e-15);
     EXPECT_EQ(
         parts.warnings.counts(),
-        (std::map<std::string, std::uint64_t>{
+        (Warnings::Counts{
             {"diffuse_reflectance and specular_reflectance of bsdf 'phong' add up to 1.25: both scaled, to 0.99, as in Mitsuba "
              "0.6; ensure_energy_conservation = false keeps them",
              1}}));

@@ -130,9 +130,9 @@ TEST_F(XmlSensors, Channels) {
         "<integer name='max_depth' value='4'/><boolean name='hide_emitters' value='true'/></integrator></integrator>");
     EXPECT_EQ(parts.bounces, 3);
     EXPECT_TRUE(parts.hide_emitters);
-    EXPECT_EQ(parts.warnings.counts(),
-              (std::map<std::string, std::uint64_t>{
-                  {"integrator 'aov': its channels are not written, only the picture of the integrator inside it", 1}}));
+    EXPECT_EQ(
+        parts.warnings.counts(),
+        (Warnings::Counts{{"integrator 'aov': its channels are not written, only the picture of the integrator inside it", 1}}));
     EXPECT_EQ(
         read("<integrator type='aov'><integrator type='moment'><integrator type='direct'/></integrator></integrator>").bounces, 1);
 }

@@ -150,8 +150,7 @@ TEST_F(XmlSpectra, WavelengthsOutsideSrgb) {
     const Rgb green = largest_albedo(parts.bsdfs.at(0));
     EXPECT_EQ(green.r, 0.0);  // negative before
     EXPECT_GT(green.g, 0.1);
-    EXPECT_EQ(parts.warnings.counts(),
-              (std::map<std::string, std::uint64_t>{{"spectrum outside the colours of sRGB, cut to them", 1}}));
+    EXPECT_EQ(parts.warnings.counts(), (Warnings::Counts{{"spectrum outside the colours of sRGB, cut to them", 1}}));
 }
 
 }  // namespace neumann::xml_spectra_test

@@ -71,7 +71,7 @@ TEST_F(XmlUpgrade, WholeScene) {
         for (std::size_t i = 0; i < now.bsdfs.size(); ++i) EXPECT_EQ(largest_albedo(old.bsdfs[i]), largest_albedo(now.bsdfs[i]));
         EXPECT_EQ(lobe(old.bsdfs[1]).alpha, 0.2);
         EXPECT_EQ(old.warnings.counts(),
-                  (std::map<std::string, std::uint64_t>{
+                  (Warnings::Counts{
                       {names, 17}, {lookat, 1}, {"old scene file: diffuseReflectance of bsdf 'diffuse' taken as reflectance", 1}}));
     }
 }
@@ -127,12 +127,11 @@ TEST_F(XmlUpgrade, WhatIsGone) {
     EXPECT_EQ(parts.sampler, SamplerKind::sobol);
     EXPECT_EQ(parts.film.width, 64);
     EXPECT_TRUE(parts.film.sample_border);
-    EXPECT_EQ(parts.warnings.counts(),
-              (std::map<std::string, std::uint64_t>{{names, 7},
-                                                    {"old scene file: sampler 'sobol' taken as 'ldsampler'", 1},
-                                                    {"old scene file: film 'ldrfilm' taken as 'hdrfilm'", 1},
-                                                    {"old scene file: the texture filter 'trilinear' taken as 'bilinear'", 1},
-                                                    {"old scene file: strictNormals of an integrator left out", 1}}));
+    EXPECT_EQ(parts.warnings.counts(), (Warnings::Counts{{names, 7},
+                                                         {"old scene file: sampler 'sobol' taken as 'ldsampler'", 1},
+                                                         {"old scene file: film 'ldrfilm' taken as 'hdrfilm'", 1},
+                                                         {"old scene file: the texture filter 'trilinear' taken as 'bilinear'", 1},
+                                                         {"old scene file: strictNormals of an integrator left out", 1}}));
     EXPECT_EQ(error("<film type='ldrfilm'/>"),
               "scene.xml:2:7: film type 'ldrfilm' is not supported; allowed: hdrfilm; did you mean 'hdrfilm'?");
 }
@@ -208,8 +207,7 @@ TEST_F(XmlUpgrade, ColoursOfVertices) {
                      "<shape type='ply'><string name='filename' value='colours.ply'/><boolean name='collapse' value='true'/>"
                      "<bsdf type='diffuse'><texture name='reflectance' type='vertexcolors'/></bsdf></shape>");
     EXPECT_EQ(largest_albedo(parts.bsdfs.at(0)), Rgb(1.0, 0.0, 0.5));
-    EXPECT_EQ(parts.warnings.counts(),
-              (std::map<std::string, std::uint64_t>{{"old scene file: texture 'vertexcolors' taken as 'mesh_attribute'", 1}}));
+    EXPECT_EQ(parts.warnings.counts(), (Warnings::Counts{{"old scene file: texture 'vertexcolors' taken as 'mesh_attribute'", 1}}));
 }
 
 }  // namespace neumann::xml_upgrade_test

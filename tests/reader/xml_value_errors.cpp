@@ -32,9 +32,10 @@ TEST_F(XmlValueErrors, UnknownTypes) {
     EXPECT_EQ(error("<integrator type=\"gather\"/>"),
               "scene.xml:2:13: integrator type 'gather' is not supported; allowed: aov, direct, moment, path, ptracer, volpath, "
               "volpathmis");
-    EXPECT_EQ(error("<shape type=\"teapot\"/>"),
-              "scene.xml:2:8: shape type 'teapot' is not supported; allowed: cube, cylinder, disk, instance, merge, obj, ply, "
-              "rectangle, serialized, shapegroup, sphere");
+    EXPECT_EQ(
+        error("<shape type=\"teapot\"/>"),
+        "scene.xml:2:8: shape type 'teapot' is not supported; allowed: "
+        "bsplinecurve, cube, cylinder, disk, instance, linearcurve, merge, obj, ply, rectangle, serialized, shapegroup, sphere");
     EXPECT_EQ(error("<sampler type=\"halton\"/>"),
               "scene.xml:2:10: sampler type 'halton' is not supported; allowed: independent, "
               "ldsampler, multijitter, orthogonal, stratified");

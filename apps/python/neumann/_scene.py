@@ -56,6 +56,11 @@ class Scene:
         return self._scene.hash
 
     @property
+    def replaced(self) -> List[str]:
+        """What load(…, lenient=True) replaced or left out, each with its place; empty otherwise."""
+        return self._scene.replaced
+
+    @property
     def width(self) -> int:
         """Of its pictures, pixels."""
         return self._scene.width
@@ -228,15 +233,17 @@ class Scene:
         return study
 
     def __repr__(self) -> str:
-        given = "".join(f", {name}={value}" for name, value in self.definitions.items())
+        given = "".join(f", {name}={value}" for name, value in self.definitions.items()) + (", lenient" if self.replaced else "")
         return f"<Scene {self.path}{given}: {self._scene.shapes} shapes, {self.width} × {self.height} pixels>"
 
 
-def load(path: Path, **overrides: Any) -> Scene:
+def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
     """Reads a Mitsuba 3 scene file; ``overrides`` are values for the names that it defines: ``load("furnace.xml", albedo=0.9)``.
 
     Raises InputError, 'file:line:column: what is wrong, what was expected', for what is not supported, unknown, misspelt or never read.
+    With ``lenient`` what is not known is no error: materials become grey and diffuse, lights, shapes and parameters are left out, each is
+    named in a warning and in ``replaced``, and pictures are marked.
     """
-    scene = _neumann.load(fspath(path), definitions(overrides))
+    scene = _neumann.load(fspath(path), definitions(overrides), lenient)
     warn(scene.warnings)
     return Scene(scene)

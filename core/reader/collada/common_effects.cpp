@@ -49,7 +49,8 @@ private:
     static const Element* find_shader(const Element& technique) {
         for (const Element& e : technique.children)
             if (std::find(shaders.begin(), shaders.end(), e.tag) != shaders.end()) return &e;
-        throw InputError(technique.place, "<technique> has no shader, expected <blinn>, <constant>, <lambert> or <phong>");
+        throw Unknown(technique.place, "<technique> has no shader", ", expected <blinn>, <constant>, <lambert> or <phong>",
+                      "the material is taken as diffuse, of reflectance 0.5");
     }
 
     const Element* slot(const std::string& tag) const { return child(*shader_, tag); }

@@ -32,7 +32,7 @@ void check_children(const Element& e, std::span<const std::string> known, Proble
         if (std::find(known.begin(), known.end(), c.tag) != known.end()) continue;
         std::string hint = did_you_mean(c.tag, known);
         if (hint.empty()) hint = "; allowed: " + join({known.begin(), known.end()});
-        problems.add(InputError(c.place, fmt::format("unknown element <{}> in <{}>{}", c.tag, e.tag, hint)), c.place);
+        problems.add(Unknown(c.place, fmt::format("unknown element <{}> in <{}>", c.tag, e.tag), hint, "left out"), c.place);
     }
 }
 

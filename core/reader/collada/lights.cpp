@@ -41,7 +41,7 @@ public:
         if (technique.children.empty())
             throw InputError(technique.place, "<technique> of a light has no light inside, expected one");
         const Element& kind = technique.children.front();
-        if (std::ranges::find(kinds, kind.tag) == kinds.end()) throw Told();
+        if (std::ranges::find(kinds, kind.tag) == kinds.end()) return;  // which is told
         check_children(kind, parts_of_kind, import_.problems);
         const Rgb color = read_color(required_child(kind, "color")).rgb;
         if (kind.tag == "directional") add_directional(instance, kind, color);

@@ -92,7 +92,8 @@ const MaterialReader::Made& MaterialReader::make(const Element& material) {
 Surface MaterialReader::read(const Element& material) const {
     const Element& use = required_child(material, "instance_effect");
     if (const Element* e = child(use, "setparam"))
-        throw InputError(e->place, "<setparam> is not supported, expected its value in the <effect>");
+        import_.problems.replace(
+            Unknown(e->place, "<setparam> is not supported", ", expected its value in the <effect>", "ignored"), e->place);
     const Element& effect = import_.file.find(required_attribute(use, "url"), "effect");
     const std::string name = required_attribute(material, "id").value;
     if (const Element* technique = course_technique(effect)) return read_course_effect(*technique, name, import_);

@@ -66,10 +66,10 @@ public:
             if (e.tag == "node") read(e, around);
             if (e.tag == "instance_node") problems_.attempt(e.place, [&] { read_instance_node(e, around); });
             if (e.tag == "instance_controller")
-                problems_.add(InputError(e.place,
-                                         "<instance_controller> is not supported: a skin or morph of a mesh; expected the "
-                                         "posed mesh, exported as <instance_geometry>"),
-                              e.place);
+                problems_.add(
+                    Unknown(e.place, "<instance_controller> is not supported",
+                            ": a skin or morph of a mesh; expected the posed mesh, exported as <instance_geometry>", "left out"),
+                    e.place);
             if (e.tag == "instance_geometry") add(nodes.geometries, e, "geometry", around);
             if (e.tag == "instance_light") add(nodes.lights, e, "light", around);
             if (e.tag == "instance_camera") add(nodes.cameras, e, "camera", around);

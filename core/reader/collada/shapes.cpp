@@ -39,9 +39,8 @@ public:
         if (const Element* radius = radius_of_sphere(geometry)) return add_sphere(instance, *radius);
         const Element* mesh = child(geometry, "mesh");
         if (!mesh)
-            throw InputError(geometry.place,
-                             "<geometry> has no <mesh> inside, expected one; <convex_mesh>, <spline> and <brep> are "
-                             "not supported");
+            throw Unknown(geometry.place, "<geometry> has no <mesh> inside",
+                          ", expected one; <convex_mesh>, <spline> and <brep> are not supported", "left out");
         if (checked_.insert(mesh).second) check_children(*mesh, parts_of_mesh, import_.problems);
         for (const Element& primitive : mesh->children)
             if (has_triangles(primitive)) import_.problems.attempt(primitive.place, [&] { add_part(instance, *mesh, primitive); });

@@ -60,9 +60,11 @@ void check_extensions(JsonObject& root) {
         const auto found = std::find_if(refused.begin(), refused.end(), [&](const Refused& r) { return r.name == name; });
         if (found == refused.end() && (is_known(name) || has_no_effect(name))) return;
         notes.extensions.insert(name);
-        notes.problems.add(InputError(place, fmt::format("the file requires the extension {}, which is not supported{}", name,
-                                                         found == refused.end() ? "" : found->remedy)),
-                           place);
+        const std::string what = fmt::format("the file requires the extension {}, which is not supported", name);
+        if (found == refused.end())
+            notes.problems.add(Unknown(place, what, "", "left out"), place);
+        else
+            notes.problems.add(InputError(place, what + std::string(found->remedy)), place);
     });
     names("extensionsUsed", [&](const std::string& name, const Location&) {
         if (!required.count(name) && !is_known(name) && !has_no_effect(name)) notes.left_out(name);

@@ -200,8 +200,9 @@ void JsonObject::finish() {
             const std::string meant = did_you_mean(name, asked_);
             if (meant.empty())
                 notes_->warnings.add(fmt::format("the unknown property '{}' left out", name));
-            else
-                complain(name, fmt::format("unknown property '{}'{}", name, meant));
+            else if (wrong_.insert(name).second)
+                notes_->problems.add(Unknown(place_of(name), fmt::format("unknown property '{}'", name), meant, "left out"),
+                                     place_of(name));
             continue;
         }
         if (!value.is_object()) {

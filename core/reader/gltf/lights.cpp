@@ -37,7 +37,8 @@ Element make_light(const Placed& placed, JsonObject light) {
     light.ignore({"name"});
     if (light.find_number("range")) light.notes().warnings.add("the range of a light left out: its light falls off with distance²");
     if (type != "point" && type != "spot" && type != "directional")
-        throw InputError(light.place_of("type"), fmt::format("type is '{}', expected point, spot or directional", type));
+        throw Unknown(light.place_of("type"), fmt::format("type is '{}'", type), ", expected point, spot or directional",
+                      "the light is left out");
     Element e = make_object("emitter", type, light.place());
     if (type == "point") {
         add_point(e, "position", Vec3(placed.to_world[3]), placed.place);

@@ -101,6 +101,14 @@ void read_emission(JsonObject& o, const Textures& textures, Material& m) {
     }
 }
 
+// Matt, of reflectance 0.5.
+void make_grey(Material& m) {
+    m.base = Rgb(0.5);
+    m.base_texture = std::nullopt;
+    m.metallic = m.transmission = {};
+    m.specular = m.clearcoat = m.sheen = 0.0;
+}
+
 void read_extensions(JsonObject& o, const Textures& textures, Material& m) {
     if (auto ior = o.extension("KHR_materials_ior")) {
         m.eta = ior->number("ior", 1.5, {1.0, 100.0});
@@ -116,8 +124,13 @@ void read_extensions(JsonObject& o, const Textures& textures, Material& m) {
     leave_out(o, "KHR_materials_dispersion", "dispersion", "dispersion");
     if (o.extension("KHR_materials_unlit")) warn(o, "KHR_materials_unlit: a material that no light reaches, lit like any other");
     for (const char* name : {"KHR_materials_pbrSpecularGlossiness", "KHR_materials_diffuse_transmission"})
-        if (const auto e = o.extension(name))
-            throw InputError(e->place(), fmt::format("{} is not supported; export the material as metallic-roughness", name));
+        if (const auto e = o.extension(name)) {
+            o.notes().problems.replace(
+                Unknown(e->place(), fmt::format("{} is not supported", name), "; export the material as metallic-roughness",
+                        "the material is taken as diffuse, of reflectance 0.5"),
+                e->place());
+            make_grey(m);
+        }
 }
 
 }  // namespace

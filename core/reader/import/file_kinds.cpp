@@ -41,6 +41,13 @@ constexpr std::array other_kinds = {
     Kind{".usdc", "", "a USD file", as_gltf},
     Kind{".usdz", "", "a USD file", as_gltf},
     Kind{".abc", "", "an Alembic file", as_gltf},
+    Kind{".c4d", "", "a Cinema 4D file", as_gltf},
+    Kind{".ma", "//Maya", "a Maya file", as_gltf},
+    Kind{".mb", "", "a Maya file", as_gltf},
+    Kind{".max", "", "a 3ds Max file", as_gltf},
+    Kind{".skp", "", "a SketchUp file", as_gltf},
+    Kind{".x3d", "", "an X3D file", as_gltf},
+    Kind{".mtl", "", "a file of materials of a mesh", as_gltf},
     Kind{".exr", "\x76\x2f\x31\x01", "a picture", as_picture},
     Kind{".png", "\x89PNG", "a picture", as_picture},
     Kind{".jpg", "\xff\xd8\xff", "a picture", as_picture},
@@ -48,9 +55,15 @@ constexpr std::array other_kinds = {
     Kind{".hdr", "#?RADIANCE", "a picture", as_picture},
     Kind{".pfm", "", "a picture", as_picture},
     Kind{".tif", "", "a picture", as_picture},
+    Kind{".tiff", "", "a picture", as_picture},
+    Kind{".bmp", "", "a picture", as_picture},
     Kind{".tga", "", "a picture", as_picture},
     Kind{".zip", "PK\x03\x04", "an archive", unpacked},
     Kind{".gz", "\x1f\x8b", "a compressed file", unpacked},
+    Kind{".7z", "7z\xbc\xaf", "an archive", unpacked},
+    Kind{".rar", "Rar!", "an archive", unpacked},
+    Kind{".tar", "", "an archive", unpacked},
+    Kind{".xz", "\xfd\x37zXZ", "a compressed file", unpacked},
 };
 
 std::string beginning_of(const std::string& path) {
@@ -72,17 +85,19 @@ SceneFormat scene_format(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (path.ends_with(".pbrt.gz")) return SceneFormat::pbrt;
     std::error_code error;
-    if (std::filesystem::is_directory(path, error) || ending == ".xml") return SceneFormat::mitsuba;
-    if (ending == ".dae") return SceneFormat::collada;
-    if (ending == ".gltf" || ending == ".glb") return SceneFormat::gltf;
-    if (ending == ".pbrt" || path.ends_with(".pbrt.gz")) return SceneFormat::pbrt;
-    if (!std::filesystem::exists(path, error)) return SceneFormat::mitsuba;
-    for (const Kind& kind : other_kinds)
-        if (ending == kind.ending) refuse(path, kind);
-    const std::string beginning = beginning_of(path);
+    const bool is_there = std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error);
+    if (is_there)
+        for (const Kind& kind : other_kinds)
+            if (ending == kind.ending) refuse(path, kind);
+    const std::string beginning = is_there ? beginning_of(path) : "";
     for (const Kind& kind : other_kinds)
         if (!kind.beginning.empty() && beginning.starts_with(kind.beginning)) refuse(path, kind);
+    if (ending == ".dae") return SceneFormat::collada;
+    if (ending == ".gltf" || ending == ".glb") return SceneFormat::gltf;
+    if (ending == ".pbrt") return SceneFormat::pbrt;
+    // Of the others, and of XML, what it begins with says more.
     if (beginning.starts_with("glTF")) return SceneFormat::gltf;
     if (beginning.find("<COLLADA") != std::string::npos) return SceneFormat::collada;
     return SceneFormat::mitsuba;

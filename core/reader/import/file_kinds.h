@@ -1,4 +1,4 @@
-// What a file is, by its ending or, where that says nothing, by how it begins.
+// What a file is, by its ending and by how it begins.
 #pragma once
 
 #include <string>

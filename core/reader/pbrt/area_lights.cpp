@@ -13,7 +13,8 @@ namespace neumann::reader::pbrt {
 
 AreaLight read_area_light(Entity& e, Importer& importer) {
     if (e.type != "diffuse")
-        throw InputError(e.place(), fmt::format("area light type '{}' is not supported; allowed: diffuse", printable(e.type)));
+        throw Unknown(e.place(), fmt::format("area light type '{}' is not supported", printable(e.type)), "; allowed: diffuse",
+                      "left out");
     Parameters& p = e.parameters;
     AreaLight light;
     light.place = e.place();

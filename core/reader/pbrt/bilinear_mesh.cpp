@@ -52,8 +52,8 @@ MadeMesh make_bilinear_mesh(Parameters& p, Importer& importer) {
         if (count != 0 && count != points.size())
             p.complain(name, fmt::format("{} of {} has {} values, expected {}, as P has", name, p.title(), count, points.size()));
     if (p.has("emissionfilename"))
-        p.complain("emissionfilename",
-                   fmt::format("emissionfilename of {} is not supported; filename of the area light is", p.title()));
+        p.refuse("emissionfilename", fmt::format("emissionfilename of {} is not supported", p.title()),
+                 "; filename of the area light is");
     p.ignore({"faceIndices"});
     const std::vector<std::uint32_t> indices = read_indices(p, points.size(), 4);
 

@@ -136,7 +136,7 @@ void BsdfMaker::check_layers() {
     p_.ignore({"maxdepth", "nsamples", "g", "thickness"});
     const auto albedo = textures_.find_reflectance(p_, "albedo");
     if (albedo && (!albedo->constant() || !is_black(*albedo->constant())))
-        p_.complain("albedo", fmt::format("albedo of {}: a medium within the layer is not supported", p_.title()));
+        p_.refuse("albedo", fmt::format("albedo of {}: a medium within the layer is not supported", p_.title()));
 }
 
 Element BsdfMaker::make_coated_diffuse() {

@@ -74,11 +74,13 @@ void DirectiveReader::fail_unknown(const Token& token) {
         throw InputError(place, fmt::format("expected a directive, found {}", token.shown()));
     std::vector<std::string> known;
     for (const auto& [name, directive] : directives_) known.push_back(name);
-    throw InputError(place, fmt::format("unknown directive {}{}", token.shown(), did_you_mean(token.text, known)));
+    throw Unknown(place, fmt::format("unknown directive {}", token.shown()), did_you_mean(token.text, known), "left out");
 }
 
+// Those that are not known are told, too.
 void DirectiveReader::skip_to_directive() {
-    while (tokens().peek() && (tokens().peek()->is_string || !directives_.contains(tokens().peek()->text))) tokens().next();
+    const auto is_directive = [](const Token& t) { return !t.is_string && t.text[0] >= 'A' && t.text[0] <= 'Z'; };
+    while (tokens().peek() && !is_directive(*tokens().peek())) tokens().next();
 }
 
 void DirectiveReader::check_end() {

@@ -27,8 +27,9 @@ void DirectiveReader::add_options() {
     anywhere("ColorSpace", [this](auto& word, const Location& place) {
         const std::string name = string_argument(word, place, "a name");
         if (name != "srgb" && name != "sRGB")
-            throw InputError(place,
-                             fmt::format("ColorSpace is '{}', expected srgb; the others are not supported", printable(name)));
+            problems_.replace(Unknown(place, fmt::format("ColorSpace is '{}'", printable(name)),
+                                      ", expected srgb; the others are not supported", "taken as srgb"),
+                              place);
     });
     anywhere("WorldBegin", [this](auto&, const Location& place) {
         if (is_in_world_) throw InputError(place, "a second WorldBegin");
@@ -91,7 +92,8 @@ void DirectiveReader::add_world_directives() {
         const std::string name = string_argument(word, place, "a name");
         media_.insert(name);
         parameters("medium", place);
-        throw InputError(place, fmt::format("medium '{}': media are not supported", printable(name)));
+        problems_.replace(Unknown(place, fmt::format("medium '{}': media are not supported", printable(name)), "", "left out"),
+                          place);
     });
     anywhere("MediumInterface", [this](auto&, const Location& place) { medium_interface(place); });
     anywhere("Include", [this](auto& word, const Location& place) { include(word, place); });
@@ -111,7 +113,7 @@ void DirectiveReader::option(const Location& place) {
     p.ignore({"disabletexturefiltering", "disablewavelengthjitter", "displacementedgescale", "msereferenceimage", "msereferenceout",
               "pixelstats", "rendercoordsys", "seed", "wavefront"});
     for (const char* name : {"disablepixeljitter", "forcediffuse"})
-        if (p.boolean(name).value_or(false)) p.complain(name, fmt::format("{} is not supported", name));
+        if (p.boolean(name).value_or(false)) p.refuse(name, fmt::format("{} is not supported", name));
     p.finish();
 }
 
@@ -207,7 +209,8 @@ void DirectiveReader::medium_interface(const Location& place) {
     // The problem of a medium that is made has been told there.
     for (const std::string& name : names)
         if (!name.empty() && !media_.contains(name))
-            throw InputError(place, fmt::format("medium '{}': media are not supported", printable(name)));
+            problems_.replace(Unknown(place, fmt::format("medium '{}': media are not supported", printable(name)), "", "ignored"),
+                              place);
 }
 
 }  // namespace neumann::reader::pbrt

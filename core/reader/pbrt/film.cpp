@@ -81,8 +81,10 @@ MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer) {
     importer.problems.attempt(e.place(), [&] {
         if (e.type != "rgb" && e.type != "gbuffer") {
             static const std::vector<std::string> types = {"gbuffer", "rgb"};
-            throw InputError(e.place(), fmt::format("film type '{}' is not supported{}; allowed: gbuffer, rgb", printable(e.type),
-                                                    did_you_mean(e.type, types)));
+            importer.problems.replace(
+                Unknown(e.place(), fmt::format("film type '{}' is not supported", printable(e.type)),
+                        fmt::format("{}; allowed: gbuffer, rgb", did_you_mean(e.type, types)), "taken as 'rgb'"),
+                e.place());
         }
         film.width = read_resolution(p, "xresolution", film.width);
         film.height = read_resolution(p, "yresolution", film.height);
@@ -123,15 +125,6 @@ Element make_filter(Entity& e, Importer& importer) {
         add_float(filter, "radius", read_filter_radius(p, 2.0, importer), p.place("xradius"));
         return finished(std::move(filter));
     }
-    if (e.type == "gaussian") {
-        const double radius = read_filter_radius(p, 1.5, importer), sigma = p.number("sigma", 0.5);
-        if (!(sigma > 0.0)) p.complain("sigma", fmt::format("sigma of {} is {}, expected more than 0", p.title(), sigma));
-        // What lies beyond 3 σ is a 370th of the filter.
-        if (radius < 3.0 * sigma * (1.0 - 1e-6)) warn_of_radius("gaussian", radius, 4.0 * sigma, importer);
-        Element filter = make_object("rfilter", "gaussian", e.place());
-        add_float(filter, "stddev", sigma, p.place("sigma"));
-        return finished(std::move(filter));
-    }
     if (e.type == "mitchell") {
         warn_of_radius("mitchell", read_filter_radius(p, 2.0, importer), 2.0, importer);
         Element filter = make_object("rfilter", "mitchell", e.place());
@@ -149,8 +142,18 @@ Element make_filter(Entity& e, Importer& importer) {
         return finished(std::move(filter));
     }
     static const std::vector<std::string> types = {"box", "gaussian", "mitchell", "sinc", "triangle"};
-    throw InputError(e.place(), fmt::format("pixel filter type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                            did_you_mean(e.type, types), join(types)));
+    if (e.type != "gaussian")
+        importer.problems.replace(
+            Unknown(e.place(), fmt::format("pixel filter type '{}' is not supported", printable(e.type)),
+                    fmt::format("{}; allowed: {}", did_you_mean(e.type, types), join(types)), "taken as 'gaussian'"),
+            e.place());
+    const double radius = read_filter_radius(p, 1.5, importer), sigma = p.number("sigma", 0.5);
+    if (!(sigma > 0.0)) p.complain("sigma", fmt::format("sigma of {} is {}, expected more than 0", p.title(), sigma));
+    // What lies beyond 3 σ is a 370th of the filter.
+    if (radius < 3.0 * sigma * (1.0 - 1e-6)) warn_of_radius("gaussian", radius, 4.0 * sigma, importer);
+    Element filter = make_object("rfilter", "gaussian", e.place());
+    add_float(filter, "stddev", sigma, p.place("sigma"));
+    return finished(std::move(filter));
 }
 
 }  // namespace neumann::reader::pbrt

@@ -36,8 +36,8 @@ Shapes::Form Shapes::make_form(ShapeEntity& s) {
     if (s.type == "disk") return make_disk(s);
     if (s.type == "cylinder") return make_cylinder(s);
     if (std::find(shape_types.begin(), shape_types.end(), s.type) != shape_types.end()) return make_mesh(s);
-    throw InputError(s.place(), fmt::format("shape type '{}' is not supported{}; allowed: {}", printable(s.type),
-                                            did_you_mean(s.type, shape_types), join(shape_types)));
+    throw Unknown(s.place(), fmt::format("shape type '{}' is not supported", printable(s.type)),
+                  fmt::format("{}; allowed: {}", did_you_mean(s.type, shape_types), join(shape_types)), "left out");
 }
 
 // Parts of round shapes are refused.
@@ -45,7 +45,8 @@ void Shapes::check_full(Parameters& p, const std::string& name, double value) {
     const double given = p.number(name, value);
     const bool is_full = name == "zmin" ? given <= value : given >= value;
     if (std::abs(given - value) > 1e-6 * std::abs(value) && !is_full)
-        p.complain(name, fmt::format("{} of {} is {}, expected {}: only whole ones are supported", name, p.title(), given, value));
+        p.refuse(name, fmt::format("{} of {} is {}", name, p.title(), given),
+                 fmt::format(", expected {}: only whole ones are supported", value));
 }
 
 Shapes::Form Shapes::make_sphere(ShapeEntity& s) {
@@ -66,8 +67,8 @@ Shapes::Form Shapes::make_disk(ShapeEntity& s) {
     Parameters& p = s.parameters;
     const double radius = read_radius_of(p), height = p.number("height", 0.0);
     if (const double inner = p.number("innerradius", 0.0); inner != 0.0)
-        p.complain("innerradius",
-                   fmt::format("innerradius of {} is {}, expected 0: only whole ones are supported", p.title(), inner));
+        p.refuse("innerradius", fmt::format("innerradius of {} is {}", p.title(), inner),
+                 ", expected 0: only whole ones are supported");
     check_full(p, "phimax", 360.0);
     Form form{make_object("shape", "disk", s.place()), Coordinates::disk};
     const Mat4 own = glm::scale(glm::translate(Mat4(1.0), Vec3(0.0, 0.0, height)), Vec3(radius, radius, 1.0));

@@ -130,7 +130,7 @@ Element make_infinite(Entity& e, Importer& importer) {
     const std::optional<std::string> filename = p.text("filename");
     if (colour && filename) p.complain("filename", fmt::format("{} has L and filename, expected one of them", p.title()));
     if (p.find("portal", {"point3"}))
-        p.complain("portal", fmt::format("portal of {} is not supported: pbrt has no light from beside it", p.title()));
+        p.refuse("portal", fmt::format("portal of {} is not supported", p.title()), ": pbrt has no light from beside it");
     const double scale = read_scale(p) * importer.imaging_ratio, illuminance = read_positive(p, "illuminance");
     finish(p);
     if (filename) return make_picture_light(e, *filename, scale, illuminance, importer);
@@ -144,8 +144,8 @@ Element make_light(Entity& e, Importer& importer) {
     if (e.type == "distant") return make_distant(e, importer);
     if (e.type == "spot") return make_spot(e, importer);
     if (e.type == "infinite") return make_infinite(e, importer);
-    throw InputError(e.place(), fmt::format("light type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                            did_you_mean(e.type, light_types), join(light_types)));
+    throw Unknown(e.place(), fmt::format("light type '{}' is not supported", printable(e.type)),
+                  fmt::format("{}; allowed: {}", did_you_mean(e.type, light_types), join(light_types)), "left out");
 }
 
 }  // namespace

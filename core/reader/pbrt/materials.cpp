@@ -64,7 +64,10 @@ MadeMaterial Materials::make(std::size_t number, Coordinates coordinates) {
     std::optional<Element> e =
         importer_.problems.attempt(m.place(), [&] { return make_element(m, coordinates, result.needs_coordinates); });
     open_.erase(number);
-    if (!e) e = make_object("bsdf", "diffuse", m.place());  // not used: there is a problem
+    if (!e) {  // unknown, or not used because there is a problem
+        e = make_object("bsdf", "twosided", m.place());
+        add(*e, make_object("bsdf", "diffuse", m.place()));
+    }
     result.id = unused_id(m.name.empty() ? fmt::format("{}-{}", m.type, m.place().line) : m.name);
     e->attributes.push_back(make_object("bsdf", "", m.place(), result.id).attributes.back());
     elements_.push_back(std::move(*e));

@@ -66,7 +66,7 @@ MadeMesh read_ply_mesh(Parameters& p, Importer& importer) {
     const std::optional<std::string> name = p.text("filename");
     if (!name) p.complain("filename", fmt::format("{} has no \"string filename\"", p.title()));
     if (p.find("displacement", {"texture"}))
-        p.complain("displacement", fmt::format("displacement of {} is not supported; that of materials is", p.title()));
+        p.refuse("displacement", fmt::format("displacement of {} is not supported", p.title()), "; that of materials is");
     p.ignore({"edgelength"});  // of the displacement
     if (!name || p.is_wrong()) throw Told();
     const std::string path = find_file(*name, importer.main_file(), p.place("filename"));

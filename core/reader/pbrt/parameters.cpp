@@ -141,6 +141,14 @@ void Parameters::complain_whole(const std::string& name, const InputError& probl
     if (spoilt_.insert(name).second) problems_->add(problem, place_);
 }
 
+void Parameters::refuse(const std::string& name, const std::string& what, const std::string& expected) {
+    const Unknown unknown(place(name), what, expected, "ignored");
+    if (problems_->lenient())
+        problems_->add(unknown, place_);
+    else
+        complain_whole(name, unknown);
+}
+
 void Parameters::finish() {
     const std::vector<std::string> known(asked_.begin(), asked_.end());
     for (const Parameter& p : all_) {
@@ -148,8 +156,8 @@ void Parameters::finish() {
         if (asked_.contains(p.name))
             complain(p.name, fmt::format("{} of {} is of the type {}, which is not expected here", p.name, title_, p.type));
         else
-            complain(p.name, fmt::format("unknown parameter '{}' of {}{}; {}", printable(p.name), title_,
-                                         did_you_mean(p.name, known), known.empty() ? "it has none" : "allowed: " + join(known)));
+            refuse(p.name, fmt::format("unknown parameter '{}' of {}", printable(p.name), title_),
+                   did_you_mean(p.name, known) + "; " + (known.empty() ? "it has none" : "allowed: " + join(known)));
     }
 }
 

@@ -68,6 +68,8 @@ public:
     void complain(const std::string& name, const std::string& what);
     // The same with a message that has a place of its own.
     void complain_whole(const std::string& name, const InputError& problem);
+    // What is not known about a parameter, without which a lenient reader goes on. `expected`: as in Unknown.
+    void refuse(const std::string& name, const std::string& what, const std::string& expected = "");
     bool is_spoilt(const std::string& name) const { return spoilt_.contains(name); }
     // Whether any problem has been told.
     bool is_wrong() const { return !spoilt_.empty(); }

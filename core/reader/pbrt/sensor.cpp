@@ -94,7 +94,7 @@ Element make_perspective(Entity& e, const Screen& screen, Importer&) {
 Element make_orthographic(Entity& e, const Screen& screen, Importer&) {
     Parameters& p = e.parameters;
     if (p.number("lensradius", 0.0) != 0.0)
-        p.complain("lensradius", fmt::format("lensradius of {} is not supported: parallel rays are sharp everywhere", p.title()));
+        p.refuse("lensradius", fmt::format("lensradius of {} is not supported", p.title()), ": parallel rays are sharp everywhere");
     p.number("focaldistance");
     Element sensor = make_object("sensor", "orthographic", e.place());
     // The film covers −1 … 1 along x.
@@ -123,8 +123,10 @@ Element make_sampler(PbrtScene& from, Element& scene, Importer& importer) {
     static const std::vector<std::string> types = {"halton", "independent", "paddedsobol", "pmj02bn",
                                                    "sobol",  "stratified",  "zsobol"};
     if (std::find(types.begin(), types.end(), e.type) == types.end())
-        throw InputError(e.place(), fmt::format("sampler type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                                did_you_mean(e.type, types), join(types)));
+        importer.problems.replace(
+            Unknown(e.place(), fmt::format("sampler type '{}' is not supported", printable(e.type)),
+                    fmt::format("{}; allowed: {}", did_you_mean(e.type, types), join(types)), "taken as 'zsobol'"),
+            e.place());
     std::int64_t count = 0;
     Location place = e.place();
     if (e.type == "stratified") {
@@ -157,12 +159,14 @@ Element make_sensor(PbrtScene& from, Element& scene, Importer& importer) {
     std::optional<Element> sensor = importer.problems.attempt(e.place(), [&] {
         if (e.type != "perspective" && e.type != "orthographic") {
             static const std::vector<std::string> types = {"orthographic", "perspective"};
-            throw InputError(e.place(), fmt::format("camera type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                                    did_you_mean(e.type, types), join(types)));
+            importer.problems.replace(
+                Unknown(e.place(), fmt::format("camera type '{}' is not supported", printable(e.type)),
+                        fmt::format("{}; allowed: {}", did_you_mean(e.type, types), join(types)), "taken as 'perspective'"),
+                e.place());
         }
         read_shutter(p, importer);
         const Screen screen = read_screen(p, film.width, film.height);
-        Element made = e.type == "perspective" ? make_perspective(e, screen, importer) : make_orthographic(e, screen, importer);
+        Element made = e.type == "orthographic" ? make_orthographic(e, screen, importer) : make_perspective(e, screen, importer);
         add_clipping(made, e.place());
         p.finish();
         if (p.is_wrong()) throw Told();

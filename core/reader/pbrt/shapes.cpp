@@ -70,6 +70,7 @@ void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
     if (form) p.finish();
     // The material is looked for before, so that its problems are told even if the shape has some.
     MadeMaterial material = materials_.use(s.material, form ? form->coordinates : Coordinates::same);
+    if (!form && importer_.problems.lenient()) return;  // of a type that is not known
     if (!form || p.is_wrong()) throw Told();
     if (material.is_interface) {
         if (s.light) importer_.warnings.add("area light on a shape with the material 'interface': left out, as in pbrt");
@@ -83,7 +84,8 @@ void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
         if (alpha->constant() && alpha->constant()->r <= 0.0) return;
         material = materials_.masked(material, *alpha, form->coordinates, p.place("alpha"));
     }
-    if (s.light)
+    const bool light_is_left_out = s.light && !lights_[*s.light] && importer_.problems.lenient();
+    if (s.light && !light_is_left_out)
         add_lights(s, *form, material, to);
     else
         to.push_back(finished(s, *form, material, std::nullopt));

@@ -102,8 +102,8 @@ TextureValue Textures::operand(TextureEntity& e, const std::string& name, double
 TextureValue Textures::make_checks(TextureEntity& e) {
     Parameters& p = e.parameters;
     if (const std::int64_t dimension = p.integer("dimension").value_or(2); dimension != 2)
-        p.complain("dimension",
-                   fmt::format("dimension of {} is {}, expected 2; solid textures are not supported", p.title(), dimension));
+        p.refuse("dimension", fmt::format("dimension of {} is {}", p.title(), dimension),
+                 ", expected 2; solid textures are not supported");
     Checks checks;
     checks.squares = {std::make_shared<const TextureValue>(operand(e, "tex1", 1.0)),
                       std::make_shared<const TextureValue>(operand(e, "tex2", 0.0))};
@@ -142,8 +142,8 @@ TextureValue Textures::make(TextureEntity& e) {
         return finished(combine(
             a, b, [](const Rgb& x, const Rgb& y) { return x + y; }, importer_, e.place()));
     }
-    throw InputError(e.place(), fmt::format("texture type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                            did_you_mean(e.type, texture_types), join(texture_types)));
+    throw Unknown(e.place(), fmt::format("texture type '{}' is not supported", printable(e.type)),
+                  fmt::format("{}; allowed: {}", did_you_mean(e.type, texture_types), join(texture_types)), "taken as 0.5");
 }
 
 std::optional<TextureValue> Textures::find_texture(Parameters& p, const std::string& name, bool is_float) {

@@ -7,12 +7,14 @@ namespace neumann::reader {
 int AreaLights::index(const Element& e) {
     const auto known = index_.find(&e);
     if (known != index_.end()) return known->second;
-    lights_.push_back(context_.problems().attempt(e.place, [&] { return read(e); }).value_or(AreaLight(Rgb(0.0))));
+    std::optional<AreaLight> light = context_.problems().attempt(e.place, [&] { return read(e); });
+    if (!light) return index_[&e] = Emitters::none;
+    lights_.push_back(std::move(*light));
     return index_[&e] = static_cast<int>(lights_.size()) - 1;
 }
 
 AreaLight AreaLights::read(const Element& e) const {
-    if (e.attribute("type").value != "area") fail_type(e, {"area"});
+    if (e.attribute("type").value != "area") fail_type(e, {"area"}, "left out");
     Properties p(e, context_.objects);
     std::optional<AreaLight> light;
     if (const auto texture = find_color_texture(p, "radiance", Illuminant::equal_energy, context_)) {

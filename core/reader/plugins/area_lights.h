@@ -10,7 +10,7 @@ class AreaLights {
 public:
     explicit AreaLights(const Context& context) : context_(context) {}
 
-    // Index of the light; each element is stored once. A light with an error is replaced by a black one.
+    // Index of the light; each element is stored once. None for a light with an error.
     int index(const Element& e);
 
     bool has(const Element& e) const { return index_.count(&e) > 0; }

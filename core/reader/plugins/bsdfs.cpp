@@ -120,7 +120,8 @@ Materials::Sides Bsdfs::read(const Element& e) {
                   "null",           "phong",           "plastic",
                   "principled",     "principledthin",  "retroreflector",
                   "roughconductor", "roughdielectric", "roughplastic",
-                  "thindielectric", "twosided",        "ward"});
+                  "thindielectric", "twosided",        "ward"},
+              "taken as 'diffuse' of reflectance 0.5");
 }
 
 Materials::Sides Bsdfs::read_two_sided(const Element& e) {

@@ -65,7 +65,7 @@ PixelFilter read_filter_type(const std::string& type, Properties& p) {
 }  // namespace
 
 Film read_film(const Element& e, const Context& context) {
-    if (e.attribute("type").value != "hdrfilm") fail_type(e, {"hdrfilm"});
+    type_of(e, {"hdrfilm"}, "hdrfilm", context.problems());
     Properties p(e, context.objects);
     Film film;
     film.width = read_size(p, "width", 768);
@@ -92,8 +92,7 @@ Film read_film(const Element& e, const Context& context) {
 
 PixelFilter read_filter(const Element& e, const Context& context) {
     static const std::vector<std::string> types = {"box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent"};
-    const std::string& type = e.attribute("type").value;
-    if (std::find(types.begin(), types.end(), type) == types.end()) fail_type(e, types);
+    const std::string type = type_of(e, types, "gaussian", context.problems());
     Properties p(e, context.objects);
     const PixelFilter filter = read_filter_type(type, p);
     p.finish();

@@ -56,14 +56,11 @@ Integrator read_direct(Properties& p) {
 }  // namespace
 
 Integrator read_integrator(const Element& e, const Context& context) {
-    const std::string& type = e.attribute("type").value;
+    std::vector<std::string> allowed = {"aov", "direct", "moment"};
+    allowed.insert(allowed.end(), path_types.begin(), path_types.end());
+    const std::string type = type_of(e, allowed, "path", context.problems());
     const bool is_path = std::find(path_types.begin(), path_types.end(), type) != path_types.end();
     const bool is_around_another = type == "moment" || type == "aov";
-    if (!is_path && type != "direct" && !is_around_another) {
-        std::vector<std::string> allowed = {"aov", "direct", "moment"};
-        allowed.insert(allowed.end(), path_types.begin(), path_types.end());
-        fail_type(e, allowed);
-    }
     Properties p(e, context.objects);
     Integrator result;
     const Element* nested = nullptr;

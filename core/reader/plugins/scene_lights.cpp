@@ -124,7 +124,7 @@ void SceneLights::add(const Element& e) {
     else if (type == "projector")
         delta_.emplace_back(read_projector(p, context_));
     else
-        fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot"});
+        fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot"}, "left out");
 }
 
 void SceneLights::set_environment(const Element& e, Environment environment) {

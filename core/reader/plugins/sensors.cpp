@@ -32,7 +32,7 @@ void read_clipping(Properties& p, SensorOptions& camera) {
                    {"near_clip"});
 }
 
-SensorOptions read_perspective(Properties& p) {
+SensorOptions read_perspective(Properties& p, const std::string& type) {
     SensorOptions camera;
     camera.to_world = read_rigid_transform(p);
     const FieldOfView field = read_field_of_view(p);
@@ -40,7 +40,7 @@ SensorOptions read_perspective(Properties& p) {
     camera.fov_axis = field.axis;
     read_clipping(p, camera);
     const std::optional<double> focus_distance = p.number("focus_distance");
-    if (p.element().attribute("type").value == "perspective") {
+    if (type == "perspective") {
         // A pinhole is sharp everywhere.
         camera.principal_point_offset = {p.number("principal_point_offset_x").value_or(0.0),
                                          p.number("principal_point_offset_y").value_or(0.0)};
@@ -132,13 +132,12 @@ Mat4 read_rigid_transform(Properties& p) {
 }
 
 ReadSensor read_sensor(const Element& e, const Context& context) {
-    const std::string& type = e.attribute("type").value;
+    const std::string type =
+        type_of(e, {"orthographic", "perspective", "radiancemeter", "thinlens"}, "perspective", context.problems());
     const bool is_meter = type == "radiancemeter";
-    if (type != "orthographic" && type != "perspective" && !is_meter && type != "thinlens")
-        fail_type(e, {"orthographic", "perspective", "radiancemeter", "thinlens"});
     Properties p(e, context.objects);
     ReadSensor s;
-    s.camera = type == "orthographic" ? read_orthographic(p) : is_meter ? read_radiance_meter(p) : read_perspective(p);
+    s.camera = type == "orthographic" ? read_orthographic(p) : is_meter ? read_radiance_meter(p) : read_perspective(p, type);
     const std::vector<const Element*> films = p.nested("film"), samplers = p.nested("sampler");
     p.refuse_rest();
     Problems& problems = context.problems();
@@ -155,8 +154,7 @@ ReadSensor read_sensor(const Element& e, const Context& context) {
 
 SamplerKind read_sampler(const Element& e, const Context& context) {
     static const std::vector<std::string> types = {"independent", "ldsampler", "multijitter", "orthogonal", "stratified"};
-    const std::string& type = e.attribute("type").value;
-    if (std::find(types.begin(), types.end(), type) == types.end()) fail_type(e, types);
+    const std::string type = type_of(e, types, "independent", context.problems());
     Properties p(e, context.objects);
     // The command line decides about both.
     const std::int64_t count = p.integer("sample_count").value_or(1);

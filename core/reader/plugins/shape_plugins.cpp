@@ -1,6 +1,7 @@
 #include "core/reader/plugins/shape_plugins.h"
 
 #include "core/geometry/transformed.h"
+#include "core/reader/plugins/curve_shape.h"
 #include "core/reader/plugins/mesh_shape.h"
 #include "core/reader/plugins/textures.h"
 #include "core/reader/xml/properties.h"
@@ -50,6 +51,7 @@ Cylinder read_cylinder(Properties& p, bool flip_normals) {
 Shape read_geometry(Properties& p, const Context& context) {
     const std::string& type = p.element().attribute("type").value;
     if (type == "obj" || type == "ply" || type == "serialized") return read_mesh_shape(p, context);
+    if (type == "bsplinecurve" || type == "linearcurve") return read_curve_shape(p, context);
     const bool flip_normals = p.boolean("flip_normals").value_or(false);
     if (type == "sphere") return read_sphere(p, flip_normals);
     if (type == "cylinder") return read_cylinder(p, flip_normals);
@@ -79,9 +81,10 @@ void check_attributes(const Properties& p, const Shape& shape, const Context& co
 }  // namespace
 
 ReadShape read_shape(const Element& e, const Context& context) {
-    static const std::vector<std::string> types = {"cube", "cylinder",  "disk",       "instance",   "merge", "obj",
-                                                   "ply",  "rectangle", "serialized", "shapegroup", "sphere"};
-    if (std::find(types.begin(), types.end(), e.attribute("type").value) == types.end()) fail_type(e, types);
+    static const std::vector<std::string> types = {"bsplinecurve", "cube",       "cylinder", "disk", "instance",
+                                                   "linearcurve",  "merge",      "obj",      "ply",  "rectangle",
+                                                   "serialized",   "shapegroup", "sphere"};
+    if (std::find(types.begin(), types.end(), e.attribute("type").value) == types.end()) fail_type(e, types, "left out");
     Properties p(e, context.objects);
     ReadShape result;
     result.element = &e;

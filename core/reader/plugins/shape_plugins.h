@@ -1,4 +1,5 @@
-// <shape>: obj, ply, serialized, rectangle, cube, disk, sphere, cylinder. Groups and instances are in read_shapes.h.
+// <shape>: obj, ply, serialized, linearcurve, bsplinecurve, rectangle, cube, disk, sphere, cylinder. Groups and instances are in
+// read_shapes.h.
 #pragma once
 
 #include "core/geometry/shape.h"

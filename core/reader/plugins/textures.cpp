@@ -191,7 +191,15 @@ Texture read_texture(const Element& e, std::optional<Illuminant> illuminant, con
     if (type == "mesh_attribute") return read_mesh_attribute(p, context);
     if (type == "rawconstant") return read_raw_constant(p, !illuminant);
     if (type == "scale") return read_scaled(p, illuminant, context);
-    fail_type(e, {"bitmap", "checkerboard", "mesh_attribute", "rawconstant", "scale"});
+    const bool emits = illuminant == Illuminant::equal_energy;
+    try {
+        fail_type(e, {"bitmap", "checkerboard", "mesh_attribute", "rawconstant", "scale"},
+                  emits ? "taken as black" : "taken as 0.5");
+    } catch (const Unknown& unknown) {
+        context.problems().replace(unknown, e.place);
+    }
+    const Rgb everywhere(emits ? 0.0 : 0.5);
+    return {everywhere, everywhere};
 }
 
 Texture read_not_negative(const Element& e, const std::string& name, std::optional<Illuminant> illuminant, const Context& context) {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,6 +49,10 @@ private:
     void add_default(const Element& e);
     void add_folder(const Element& e);
     void include(const Element& e, Element& parent);
+    // The element, or nothing where a lenient reader leaves it out.
+    std::optional<Element> read_child(const Element& raw, const Element& parent, int depth);
+    // Notes that an element and its contents are not in the document.
+    void lose(const Element& raw);
     // Puts a broken element in place of one that cannot be read, with its contents.
     void drop(const Element& raw, Element& parent);
     // Calls f; if it throws InputError, the problem is recorded and the element marked as broken.
@@ -102,7 +105,7 @@ Element Loader::read_element(const Element& raw, const std::string& parent_tag, 
     for (Attribute& a : e.attributes) attempt(e, [&] { definitions_.substitute(a); });
     read_children(raw, e, depth);
     if (reading_.is_old) attempt(e, [&] { upgrade_parameters(e, warnings_); });
-    if (e.tag == "spectrum" && !e.broken) attempt(e, [&] { write_out_spectrum(e, document_, problems_); });
+    if (e.tag == "spectrum" && !e.broken) attempt(e, [&] { write_out_spectrum(e, parent_tag, document_, problems_); });
     return e;
 }
 
@@ -112,11 +115,20 @@ void Loader::read_children(const Element& raw, Element& parent, int depth) {
                                                            join(split(raw.text)))),
                       parent.place);
     for (const Element& child : raw.children) {
-        std::optional<Element> e = problems_.attempt(parent.place, [&] { return read_element(child, parent.tag, depth + 1); });
-        if (e)
-            place(std::move(*e), parent);
-        else
-            drop(child, parent);
+        const bool is_right = problems_.attempt(parent.place, [&] {
+            if (std::optional<Element> e = read_child(child, parent, depth + 1)) place(std::move(*e), parent);
+        });
+        if (!is_right) drop(child, parent);
+    }
+}
+
+std::optional<Element> Loader::read_child(const Element& raw, const Element& parent, int depth) {
+    try {
+        return read_element(raw, parent.tag, depth);
+    } catch (const Unknown& unknown) {
+        problems_.replace(unknown, parent.place);
+        lose(raw);
+        return std::nullopt;
     }
 }
 
@@ -167,13 +179,14 @@ void Loader::add_folder(const Element& e) {
     throw InputError(value.place, fmt::format("there is no folder '{}'", fmt::join(tried, "' or '")));
 }
 
-void Loader::drop(const Element& raw, Element& parent) {
-    const std::function<void(const Element&)> note_ids = [&](const Element& e) {
-        if (const Attribute* id = e.find("id")) document_.lost.ids.insert(id->value);
-        for (const Element& child : e.children) note_ids(child);
-    };
-    note_ids(raw);
+void Loader::lose(const Element& raw) {
+    if (const Attribute* id = raw.find("id")) document_.lost.ids.insert(id->value);
+    for (const Element& child : raw.children) lose(child);
     dropped_ = true;
+}
+
+void Loader::drop(const Element& raw, Element& parent) {
+    lose(raw);
     parent.broken = parent.broken || (!is_object(parent.tag) && parent.tag != "scene");
     Element e;  // without a tag
     e.place = parent.place;

@@ -2,6 +2,7 @@
 
 #include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/instead_of.h"
+#include "core/reader/xml/problems.h"
 
 #include <algorithm>
 
@@ -91,13 +92,15 @@ void check_place(const Element& element, const std::string& parent_tag) {
     const Kind parent = rule_of(parent_tag)->kind;
     if (rule && allowed(rule->kind, parent)) return;
     if (const std::string_view advice = instead_of(element.tag, ""); !advice.empty())
-        throw InputError(element.place, fmt::format("<{}> is not supported: {}", element.tag, advice));
+        throw Unknown(element.place, fmt::format("<{}> is not supported", element.tag), fmt::format(": {}", advice), "left out");
     std::vector<std::string> tags;
     for (const Rule& r : rules())
         if (allowed(r.kind, parent)) tags.push_back(r.tag);
     std::sort(tags.begin(), tags.end());
     const std::string expected = tags.empty() ? "expected nothing inside" : allowed_instead(element.tag, tags);
-    throw InputError(element.place, fmt::format("<{}> is not supported in <{}>; {}", element.tag, parent_tag, expected));
+    const std::string what = fmt::format("<{}> is not supported in <{}>", element.tag, parent_tag);
+    if (!rule) throw Unknown(element.place, what, "; " + expected, "left out");
+    throw InputError(element.place, what + "; " + expected);
 }
 
 void check_attributes(const Element& element) {

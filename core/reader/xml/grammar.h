@@ -10,7 +10,8 @@ bool is_object(std::string_view tag);
 // Whether the tag is a parameter with a name: float, string, …
 bool is_parameter(std::string_view tag);
 
-// Throws InputError if an element is not allowed in its parent, has an attribute that is not allowed, or lacks one.
+// Throws InputError if an element is not allowed in its parent (Unknown if it is not known at all), has an attribute that is not
+// allowed, or lacks one.
 void check_place(const Element& element, const std::string& parent_tag);
 void check_attributes(const Element& element);
 

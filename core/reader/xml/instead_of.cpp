@@ -13,7 +13,6 @@ struct Plugin {
 
 constexpr std::string_view polarisation = "polarisation is not simulated; without it the picture needs no such plugin",
                            hair = "hair is not simulated", no_media = "media are not simulated, only surfaces",
-                           curves = "curves are not read; a mesh of thin tubes, written as ply, can stand for them",
                            all_paths = "'path' has the same picture",
                            sky = "a picture of the sky can stand for it, written as OpenEXR and read by emitter 'envmap'";
 
@@ -67,12 +66,10 @@ constexpr std::array plugins = {
     Plugin{"sensor", "distant", "'orthographic' has the same parallel rays, on a film of any size"},
     Plugin{"sensor", "hdistant", "'orthographic' has parallel rays, one direction a scene"},
     Plugin{"sensor", "irradiancemeter", "a white 'diffuse' patch in its place, seen by a camera, has the radiance E/π"},
-    Plugin{"shape", "bsplinecurve", curves},
     Plugin{"shape", "ellipsoids", "splats are not read; a mesh, written as ply, can stand for them"},
     Plugin{"shape", "ellipsoidsmesh", "splats are not read; a mesh, written as ply, can stand for them"},
     Plugin{"shape", "hair", hair},
     Plugin{"shape", "heightfield", "a mesh, written as ply, can stand for it"},
-    Plugin{"shape", "linearcurve", curves},
     Plugin{"shape", "sdfgrid", "a mesh of its surface, written as ply, can stand for it"},
     Plugin{"subsurface", "", no_media},
     Plugin{"texture", "volume", no_media},

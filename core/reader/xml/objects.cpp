@@ -10,7 +10,12 @@ Objects::Objects(const Element& root, Problems& problems, LostIds lost) : proble
     add(root);
     for (const Element& e : root.children) {
         if (e.tag != "alias") continue;
-        const Attribute* as = e.find("as");
+        const Attribute *as = e.find("as"), *id = e.find("id");
+        if (problems_.lenient() && as && id && is_lost(*id)) {
+            problems_.add(Unknown(id->place, fmt::format("alias of '{}', which is left out", id->value), "", "left out"), e.place);
+            lost_.ids.insert(as->value);
+            continue;
+        }
         if (e.broken || !problems_.attempt(e.place, [&] { add(*as, find(e.attribute("id"), "alias of")); }))
             if (as) lost_.ids.insert(as->value);
     }

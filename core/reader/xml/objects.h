@@ -22,6 +22,8 @@ public:
 
     // The object that <ref id=…> means; throws InputError if there is none.
     const Element& find(const Attribute& id, const std::string& what = "reference to") const;
+    // Whether what has this id could not be read.
+    bool is_lost(const Attribute& id) const { return lost_.ids.contains(id.value); }
     // The object that a <ref> means, or null.
     const Element* known(const Element& reference) const;
 

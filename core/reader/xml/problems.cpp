@@ -37,12 +37,37 @@ Order order_of(const std::string& text, const Location& near, const std::vector<
     return {static_cast<std::size_t>(file - files.begin()), near.line, near.column, near.pointer};
 }
 
+void insert(std::map<std::string, Location>& messages, const std::string& text, const Location& near) {
+    Location& known = messages.try_emplace(text, near).first->second;
+    if (key(near) < key(known)) known = near;
+}
+
+std::vector<std::string> in_order(const std::map<std::string, Location>& messages, const std::vector<std::string>& files) {
+    std::vector<std::pair<Order, std::string>> sorted;
+    for (const auto& [text, near] : messages) sorted.emplace_back(order_of(text, near, files), text);
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::string> texts;
+    for (auto& [order, text] : sorted) texts.push_back(std::move(text));
+    return texts;
+}
+
 }  // namespace
 
 void Problems::add(const InputError& problem, const Location& near) {
+    const auto* unknown = dynamic_cast<const Unknown*>(&problem);
     const std::scoped_lock lock(mutex_);
-    Location& known = near_.try_emplace(problem.what(), near).first->second;
-    if (key(near) < key(known)) known = near;
+    if (unknown && lenient_) return insert(replaced_, unknown->replaced(), near);
+    all_unknown_ = all_unknown_ && unknown;
+    insert(near_, problem.what(), near);
+}
+
+void Problems::replace(const Unknown& unknown, const Location& near) {
+    if (!lenient_) throw unknown;
+    add(unknown, near);
+}
+
+void Problems::expect_told(const Location& near) {
+    if (lenient_ && !any()) add(InputError(near, "cannot be read without what is not known"), near);
 }
 
 bool Problems::any() const {
@@ -53,13 +78,17 @@ bool Problems::any() const {
 void Problems::check(const std::vector<std::string>& files) const {
     const std::scoped_lock lock(mutex_);
     if (near_.empty()) return;
-    std::vector<std::pair<Order, std::string>> sorted;
-    for (const auto& [text, near] : near_) sorted.emplace_back(order_of(text, near, files), text);
-    std::sort(sorted.begin(), sorted.end());
+    const std::vector<std::string> sorted = in_order(near_, files);
     std::string all;
-    for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) all += (i > 0 ? "\n" : "") + sorted[i].second;
+    for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) all += (i > 0 ? "\n" : "") + sorted[i];
     if (sorted.size() > most_shown) all += fmt::format("\nand {} more", sorted.size() - most_shown);
+    if (all_unknown_) throw UnknownError(all);
     throw InputError(all);
+}
+
+std::vector<std::string> Problems::replaced(const std::vector<std::string>& files) const {
+    const std::scoped_lock lock(mutex_);
+    return in_order(replaced_, files);
 }
 
 }  // namespace neumann::reader

@@ -19,12 +19,32 @@ public:
     Told() : InputError("a problem that has been told") {}
 };
 
+// Something that is not known here, as opposed to something that is wrong.
+class Unknown : public InputError {
+public:
+    // As an error the message is `what` and `expected`, which begins with the sign between them; to a lenient reader it is `what`
+    // and what it does `instead`, such as "left out".
+    Unknown(const Location& place, const std::string& what, const std::string& expected, const std::string& instead)
+        : InputError(place, what + expected), replaced_(to_string(place) + ": " + what + "; " + instead) {}
+
+    const std::string& replaced() const { return replaced_; }
+
+private:
+    std::string replaced_;
+};
+
 // May be added to from several threads at once.
 class Problems {
 public:
+    // `lenient`: what is unknown is no problem; it is listed, and the reader goes on with the replacement.
+    explicit Problems(bool lenient = false) : lenient_(lenient) {}
+    bool lenient() const { return lenient_; }
+
     // `near` is the element that was being read. Problems that name no line of a scene file, such as those of meshes, are listed
     // there.
     void add(const InputError& problem, const Location& near);
+    // Lists what is unknown if the reader is lenient, and otherwise throws it.
+    void replace(const Unknown& unknown, const Location& near);
 
     // Calls f and returns its result, or nothing if it throws InputError. If f returns void: whether it did not throw.
     template <class F>
@@ -36,6 +56,7 @@ public:
             try {
                 return std::optional<Result>(f());
             } catch (const Told&) {
+                expect_told(near);
             } catch (const InputError& problem) {
                 add(problem, near);
             }
@@ -44,12 +65,20 @@ public:
     }
 
     bool any() const;
-    // Throws InputError if there are problems: one per line, without repetition, in the order of the scene files and their lines.
+    // Throws InputError if there are problems: one per line, without repetition, in the order of the scene files and their lines;
+    // UnknownError if a lenient reader had none.
     void check(const std::vector<std::string>& files) const;
+    // What a lenient reader replaced or left out, in the same order.
+    std::vector<std::string> replaced(const std::vector<std::string>& files) const;
 
 private:
+    // Nothing is left out in silence: if no problem explains why something cannot be read, that is one.
+    void expect_told(const Location& near);
+
+    bool lenient_;
     mutable std::mutex mutex_;
-    std::map<std::string, Location> near_;  // by message
+    std::map<std::string, Location> near_, replaced_;  // by message
+    bool all_unknown_ = true;
 };
 
 }  // namespace neumann::reader

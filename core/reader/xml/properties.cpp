@@ -52,6 +52,11 @@ void Properties::add(const Location& place, const std::string& what) {
     told_ = true;
 }
 
+void Properties::refuse(const Location& place, const std::string& what, const std::string& expected) {
+    problems().add(Unknown(place, what, expected, "ignored"), element_.place);
+    told_ = told_ || !problems().lenient();
+}
+
 const Element* Properties::parameter(const std::string& name) const {
     for (const Element& e : element_.children)
         if (const Attribute* given = is_parameter(e.tag) ? e.find("name") : nullptr; given && given->value == name) return &e;
@@ -61,8 +66,16 @@ const Element* Properties::parameter(const std::string& name) const {
 const Element* Properties::resolve(const Element& e) {
     if (e.tag != "ref") return &e;
     if (e.broken) return nullptr;
+    const Attribute& id = e.attribute("id");
+    if (problems().lenient() && objects_.is_lost(id)) {
+        problems().add(
+            Unknown(id.place, fmt::format("reference to '{}' in {}, which is left out", id.value, title_), "", "ignored"),
+            element_.place);
+        read_.insert(&e);
+        return nullptr;
+    }
     const Element* object = nullptr;
-    if (!problems().attempt(element_.place, [&] { object = &objects_.find(e.attribute("id")); })) told_ = incomplete_ = true;
+    if (!problems().attempt(element_.place, [&] { object = &objects_.find(id); })) told_ = incomplete_ = true;
     return object;
 }
 
@@ -144,7 +157,7 @@ const Element* Properties::object(const std::string& name, const std::string& ta
         const Attribute* given = is_parameter(e.tag) ? nullptr : e.find("name");
         if (!given || given->value != name) continue;
         const Element* object = resolve(e);
-        if (!object) spoilt_.insert(name);
+        if (!object && !read_.contains(&e)) spoilt_.insert(name);
         if (!object || object->tag != tag) continue;
         if (first) {
             add(given->place, fmt::format("parameter '{}' of {} is given twice, first at {}", name, title_,
@@ -199,8 +212,8 @@ void Properties::refuse_rest() {
     for (const Element& e : element_.children) {
         if (e.broken || !read_.insert(&e).second) continue;
         const auto unknown = [&](const Attribute& name) {
-            add(name.place, fmt::format("unknown parameter '{}' of {}; {}", name.value, title_,
-                                        asked_.empty() ? "it has none" : allowed_instead(name.value, asked_)));
+            refuse(name.place, fmt::format("unknown parameter '{}' of {}", name.value, title_),
+                   "; " + (asked_.empty() ? "it has none" : allowed_instead(name.value, asked_)));
         };
         if (is_parameter(e.tag)) {
             unknown(e.attribute("name"));
@@ -210,12 +223,13 @@ void Properties::refuse_rest() {
         if (!object) continue;
         const Attribute* name = object->tag == "texture" && !contains(asked_tags_, "texture") ? e.find("name") : nullptr;
         if (name && contains(asked_, name->value))
-            add(name->place, fmt::format("parameter '{}' of {} is a texture, which is not supported there", name->value, title_));
+            refuse(name->place, fmt::format("parameter '{}' of {} is a texture, which is not supported there", name->value, title_),
+                   "");
         else if (name)
             unknown(*name);
         else
-            add(e.place, fmt::format("unexpected {}<{}> in {}; {}", e.tag == "ref" ? "reference to a " : "", object->tag, title_,
-                                     asked_tags_.empty() ? "nothing is nested in it" : "allowed: " + join(asked_tags_)));
+            refuse(e.place, fmt::format("unexpected {}<{}> in {}", e.tag == "ref" ? "reference to a " : "", object->tag, title_),
+                   asked_tags_.empty() ? "; nothing is nested in it" : "; allowed: " + join(asked_tags_));
     }
 }
 
@@ -224,13 +238,23 @@ void Properties::finish() {
     if (told_ || !spoilt_.empty()) throw Told();
 }
 
-void fail_type(const Element& e, const std::vector<std::string>& allowed) {
+void fail_type(const Element& e, const std::vector<std::string>& allowed, const std::string& instead) {
     if (e.broken) throw Told();
     const Attribute& type = e.attribute("type");
-    if (const std::string_view advice = instead_of(e.tag, type.value); !advice.empty())
-        throw InputError(type.place, fmt::format("{} type '{}' is not supported: {}", e.tag, type.value, advice));
-    throw InputError(type.place,
-                     fmt::format("{} type '{}' is not supported; {}", e.tag, type.value, allowed_instead(type.value, allowed)));
+    const std::string_view advice = instead_of(e.tag, type.value);
+    throw Unknown(type.place, fmt::format("{} type '{}' is not supported", e.tag, type.value),
+                  advice.empty() ? "; " + allowed_instead(type.value, allowed) : fmt::format(": {}", advice), instead);
+}
+
+std::string type_of(const Element& e, const std::vector<std::string>& allowed, const std::string& otherwise, Problems& problems) {
+    const std::string& type = e.attribute("type").value;
+    if (contains(allowed, type)) return type;
+    try {
+        fail_type(e, allowed, fmt::format("taken as '{}'", otherwise));
+    } catch (const Unknown& unknown) {
+        problems.replace(unknown, e.place);
+    }
+    return otherwise;
 }
 
 }  // namespace neumann::reader

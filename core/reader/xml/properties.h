@@ -64,6 +64,8 @@ public:
 private:
     Problems& problems() const { return objects_.problems(); }
     void add(const Location& place, const std::string& what);
+    // Of a parameter or object that is not known; a lenient reader goes on without it.
+    void refuse(const Location& place, const std::string& what, const std::string& expected);
     const Element* parameter(const std::string& name) const;
     Location place_of(const std::string& name) const;
     // The object itself, or the one that a reference means; null if that is unknown.
@@ -79,7 +81,10 @@ private:
     std::vector<std::string> asked_, asked_tags_;
 };
 
-// Throws InputError "bsdf type 'wood' is not supported; allowed: …", or says what can be taken in place of a type that Mitsuba has.
-[[noreturn]] void fail_type(const Element& e, const std::vector<std::string>& allowed);
+// Throws Unknown "bsdf type 'wood' is not supported; allowed: …", or says what can be taken in place of a type that Mitsuba has.
+// `instead`: what a lenient reader does.
+[[noreturn]] void fail_type(const Element& e, const std::vector<std::string>& allowed, const std::string& instead);
+// The type of an element if it is one of these; otherwise throws the same, or, if the reader is lenient, takes it as another one.
+std::string type_of(const Element& e, const std::vector<std::string>& allowed, const std::string& otherwise, Problems& problems);
 
 }  // namespace neumann::reader

@@ -128,11 +128,14 @@ void write_out_object(Element& e, const std::string& type, Problems& problems) {
 
 }  // namespace
 
-void write_out_spectrum(Element& e, Document& document, Problems& problems) {
+void write_out_spectrum(Element& e, const std::string& parent_tag, Document& document, Problems& problems) {
     if (const Attribute* type = e.find("type")) {
         static const std::vector<std::string> types = {"blackbody", "d65", "irregular", "regular", "uniform"};
-        if (std::find(types.begin(), types.end(), type->value) == types.end()) fail_type(e, types);
-        write_out_object(e, std::string(type->value), problems);
+        const std::string otherwise = parent_tag == "emitter" ? "0" : "0.5";
+        if (const std::string known = type_of(e, types, otherwise, problems); known != otherwise)
+            write_out_object(e, known, problems);
+        else
+            e = {"float", {e.attribute("name"), {"value", otherwise, e.place}}, {}, e.place};
         return;
     }
     if (!e.children.empty())

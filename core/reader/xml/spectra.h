@@ -8,6 +8,7 @@ namespace neumann::reader {
 
 // Replaces a spectrum given by a file or an object by its list or number, so that later code needs to handle <spectrum name value>
 // and <float name value> only. A list that comes from `blackbody` keeps its type.
-void write_out_spectrum(Element& e, Document& document, Problems& problems);
+// A lenient reader takes a type that is unknown as 0.5, and as 0 in an emitter.
+void write_out_spectrum(Element& e, const std::string& parent_tag, Document& document, Problems& problems);
 
 }  // namespace neumann::reader

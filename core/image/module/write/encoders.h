@@ -7,7 +7,7 @@
 namespace neumann::encoders {
 
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes);
-std::string encode_png(const DisplayImage& picture);
+std::string encode_png(const DisplayImage& picture, const std::string& comment);
 std::string encode_gif(const DisplayImage& picture);
 std::optional<std::string> find_label_font();
 int text_width(const std::string& text, int font_size, const std::string& font);

@@ -20,8 +20,8 @@ void flush(png_structp) {}
 }  // namespace
 
 // Differences to the row above, and the least that zlib can do: a sixth of the time of libpng's defaults, and a fifth more bytes.
-std::string encode_png(const DisplayImage& picture) {
-    std::string bytes;
+std::string encode_png(const DisplayImage& picture, const std::string& comment) {
+    std::string bytes, key = "Comment", text = comment;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
     if (info == nullptr) throw std::bad_alloc();
@@ -34,6 +34,11 @@ std::string encode_png(const DisplayImage& picture) {
     png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+    png_text entry{};
+    entry.compression = PNG_ITXT_COMPRESSION_NONE;
+    entry.key = key.data();
+    entry.text = text.data();
+    if (!comment.empty()) png_set_text(png, info, &entry, 1);
     png_set_compression_level(png, 1);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_write_info(png, info);

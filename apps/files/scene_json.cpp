@@ -1,0 +1,22 @@
+#include "apps/files/scene_json.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace neumann {
+
+nlohmann::ordered_json scene_json(const Scene& scene, const std::string& file,
+                                  const std::map<std::string, std::string>& definitions) {
+    nlohmann::ordered_json json = {{"file", file}, {"hash", scene.hash}, {"definitions", definitions}};
+    if (!scene.replaced.empty()) json["replaced"] = scene.replaced;
+    return json;
+}
+
+std::string lenient_note(const Scene& scene) {
+    if (scene.replaced.empty()) return "";
+    return fmt::format("not the scene as it is written: it was read with --lenient\n{}", fmt::join(scene.replaced, "\n"));
+}
+
+std::string lenient_label(const Scene& scene) { return scene.replaced.empty() ? "" : ", lenient"; }
+
+}  // namespace neumann
