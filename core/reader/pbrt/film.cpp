@@ -1,3 +1,4 @@
+#include "core/reader/import/film.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/sensor.h"
@@ -81,8 +82,8 @@ MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer) {
     importer.problems.attempt(e.place(), [&] {
         if (e.type != "rgb" && e.type != "gbuffer") {
             static const std::vector<std::string> types = {"gbuffer", "rgb"};
-            throw InputError(e.place(), fmt::format("film type '{}' is not supported{}; allowed: gbuffer, rgb", printable(e.type),
-                                                    did_you_mean(e.type, types)));
+            throw InputError(e.place(),
+                             fmt::format("film type '{}' is not supported; {}", printable(e.type), allowed_instead(e.type, types)));
         }
         film.width = read_resolution(p, "xresolution", film.width);
         film.height = read_resolution(p, "yresolution", film.height);
@@ -91,8 +92,10 @@ MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer) {
         // Where and how pbrt writes the picture, and the size of the film in a camera of lenses.
         p.ignore({"filename", "savefp16", "diagonal", "coordinatesystem"});
         p.finish();
-        add_defined(scene, film.element, "integer", "width", "width", std::to_string(film.width), p.place("xresolution"));
-        add_defined(scene, film.element, "integer", "height", "height", std::to_string(film.height), p.place("yresolution"));
+        add_film_size(
+            scene, film.element,
+            {static_cast<double>(film.width), static_cast<double>(film.height), p.place("xresolution"), p.place("yresolution")},
+            importer.definitions);
         if (crop) {
             const Location& place = p.place(p.has("cropwindow") ? "cropwindow" : "pixelbounds");
             add_integer(film.element, "crop_offset_x", crop->x0, place);
@@ -149,8 +152,8 @@ Element make_filter(Entity& e, Importer& importer) {
         return finished(std::move(filter));
     }
     static const std::vector<std::string> types = {"box", "gaussian", "mitchell", "sinc", "triangle"};
-    throw InputError(e.place(), fmt::format("pixel filter type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                            did_you_mean(e.type, types), join(types)));
+    throw InputError(e.place(),
+                     fmt::format("pixel filter type '{}' is not supported; {}", printable(e.type), allowed_instead(e.type, types)));
 }
 
 }  // namespace neumann::reader::pbrt

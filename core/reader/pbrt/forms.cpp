@@ -36,8 +36,8 @@ Shapes::Form Shapes::make_form(ShapeEntity& s) {
     if (s.type == "disk") return make_disk(s);
     if (s.type == "cylinder") return make_cylinder(s);
     if (std::find(shape_types.begin(), shape_types.end(), s.type) != shape_types.end()) return make_mesh(s);
-    throw InputError(s.place(), fmt::format("shape type '{}' is not supported{}; allowed: {}", printable(s.type),
-                                            did_you_mean(s.type, shape_types), join(shape_types)));
+    throw InputError(s.place(),
+                     fmt::format("shape type '{}' is not supported; {}", printable(s.type), allowed_instead(s.type, shape_types)));
 }
 
 // Parts of round shapes are refused.

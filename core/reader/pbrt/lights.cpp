@@ -144,8 +144,8 @@ Element make_light(Entity& e, Importer& importer) {
     if (e.type == "distant") return make_distant(e, importer);
     if (e.type == "spot") return make_spot(e, importer);
     if (e.type == "infinite") return make_infinite(e, importer);
-    throw InputError(e.place(), fmt::format("light type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                            did_you_mean(e.type, light_types), join(light_types)));
+    throw InputError(e.place(),
+                     fmt::format("light type '{}' is not supported; {}", printable(e.type), allowed_instead(e.type, light_types)));
 }
 
 }  // namespace

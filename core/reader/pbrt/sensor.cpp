@@ -123,8 +123,8 @@ Element make_sampler(PbrtScene& from, Element& scene, Importer& importer) {
     static const std::vector<std::string> types = {"halton", "independent", "paddedsobol", "pmj02bn",
                                                    "sobol",  "stratified",  "zsobol"};
     if (std::find(types.begin(), types.end(), e.type) == types.end())
-        throw InputError(e.place(), fmt::format("sampler type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                                did_you_mean(e.type, types), join(types)));
+        throw InputError(e.place(),
+                         fmt::format("sampler type '{}' is not supported; {}", printable(e.type), allowed_instead(e.type, types)));
     std::int64_t count = 0;
     Location place = e.place();
     if (e.type == "stratified") {
@@ -157,8 +157,8 @@ Element make_sensor(PbrtScene& from, Element& scene, Importer& importer) {
     std::optional<Element> sensor = importer.problems.attempt(e.place(), [&] {
         if (e.type != "perspective" && e.type != "orthographic") {
             static const std::vector<std::string> types = {"orthographic", "perspective"};
-            throw InputError(e.place(), fmt::format("camera type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                                    did_you_mean(e.type, types), join(types)));
+            throw InputError(
+                e.place(), fmt::format("camera type '{}' is not supported; {}", printable(e.type), allowed_instead(e.type, types)));
         }
         read_shutter(p, importer);
         const Screen screen = read_screen(p, film.width, film.height);

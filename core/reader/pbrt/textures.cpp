@@ -142,8 +142,8 @@ TextureValue Textures::make(TextureEntity& e) {
         return finished(combine(
             a, b, [](const Rgb& x, const Rgb& y) { return x + y; }, importer_, e.place()));
     }
-    throw InputError(e.place(), fmt::format("texture type '{}' is not supported{}; allowed: {}", printable(e.type),
-                                            did_you_mean(e.type, texture_types), join(texture_types)));
+    throw InputError(e.place(), fmt::format("texture type '{}' is not supported; {}", printable(e.type),
+                                            allowed_instead(e.type, texture_types)));
 }
 
 std::optional<TextureValue> Textures::find_texture(Parameters& p, const std::string& name, bool is_float) {
