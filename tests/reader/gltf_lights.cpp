@@ -97,7 +97,7 @@ TEST_F(GltfLights, PerspectiveCamera) {
     // One alone keeps the shape.
     EXPECT_EQ(read_gltf({{"width", "101"}}).film.height, 51);
     EXPECT_EQ(read_gltf({{"height", "40"}}).film.width, 80);
-    EXPECT_EQ(gltf_error({{"width", "a"}}), "scene.gltf#/cameras/0: '$width' = 'a' is not an integer");
+    EXPECT_EQ(gltf_error({{"width", "a"}}), "scene.gltf#/cameras/0: 'a' is not an integer");
 }
 
 // The corners of the picture are xmag and ymag away from the axis, whatever the scale of the node.

@@ -76,6 +76,7 @@ TEST_F(PbrtGrammar, DefinitionsOfTheCommandLine) {
     EXPECT_EQ(parts.film.width, 20);
     EXPECT_EQ(parts.film.height, 10);
     EXPECT_EQ(parts.camera.fov_axis, FovAxis::smaller);
+    write("scene.pbrt", "WorldBegin Shape \"sphere\"");
     EXPECT_EQ(read_scene_parts(path("scene.pbrt"), {{"width", "640"}}).film.height, 360);  // pbrt's own film is 1280 × 720
     EXPECT_EQ(read_scene_parts(path("scene.pbrt"), {{"height", "360"}}).film.width, 640);
 }
@@ -163,7 +164,7 @@ TEST_F(PbrtGrammar, UnknownNames) {
               "scene.pbrt:3:1: texture type 'imgemap' is not supported; allowed: checkerboard, constant, imagemap, mix, scale; did "
               "you mean 'imagemap'?");
     EXPECT_EQ(pbrt_error("Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"a.png\" \"string wrap\" \"repaet\""),
-              "scene.pbrt:3:62: wrap of texture 'imagemap' is 'repaet'; allowed: repeat, clamp; did you mean 'repeat'?");
+              "scene.pbrt:3:58: wrap of texture 'imagemap' is 'repaet'; allowed: clamp, repeat; did you mean 'repeat'?");
     EXPECT_EQ(pbrt_error("Shape \"sphere\" \"integer radius\" 1"),
               "scene.pbrt:3:16: radius of shape 'sphere' is of the type integer, which is not expected here");
     EXPECT_EQ(
