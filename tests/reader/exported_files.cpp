@@ -50,7 +50,7 @@ TEST(ExportedFiles, BlendersRoomAsGltf) {
     expect_near(reflectance(front(parts, 1), {}), Rgb(0.75), 1e-6);
     expect_near(reflectance(front(parts, 4), {}), {0.6, 0.15, 0.1}, 1e-6);
     // Blender's coordinates (u, v) times (3, 2), turned by 20° and moved by (0.25, 0.1); its v grows upwards. (0.1, 0.1) comes to
-    // texel (29.7, 25.0) of 64 × 64, in a dark tile; (0.9, 0.2) to (41.6, 25.6), in a light one; (0.01, 0.05) to (15.8, …) and
+    // texel (29.7, 25.0) of 64 × 64, in a dark tile; (0.9, 0.2) to (41.6, 25.6) and (0.02, 0.4) to (2.1, 55.8), in light ones;
     // (0.62, 0.9) to (24.5, 27.4), in a dark one. Bytes round by 0.002 of the encoded value.
     const auto floor = [&](double u, double v) { return reflectance(front(parts, 0), point_with_coordinates({u, 1.0 - v})); };
     expect_near(floor(0.1, 0.1), decoded({0.3, 0.35, 0.4}), 0.005);

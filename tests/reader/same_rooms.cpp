@@ -34,12 +34,12 @@ BounceSeries terms_of(const std::string& file, std::uint64_t seed) {
     EXPECT_EQ(scene.film.height, height) << file;
     method::Walk walk;
     walk.sampler = SamplerKind::independent;
-    return render(scene, walk, {.bounces = bounces, .samples = 1024, .replicates = 64, .seed = seed, .only_pictures = true});
+    return render(scene, walk, {.bounces = bounces, .samples = 512, .replicates = 64, .seed = seed, .only_pictures = true});
 }
 
 // Of each of three files against the Mitsuba file: the mean of the picture in bounces 0 to 4, and of 12 blocks in bounces 1 to 4,
 // in 3 channels; 477 comparisons at 4.5 standard errors, in which chance alone fails one of 300 seeds. The standard error of a
-// block is 0.4% in bounce 1 and at most 2% in bounce 4, that of the picture 0.2% and 0.5%.
+// block is 0.6% in bounce 1 and at most 3% in bounce 4, that of the picture 0.3% and 0.7%.
 TEST(SameRooms, InFourLanguages) {
     const BounceSeries xml = terms_of("room.xml", physics::fixed_seed);
     std::uint64_t seed = physics::fixed_seed;
@@ -61,7 +61,7 @@ TEST(SameRooms, InFourLanguages) {
             compare(a, b, 0.02, "the picture");
             for (int y = 0; i > 0 && y < height; y += block)
                 for (int x = 0; x < width; x += block)
-                    compare(part_of(a, x, y), part_of(b, x, y), 0.025, fmt::format("block {}, {}", x, y));
+                    compare(part_of(a, x, y), part_of(b, x, y), 0.03, fmt::format("block {}, {}", x, y));
         }
     }
 }
