@@ -14,6 +14,9 @@
 
 namespace neumann::reader {
 
+// The -D of the command line: a parameter's name and its value.
+using NamedValues = std::map<std::string, std::string>;
+
 // By the name that a parameter `filename` gives.
 struct FilesInMemory {
     std::map<std::string, std::shared_ptr<const MeshFile>> meshes;  // of shapes 'ply'

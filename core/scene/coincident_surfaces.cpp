@@ -6,12 +6,26 @@ namespace {
 
 // Points away from edges and diagonals, where rays could hit neighbours.
 constexpr Vec2 places[] = {Vec2(0.5), Vec2(0.21, 0.34), Vec2(0.72, 0.13), Vec2(0.37, 0.81)};
+constexpr double looks_from = 4.0;         // in errors of the point
 constexpr std::size_t many = 100'000;      // with more primitives, only one point of each is tested
 constexpr std::uint32_t of_instance = 64;  // about as many triangles of an instance are tested
 
 std::uint32_t step(const Shape& shape) {
     const auto* instance = std::get_if<MeshInstance>(&shape);
     return instance ? static_cast<std::uint32_t>(instance->mesh().triangles.size()) / of_instance + 1 : 1;
+}
+
+// Whether nothing but the triangle itself is where the ray looks, by Embree alone: what else is close to each of the triangles of a
+// large scene takes long to find out, and most are by themselves.
+bool is_alone(const Geometry& geometry, const Geometry::Place& place, const Vec2& uv) {
+    if (!place.triangle || !geometry.giants().empty()) return false;
+    const Triangle& t = *place.triangle;
+    const Vec2 weights = uniform_triangle(uv);
+    const double near = looks_from * t.error();
+    const Vec3 from = t.at(weights.x, weights.y, place.edges) + t.normal() * near;
+    const Face own[] = {{place.shape, place.primitive}};
+    RayCaster::Hit hit;
+    return !geometry.caster().intersect(from, -t.normal(), 2.0 * near, own, hit);
 }
 
 }  // namespace
@@ -31,8 +45,9 @@ CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials
              primitive += step(geometry.shapes()[shape])) {
             bool is_covered = false;
             for (std::size_t k = 0; k < looks; ++k) {
+                if (is_alone(geometry, geometry.place(shape, primitive), places[k])) continue;
                 const SurfacePoint point = geometry.point(shape, primitive, places[k]);
-                const double near = 4.0 * point.error;
+                const double near = looks_from * point.error;
                 SurfacePoint seen;
                 if (!geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen) ||
                     seen.shape == shape)

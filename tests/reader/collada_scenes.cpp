@@ -72,6 +72,8 @@ TEST_F(ColladaScenes, Definitions) {
         read_dae(small(), {{"width", "32"}, {"height", "16"}, {"spp", "4"}, {"camera", "1 0 0 0 0 1 0 0 0 0 1 -9 0 0 0 1"}});
     EXPECT_EQ(parts.film.width, 32);
     EXPECT_EQ(parts.film.height, 16);
+    EXPECT_EQ(read_dae(small(), {{"width", "50"}}).film.height, 25);  // the file says 2 : 1
+    EXPECT_EQ(read_dae(small(), {{"height", "50"}}).film.width, 100);
     EXPECT_EQ(Vec3(parts.camera.to_world[3]), Vec3(0, 0, -9));
 }
 

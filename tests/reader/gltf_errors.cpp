@@ -216,7 +216,7 @@ TEST_F(GltfErrors, CamerasAndLights) {
     EXPECT_EQ(gltf_error(), "scene.gltf#/cameras/0/perspective/zfar: zfar is 4, expected more than znear, 5");
     file["cameras"][0]["perspective"].erase("zfar");
     EXPECT_EQ(gltf_error({{"widht", "3"}}),
-              "scene.gltf: -D widht=3: nothing in the scene uses $widht; its parameters: height, spp, surroundings, width");
+              "scene.gltf: -D widht=3: nothing in the scene uses $widht; its parameters: filter, height, spp, surroundings, width");
 }
 
 TEST_F(GltfErrors, DeepNesting) {

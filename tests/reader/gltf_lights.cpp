@@ -94,6 +94,10 @@ TEST_F(GltfLights, PerspectiveCamera) {
     const SceneParts smaller = read_gltf({{"width", "100"}, {"height", "40"}, {"spp", "16"}});
     EXPECT_EQ(smaller.film.width, 100);
     EXPECT_EQ(smaller.film.height, 40);
+    // One alone keeps the shape.
+    EXPECT_EQ(read_gltf({{"width", "101"}}).film.height, 51);
+    EXPECT_EQ(read_gltf({{"height", "40"}}).film.width, 80);
+    EXPECT_EQ(gltf_error({{"width", "a"}}), "scene.gltf#/cameras/0: 'a' is not an integer");
 }
 
 // The corners of the picture are xmag and ymag away from the axis, whatever the scale of the node.

@@ -42,6 +42,12 @@ TEST_F(GltfMaterials, MetallicRoughness) {
     expect_same(two_sided(principled("1, 1, 1", number("metallic", 1) + number("roughness", 1) + number("eta", 1.5))));
     basis() = {{"baseColorFactor", {0.8, 0.4, 0.2, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
     expect_same(two_sided(principled("0.8, 0.4, 0.2", number("metallic", 0.25) + number("roughness", 0.5) + number("eta", 1.5))));
+    material()["pbrMetallicRoughness"] = Json::object();
+    EXPECT_EQ(
+        warnings(read_gltf()),
+        "a material of which the file says nothing: white, rough metal, as glTF has it; Blender writes this where the node is not "
+        "Principled BSDF or Emission\n");
+    basis() = {{"baseColorFactor", {0.8, 0.4, 0.2, 1.0}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
     material()["occlusionTexture"] = {{"index", add_texture(encode_png_of(1, 3, {0, 0, 0}))}, {"strength", 1}};
     expect_same(two_sided(principled("0.8, 0.4, 0.2", number("metallic", 0.25) + number("roughness", 0.5) + number("eta", 1.5))));
     EXPECT_EQ(warnings(read_gltf()), "");
@@ -103,6 +109,16 @@ TEST_F(GltfMaterials, ClearcoatAndSheen) {
                                             number("clearcoat", 0.5) + number("clearcoat_gloss", 0.75) + number("sheen", 0.3))));
     EXPECT_EQ(warnings(read_gltf()),
               "KHR_materials_clearcoat: taken as the clearcoat of Mitsuba's principled, a quarter as strong and of another shape\n"
+              "KHR_materials_sheen: taken as the sheen of Mitsuba's principled, white and of another shape\n");
+    const std::size_t texture = add_texture(encode_png_of(1, 3, {255, 0, 0}));
+    for (const char* name : {"sheenColorTexture", "sheenRoughnessTexture"})
+        extension("KHR_materials_sheen")[name] = {{"index", texture}};
+    extension("KHR_materials_clearcoat")["clearcoatNormalTexture"] = {{"index", texture}};
+    EXPECT_EQ(warnings(read_gltf()),
+              "KHR_materials_clearcoat: clearcoatNormalTexture left out\n"
+              "KHR_materials_clearcoat: taken as the clearcoat of Mitsuba's principled, a quarter as strong and of another shape\n"
+              "KHR_materials_sheen: sheenColorTexture left out\n"
+              "KHR_materials_sheen: sheenRoughnessTexture left out\n"
               "KHR_materials_sheen: taken as the sheen of Mitsuba's principled, white and of another shape\n");
 }
 

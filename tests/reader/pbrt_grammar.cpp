@@ -76,6 +76,9 @@ TEST_F(PbrtGrammar, DefinitionsOfTheCommandLine) {
     EXPECT_EQ(parts.film.width, 20);
     EXPECT_EQ(parts.film.height, 10);
     EXPECT_EQ(parts.camera.fov_axis, FovAxis::smaller);
+    write("scene.pbrt", "WorldBegin Shape \"sphere\"");
+    EXPECT_EQ(read_scene_parts(path("scene.pbrt"), {{"width", "640"}}).film.height, 360);  // pbrt's own film is 1280 × 720
+    EXPECT_EQ(read_scene_parts(path("scene.pbrt"), {{"height", "360"}}).film.width, 640);
 }
 
 TEST_F(PbrtGrammar, SyntaxErrors) {
@@ -97,8 +100,8 @@ TEST_F(PbrtGrammar, SyntaxErrors) {
         "string, texture, vector2, vector3");
     EXPECT_EQ(
         pbrt_error("Shape \"sphere\" \"floot radius\" 1"),
-        "scene.pbrt:3:16: unknown type 'floot'; did you mean 'float'?; allowed: blackbody, bool, float, integer, normal, point2, "
-        "point3, rgb, spectrum, string, texture, vector2, vector3");
+        "scene.pbrt:3:16: unknown type 'floot'; allowed: blackbody, bool, float, integer, normal, point2, point3, rgb, spectrum, "
+        "string, texture, vector2, vector3; did you mean 'float'?");
     EXPECT_EQ(pbrt_error("Shape \"sphere\" \"float radius\" 1 \"float radius\" 2"),
               "scene.pbrt:3:33: parameter 'radius' of shape 'sphere' is given twice, first at scene.pbrt:3:16");
     EXPECT_EQ(pbrt_error("Shape \"sphere\" \"float radius\" [1 2]"),
@@ -121,17 +124,47 @@ TEST_F(PbrtGrammar, UnknownNames) {
     EXPECT_EQ(pbrt_error("Shape \"sphere\"\nWorldEnd"),
               "scene.pbrt:4:1: WorldEnd is no directive; this is pbrt-v3, expected pbrt-v4, into which 'pbrt --upgrade' of pbrt-v4 "
               "converts it");
-    EXPECT_EQ(pbrt_error("Shape \"sphre\""),
-              "scene.pbrt:3:1: shape type 'sphre' is not supported; did you mean 'sphere'?; allowed: bilinearmesh, cylinder, disk, "
-              "loopsubdiv, plymesh, sphere, trianglemesh");
+    EXPECT_EQ(
+        pbrt_error("Shape \"sphre\""),
+        "scene.pbrt:3:1: shape type 'sphre' is not supported; allowed: bilinearmesh, cylinder, disk, loopsubdiv, plymesh, sphere, "
+        "trianglemesh; did you mean 'sphere'?");
     EXPECT_EQ(
         pbrt_error("Shape \"curve\""),
         "scene.pbrt:3:1: shape type 'curve' is not supported; allowed: bilinearmesh, cylinder, disk, loopsubdiv, plymesh, sphere, "
         "trianglemesh");
     EXPECT_EQ(
         pbrt_error("Shape \"sphere\" \"float raduis\" 1"),
-        "scene.pbrt:3:16: unknown parameter 'raduis' of shape 'sphere'; did you mean 'radius'?; allowed: alpha, phimax, radius, "
-        "zmax, zmin");
+        "scene.pbrt:3:16: unknown parameter 'raduis' of shape 'sphere'; allowed: alpha, phimax, radius, zmax, zmin; did you mean "
+        "'radius'?");
+    EXPECT_EQ(pbrt_error("Attribute \"lihgt\" \"float scale\" 1"),
+              "scene.pbrt:3:1: Attribute 'lihgt'; allowed: light, material, medium, shape, texture; did you mean 'light'?");
+    EXPECT_EQ(pbrt_error("LightSource \"distand\""),
+              "scene.pbrt:3:1: light type 'distand' is not supported; allowed: distant, infinite, point, spot; did you mean "
+              "'distant'?");
+    EXPECT_EQ(pbrt_file_error("Film \"rbg\" WorldBegin"),
+              "scene.pbrt:1:1: film type 'rbg' is not supported; allowed: gbuffer, rgb; did you mean 'rgb'?");
+    EXPECT_EQ(
+        pbrt_file_error("PixelFilter \"boxx\" WorldBegin"),
+        "scene.pbrt:1:1: pixel filter type 'boxx' is not supported; allowed: box, gaussian, mitchell, sinc, triangle; did you "
+        "mean 'box'?");
+    EXPECT_EQ(pbrt_file_error("Sampler \"soboll\" WorldBegin"),
+              "scene.pbrt:1:1: sampler type 'soboll' is not supported; allowed: halton, independent, paddedsobol, pmj02bn, sobol, "
+              "stratified, zsobol; did you mean 'sobol'?");
+    EXPECT_EQ(pbrt_file_error("Camera \"perspectiv\" WorldBegin"),
+              "scene.pbrt:1:1: camera type 'perspectiv' is not supported; allowed: orthographic, perspective; did you mean "
+              "'perspective'?");
+    EXPECT_EQ(
+        pbrt_file_error("Integrator \"paht\" WorldBegin"),
+        "scene.pbrt:1:1: integrator type 'paht' is not supported; allowed: bdpt, lightpath, mlt, path, randomwalk, simplepath, "
+        "simplevolpath, sppm, volpath; did you mean 'path'?");
+    EXPECT_EQ(pbrt_error("Material \"difuse\""),
+              "scene.pbrt:3:1: material type 'difuse' is not supported; allowed: coatedconductor, coateddiffuse, conductor, "
+              "dielectric, diffuse, diffusetransmission, interface, mix, thindielectric; did you mean 'diffuse'?");
+    EXPECT_EQ(pbrt_error("Texture \"t\" \"float\" \"imgemap\""),
+              "scene.pbrt:3:1: texture type 'imgemap' is not supported; allowed: checkerboard, constant, imagemap, mix, scale; did "
+              "you mean 'imagemap'?");
+    EXPECT_EQ(pbrt_error("Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"a.png\" \"string wrap\" \"repaet\""),
+              "scene.pbrt:3:58: wrap of texture 'imagemap' is 'repaet'; allowed: clamp, repeat; did you mean 'repeat'?");
     EXPECT_EQ(pbrt_error("Shape \"sphere\" \"integer radius\" 1"),
               "scene.pbrt:3:16: radius of shape 'sphere' is of the type integer, which is not expected here");
     EXPECT_EQ(

@@ -165,12 +165,11 @@ TEST_F(XmlInstances, ManyTrianglesAreShared) {
         EXPECT_EQ(instance.shared(), shared);
         EXPECT_EQ(corners_of(instance, 99'999).at, (std::array<Vec3, 3>{Vec3(i, 0, 0), Vec3(i + 1, 0, 0), Vec3(i, 1, 0)}));
     }
-    const std::string far = to_world("<scale value='1e300'/><scale value='1e300'/>");
-    EXPECT_EQ(
-        error("<shape type='shapegroup' id='g'><shape type='ply'><string name='filename' value='many.ply'/></shape></shape>\n" +
-              repeated("<shape type='instance'><ref id='g'/></shape>\n", 11) + "<shape type='instance'><ref id='g'/>\n" + far +
-              "</shape>"),
-        "scene.xml:15:1: to_world of shape 'instance' moves a shape out of the range of numbers");
+    const std::string far = to_world("<scale value='1e300'/>");
+    EXPECT_EQ(error("<shape type='shapegroup' id='g'><shape type='ply'><string name='filename' value='many.ply'/>" + far +
+                    "</shape></shape>\n" + repeated("<shape type='instance'><ref id='g'/></shape>\n", 11) +
+                    "<shape type='instance'><ref id='g'/>\n" + far + "</shape>"),
+              "scene.xml:15:1: to_world of shape 'instance' moves a shape out of the range of numbers");
 }
 
 }  // namespace neumann::xml_instances_test

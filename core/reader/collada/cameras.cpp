@@ -3,6 +3,7 @@
 #include "core/reader/collada/spot.h"
 #include "core/reader/collada/texts.h"
 #include "core/reader/collada/view.h"
+#include "core/reader/import/film.h"
 #include "core/reader/import/make_elements.h"
 
 #include <algorithm>
@@ -15,9 +16,6 @@
 namespace neumann::reader::collada {
 
 namespace {
-
-constexpr int film_width = 768;
-constexpr double usual_aspect = 4.0 / 3.0;
 
 const std::array<std::string, 2> projections = {"orthographic", "perspective"};
 const std::array<std::string, 5> parts_of_perspective = {"aspect_ratio", "xfov", "yfov", "zfar", "znear"};
@@ -155,14 +153,10 @@ private:
 
     void finish(const Mat4& to_world, const Location& place) {
         Element& root = import_.scene.root;
-        const int height = static_cast<int>(std::lround(std::clamp(film_width / aspect_, 1.0, 65536.0)));
-        Element film = make_object("film", "hdrfilm", place);
-        add_defined(root, film, "integer", "width", "width", fmt::format("{}", film_width), place);
-        add_defined(root, film, "integer", "height", "height", fmt::format("{}", height), place);
+        add_film(root, sensor_, aspect_, place, import_.definitions);
         Element sampler = make_object("sampler", "multijitter", place);
         add_defined(root, sampler, "integer", "sample_count", "spp", "64", place);
         add_defined_matrix(root, sensor_, "to_world", "camera", to_world, place);
-        reader::add(sensor_, std::move(film));
         reader::add(sensor_, std::move(sampler));
         reader::add(root, std::move(sensor_));
     }

@@ -10,6 +10,7 @@ namespace neumann::reader::collada {
 struct Import {
     const File& file;
     RawScene& scene;  // that is made
+    const NamedValues& definitions;
     Warnings& warnings;
     Problems& problems;
 };

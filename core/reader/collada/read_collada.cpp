@@ -40,11 +40,11 @@ const std::array<std::string, 24> parts_of_collada = {"asset",
 
 }  // namespace
 
-RawScene read_collada(const std::string& path, Warnings& warnings, Problems& problems) {
+RawScene read_collada(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     const collada::File file(parse_xml(path));
     const Element& root = file.root();
     RawScene scene{make_scene_element(root.place), {path}};
-    const collada::Import import{file, scene, warnings, problems};
+    const collada::Import import{file, scene, definitions, warnings, problems};
     collada::check_children(root, parts_of_collada, problems);
     if (const Element* animations = collada::child(root, "library_animations"); animations && !animations->children.empty())
         warnings.add("animations are left out: the scene is as its nodes have it");

@@ -11,6 +11,6 @@
 namespace neumann::reader {
 
 // Adds errors to `problems` and goes on without what is wrong. Throws InputError where the file is no COLLADA scene at all.
-RawScene read_collada(const std::string& path, Warnings& warnings, Problems& problems);
+RawScene read_collada(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

@@ -1,5 +1,6 @@
 #include "core/reader/gltf/cameras.h"
 
+#include "core/reader/import/film.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/xml/did_you_mean.h"
 
@@ -13,17 +14,11 @@ namespace neumann::reader::gltf {
 
 namespace {
 
-constexpr int film_width = 768;
-constexpr double default_aspect = 4.0 / 3.0, most_pixels = 16384.0;
-
 // glTF's cameras have x to the right and look along −z, Mitsuba's have x to the left and look along z.
 Mat4 facing(const Mat4& m) { return {-m[0], m[1], -m[2], m[3]}; }
 
-void add_film(Element& scene, Element& sensor, double aspect, const Location& place) {
-    const double height = std::clamp(std::round(film_width / aspect), 1.0, most_pixels);
-    Element& film = add(sensor, make_object("film", "hdrfilm", place));
-    add_defined(scene, film, "integer", "width", "width", std::to_string(film_width), place);
-    add_defined(scene, film, "integer", "height", "height", fmt::format("{}", height), place);
+void add_film_and_sampler(Element& scene, Element& sensor, double aspect, const Location& place, const NamedValues& definitions) {
+    add_film(scene, sensor, aspect, place, definitions);
     Element& sampler = add(sensor, make_object("sampler", "ldsampler", place));
     add_defined(scene, sampler, "integer", "sample_count", "spp", "64", place);
 }
@@ -45,7 +40,7 @@ constexpr double far_away = 1e9;
 
 double add_perspective(Element& sensor, JsonObject camera) {
     const double angle = positive(camera, "yfov"), near = positive(camera, "znear");
-    const double aspect = camera.has("aspectRatio") ? positive(camera, "aspectRatio") : default_aspect;
+    const double aspect = camera.has("aspectRatio") ? positive(camera, "aspectRatio") : usual_aspect;
     const double far = camera.has("zfar") ? positive(camera, "zfar") : std::max(far_away, 2.0 * near);
     if (!(angle < std::numbers::pi))
         throw InputError(camera.place_of("yfov"), fmt::format("yfov is {}, expected less than π", angle));
@@ -72,7 +67,7 @@ Magnified add_orthographic(Element& sensor, JsonObject camera) {
     return {x, x / y};
 }
 
-void add_camera(Element& scene, const Placed& placed, JsonObject camera, const std::string& id) {
+void add_camera(Element& scene, const Placed& placed, JsonObject camera, const std::string& id, const NamedValues& definitions) {
     const std::string type = camera.text("type").value_or("");
     auto perspective = camera.object("perspective"), orthographic = camera.object("orthographic");
     camera.ignore({"name"});
@@ -94,7 +89,7 @@ void add_camera(Element& scene, const Placed& placed, JsonObject camera, const s
         to_world[1] *= magnified.x;
     }
     add_matrix(sensor, "to_world", to_world, placed.place);
-    add_film(scene, sensor, aspect, camera.place());
+    add_film_and_sampler(scene, sensor, aspect, camera.place(), definitions);
     add(scene, std::move(sensor));
 }
 
@@ -118,8 +113,8 @@ std::size_t choose(const std::string& wish, const std::vector<std::string>& name
 
 }  // namespace
 
-void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonList& cameras,
-                const std::map<std::string, std::string>& definitions, Notes& notes) {
+void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonList& cameras, const NamedValues& definitions,
+                Notes& notes) {
     std::vector<std::string> names;
     for (const Placed& p : placed) names.push_back(name_of(p, cameras));
     const auto wish = definitions.find("camera");
@@ -133,10 +128,10 @@ void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonLis
         add(scene, {"default", {{"name", "camera", scene.place}, {"value", "camera", scene.place}}, {}, scene.place});
         id = "$camera";
     }
-    add_camera(scene, placed[chosen], cameras.object(placed[chosen].what), id);
+    add_camera(scene, placed[chosen], cameras.object(placed[chosen].what), id, definitions);
 }
 
-void add_default_camera(Element& scene, const Bounds& bounds) {
+void add_default_camera(Element& scene, const Bounds& bounds, const NamedValues& definitions) {
     constexpr double angle = 40.0;
     const double radius = bounds.is_empty() || !(bounds.radius() > 0.0) ? 1.0 : bounds.radius();
     const Vec3 center = bounds.is_empty() ? Vec3(0.0) : bounds.center(), backwards = glm::normalize(Vec3(0.6, 0.45, 1.0));
@@ -149,7 +144,7 @@ void add_default_camera(Element& scene, const Bounds& bounds) {
     add_string(sensor, "fov_axis", "y", scene.place);
     add_clipping(sensor, 1e-3 * distance, 1e3 * distance, scene.place);
     add_matrix(sensor, "to_world", facing(camera), scene.place);
-    add_film(scene, sensor, default_aspect, scene.place);
+    add_film_and_sampler(scene, sensor, usual_aspect, scene.place, definitions);
     add(scene, std::move(sensor));
 }
 

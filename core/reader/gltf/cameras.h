@@ -3,18 +3,16 @@
 
 #include "core/geometry/bounds.h"
 #include "core/reader/gltf/nodes.h"
-#include "core/reader/xml/element.h"
-
-#include <map>
+#include "core/reader/raw_scene.h"
 
 namespace neumann::reader::gltf {
 
 // Adds the sensor to the scene, with a film that -D width and -D height choose. Of several cameras the one whose name, or number
 // among those of the scene, -D camera gives; the first without it, with a warning. Throws InputError.
-void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonList& cameras,
-                const std::map<std::string, std::string>& definitions, Notes& notes);
+void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonList& cameras, const NamedValues& definitions,
+                Notes& notes);
 
 // A three-quarter view of everything.
-void add_default_camera(Element& scene, const Bounds& bounds);
+void add_default_camera(Element& scene, const Bounds& bounds, const NamedValues& definitions);
 
 }  // namespace neumann::reader::gltf

@@ -54,8 +54,7 @@ JsonList list_of_lights(JsonObject& root) {
     return {nullptr, root.place(), root.notes()};
 }
 
-RawScene read(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-              Problems& problems) {
+RawScene read(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     const GltfFile file(path);
     Notes notes{warnings, problems};
     JsonObject root(file.root(), {path}, notes);
@@ -79,7 +78,7 @@ RawScene read(const std::string& path, const std::map<std::string, std::string>&
         warnings.add("the file has no camera: everything is seen from the front, from the right and from above");
     if (nodes.cameras.empty() ||
         !problems.attempt(scene.place, [&] { add_camera(scene, nodes.cameras, cameras, definitions, notes); }))
-        add_default_camera(scene, shapes.bounds());
+        add_default_camera(scene, shapes.bounds(), definitions);
     if (root.list("animations").size() > 0) warnings.add("animations left out: everything stands where its node says");
     root.finish();
     return result;
@@ -87,8 +86,7 @@ RawScene read(const std::string& path, const std::map<std::string, std::string>&
 
 }  // namespace
 
-RawScene import_gltf(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-                     Problems& problems) {
+RawScene import_gltf(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     try {
         return read(path, definitions, warnings, problems);
     } catch (const Told&) {

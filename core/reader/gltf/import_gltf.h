@@ -16,7 +16,6 @@ namespace neumann::reader {
 
 // Adds errors to `problems`, at their JSON pointers, and goes on without what is wrong. Throws InputError where there is no scene
 // at all. `definitions`: of -D, among which `camera` chooses one.
-RawScene import_gltf(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-                     Problems& problems);
+RawScene import_gltf(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

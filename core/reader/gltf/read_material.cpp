@@ -54,22 +54,31 @@ void read_volume(JsonObject o, Material& m) {
     o.finish();
 }
 
+void leave_out_textures(JsonObject& o, const Textures& textures, const std::string& extension,
+                        std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (textures.read(o, name)) warn(o, fmt::format("{}: {} left out", extension, name));
+}
+
 void read_clearcoat(JsonObject o, const Textures& textures, Material& m) {
     m.clearcoat = o.number("clearcoatFactor", 0.0, share);
     m.clearcoat_gloss = 1.0 - o.number("clearcoatRoughnessFactor", 0.0, share);
     if (m.clearcoat > 0.0) {
         warn(o,
              "KHR_materials_clearcoat: taken as the clearcoat of Mitsuba's principled, a quarter as strong and of another shape");
-        for (const char* name : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"})
-            if (textures.read(o, name)) warn(o, fmt::format("KHR_materials_clearcoat: {} left out", name));
+        leave_out_textures(o, textures, "KHR_materials_clearcoat",
+                           {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
     }
     o.ignore({"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
     o.finish();
 }
 
-void read_sheen(JsonObject o, Material& m) {
+void read_sheen(JsonObject o, const Textures& textures, Material& m) {
     m.sheen = max_component(o.color("sheenColorFactor", 0.0, share));
-    if (m.sheen > 0.0) warn(o, "KHR_materials_sheen: taken as the sheen of Mitsuba's principled, white and of another shape");
+    if (m.sheen > 0.0) {
+        warn(o, "KHR_materials_sheen: taken as the sheen of Mitsuba's principled, white and of another shape");
+        leave_out_textures(o, textures, "KHR_materials_sheen", {"sheenColorTexture", "sheenRoughnessTexture"});
+    }
     o.ignore({"sheenRoughnessFactor", "sheenColorTexture", "sheenRoughnessTexture"});
     o.finish();
 }
@@ -118,7 +127,7 @@ void read_extensions(JsonObject& o, const Textures& textures, Material& m) {
     if (auto e = o.extension("KHR_materials_transmission")) read_transmission(*e, textures, m);
     if (auto e = o.extension("KHR_materials_volume")) read_volume(*e, m);
     if (auto e = o.extension("KHR_materials_clearcoat")) read_clearcoat(*e, textures, m);
-    if (auto e = o.extension("KHR_materials_sheen")) read_sheen(*e, m);
+    if (auto e = o.extension("KHR_materials_sheen")) read_sheen(*e, textures, m);
     leave_out(o, "KHR_materials_iridescence", "iridescenceFactor", "the thin film");
     leave_out(o, "KHR_materials_anisotropy", "anisotropyStrength", "reflections that differ by direction");
     leave_out(o, "KHR_materials_dispersion", "dispersion", "dispersion");
@@ -147,7 +156,13 @@ Material read_material(JsonObject o, const Textures& textures) {
     m.place = o.place();
     m.name = o.text("name").value_or("");
     if (m.name.empty()) m.name = "material_" + m.place.pointer.substr(m.place.pointer.rfind('/') + 1);
-    if (auto basis = o.object("pbrMetallicRoughness")) read_metallic_roughness(*basis, textures, m);
+    auto basis = o.object("pbrMetallicRoughness");
+    if (basis) read_metallic_roughness(*basis, textures, m);
+    if (basis && basis->names().empty())
+        warn(o,
+             "a material of which the file says nothing: white, rough metal, as glTF has it; Blender writes this where the node is "
+             "not "
+             "Principled BSDF or Emission");
     m.normals = textures.read(o, "normalTexture");
     read_alpha(o, m);
     m.is_double_sided = o.boolean("doubleSided", false);

@@ -93,6 +93,11 @@ void add_defined(Element& scene, Element& parent, const std::string& tag, const 
     add_parameter(parent, tag, name, "$" + definition, place);
 }
 
+void add_defined_type(Element& scene, Element& object, const std::string& definition, const std::string& type) {
+    add_default(scene, definition, type, object.place);
+    object.attributes.front().value = "$" + definition;
+}
+
 void add_defined_matrix(Element& scene, Element& parent, const std::string& name, const std::string& definition, const Mat4& value,
                         const Location& place) {
     add_default(scene, definition, matrix_text(value), place);

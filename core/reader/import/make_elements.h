@@ -33,6 +33,8 @@ void add_matrix(Element& parent, const std::string& name, const Mat4& value, con
 // <default name="width" value="768"/>. `tag`: "integer" or the like.
 void add_defined(Element& scene, Element& parent, const std::string& tag, const std::string& name, const std::string& definition,
                  const std::string& value, const Location& place);
+// The same for the type of an object.
+void add_defined_type(Element& scene, Element& object, const std::string& definition, const std::string& type);
 // The same for a transform: -D sets the 16 numbers of its matrix, row by row.
 void add_defined_matrix(Element& scene, Element& parent, const std::string& name, const std::string& definition, const Mat4& value,
                         const Location& place);

@@ -8,15 +8,14 @@
 
 namespace neumann::reader {
 
-RawScene read_raw_scene(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-                        Problems& problems) {
+RawScene read_raw_scene(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     switch (scene_format(path)) {
         case SceneFormat::collada:
-            return read_collada(path, warnings, problems);
+            return read_collada(path, definitions, warnings, problems);
         case SceneFormat::gltf:
             return import_gltf(path, definitions, warnings, problems);
         case SceneFormat::pbrt:
-            return import_pbrt(path, warnings, problems);
+            return import_pbrt(path, definitions, warnings, problems);
         default:
             return {parse_xml(path), {path}};
     }

@@ -12,7 +12,6 @@ namespace neumann::reader {
 
 // Adds errors to `problems` and goes on without what is wrong. Throws InputError where the file cannot be read as a scene at all,
 // and says what it is if it is something else. `definitions`: of -D.
-RawScene read_raw_scene(const std::string& path, const std::map<std::string, std::string>& definitions, Warnings& warnings,
-                        Problems& problems);
+RawScene read_raw_scene(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

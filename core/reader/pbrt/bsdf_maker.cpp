@@ -49,12 +49,10 @@ Element BsdfMaker::make_type() {
     if (type_ == "coateddiffuse") return make_coated_diffuse();
     if (type_ == "coatedconductor") return make_coated_conductor();
     const bool is_old = std::find(types_of_v3.begin(), types_of_v3.end(), type_) != types_of_v3.end();
-    throw Unknown(
-        p_.place(), fmt::format("material type '{}' is not supported", printable(type_)),
-        fmt::format("{}; allowed: {}",
-                    is_old ? ": it is of pbrt-v3, which 'pbrt --upgrade' of pbrt-v4 converts" : did_you_mean(type_, types()),
-                    join(types())),
-        "taken as 'diffuse' of reflectance 0.5");
+    throw Unknown(p_.place(), fmt::format("material type '{}' is not supported", printable(type_)),
+                  fmt::format("{}; {}", is_old ? ": it is of pbrt-v3, which 'pbrt --upgrade' of pbrt-v4 converts" : "",
+                              allowed_instead(type_, types())),
+                  "taken as 'diffuse' of reflectance 0.5");
 }
 
 TextureValue BsdfMaker::reflectance(const std::string& name, double missing) {

@@ -127,8 +127,7 @@ void DirectiveReader::attribute(const Location& place) {
     static const std::vector<std::string> targets = {"light", "material", "medium", "shape", "texture"};
     const Parameters p = parameters(fmt::format("Attribute '{}'", printable(target)), place);
     if (std::find(targets.begin(), targets.end(), target) == targets.end())
-        throw InputError(place, fmt::format("Attribute '{}'{}; allowed: light, material, medium, shape, texture", printable(target),
-                                            did_you_mean(target, targets)));
+        throw InputError(place, fmt::format("Attribute '{}'; {}", printable(target), allowed_instead(target, targets)));
     auto& known = state_.defaults[target];
     std::vector<Parameter> all = known ? *known : std::vector<Parameter>();
     for (const Parameter& given : p.all()) {

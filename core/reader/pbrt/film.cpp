@@ -1,3 +1,4 @@
+#include "core/reader/import/film.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/sensor.h"
@@ -81,10 +82,9 @@ MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer) {
     importer.problems.attempt(e.place(), [&] {
         if (e.type != "rgb" && e.type != "gbuffer") {
             static const std::vector<std::string> types = {"gbuffer", "rgb"};
-            importer.problems.replace(
-                Unknown(e.place(), fmt::format("film type '{}' is not supported", printable(e.type)),
-                        fmt::format("{}; allowed: gbuffer, rgb", did_you_mean(e.type, types)), "taken as 'rgb'"),
-                e.place());
+            importer.problems.replace(Unknown(e.place(), fmt::format("film type '{}' is not supported", printable(e.type)),
+                                              "; " + allowed_instead(e.type, types), "taken as 'rgb'"),
+                                      e.place());
         }
         film.width = read_resolution(p, "xresolution", film.width);
         film.height = read_resolution(p, "yresolution", film.height);
@@ -93,8 +93,10 @@ MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer) {
         // Where and how pbrt writes the picture, and the size of the film in a camera of lenses.
         p.ignore({"filename", "savefp16", "diagonal", "coordinatesystem"});
         p.finish();
-        add_defined(scene, film.element, "integer", "width", "width", std::to_string(film.width), p.place("xresolution"));
-        add_defined(scene, film.element, "integer", "height", "height", std::to_string(film.height), p.place("yresolution"));
+        add_film_size(
+            scene, film.element,
+            {static_cast<double>(film.width), static_cast<double>(film.height), p.place("xresolution"), p.place("yresolution")},
+            importer.definitions);
         if (crop) {
             const Location& place = p.place(p.has("cropwindow") ? "cropwindow" : "pixelbounds");
             add_integer(film.element, "crop_offset_x", crop->x0, place);
@@ -143,10 +145,9 @@ Element make_filter(Entity& e, Importer& importer) {
     }
     static const std::vector<std::string> types = {"box", "gaussian", "mitchell", "sinc", "triangle"};
     if (e.type != "gaussian")
-        importer.problems.replace(
-            Unknown(e.place(), fmt::format("pixel filter type '{}' is not supported", printable(e.type)),
-                    fmt::format("{}; allowed: {}", did_you_mean(e.type, types), join(types)), "taken as 'gaussian'"),
-            e.place());
+        importer.problems.replace(Unknown(e.place(), fmt::format("pixel filter type '{}' is not supported", printable(e.type)),
+                                          "; " + allowed_instead(e.type, types), "taken as 'gaussian'"),
+                                  e.place());
     const double radius = read_filter_radius(p, 1.5, importer), sigma = p.number("sigma", 0.5);
     if (!(sigma > 0.0)) p.complain("sigma", fmt::format("sigma of {} is {}, expected more than 0", p.title(), sigma));
     // What lies beyond 3 σ is a 370th of the filter.

@@ -37,7 +37,7 @@ Shapes::Form Shapes::make_form(ShapeEntity& s) {
     if (s.type == "cylinder") return make_cylinder(s);
     if (std::find(shape_types.begin(), shape_types.end(), s.type) != shape_types.end()) return make_mesh(s);
     throw Unknown(s.place(), fmt::format("shape type '{}' is not supported", printable(s.type)),
-                  fmt::format("{}; allowed: {}", did_you_mean(s.type, shape_types), join(shape_types)), "left out");
+                  "; " + allowed_instead(s.type, shape_types), "left out");
 }
 
 // Parts of round shapes are refused.

@@ -10,11 +10,11 @@
 
 namespace neumann::reader {
 
-RawScene import_pbrt(const std::string& path, Warnings& warnings, Problems& problems) {
+RawScene import_pbrt(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     using namespace pbrt;
     PbrtScene from = read_directives(path, warnings, problems);
     RawScene scene{make_scene_element(from.start), from.files};
-    Importer importer{scene, warnings, problems};
+    Importer importer{scene, definitions, warnings, problems};
     const auto add_all = [&](std::vector<Element> elements) {
         for (Element& e : elements) add(scene.root, std::move(e));
     };

@@ -10,6 +10,6 @@
 namespace neumann::reader {
 
 // Adds errors to `problems` and goes on without what is wrong. Throws InputError where the file cannot be opened.
-RawScene import_pbrt(const std::string& path, Warnings& warnings, Problems& problems);
+RawScene import_pbrt(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

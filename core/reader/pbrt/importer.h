@@ -15,6 +15,7 @@ namespace neumann::reader::pbrt {
 
 struct Importer {
     RawScene& scene;
+    const NamedValues& definitions;
     Warnings& warnings;
     Problems& problems;
     double imaging_ratio = 1.0;  // what the film multiplies radiance by; the lights are as much brighter

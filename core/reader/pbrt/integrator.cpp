@@ -22,11 +22,9 @@ Element make_integrator(PbrtScene& from, Importer& importer) {
     Entity& e = *from.integrator;
     Parameters& p = e.parameters;
     if (std::find(integrator_types.begin(), integrator_types.end(), e.type) == integrator_types.end())
-        importer.problems.replace(
-            Unknown(e.place(), fmt::format("integrator type '{}' is not supported", printable(e.type)),
-                    fmt::format("{}; allowed: {}", did_you_mean(e.type, integrator_types), join(integrator_types)),
-                    "taken as 'path'"),
-            e.place());
+        importer.problems.replace(Unknown(e.place(), fmt::format("integrator type '{}' is not supported", printable(e.type)),
+                                          "; " + allowed_instead(e.type, integrator_types), "taken as 'path'"),
+                                  e.place());
     const std::int64_t depth = p.integer("maxdepth").value_or(5);
     if (depth < 0) p.complain("maxdepth", fmt::format("maxdepth of {} is {}, expected at least 0", p.title(), depth));
     if (p.boolean("regularize").value_or(false))

@@ -145,7 +145,7 @@ Element make_light(Entity& e, Importer& importer) {
     if (e.type == "spot") return make_spot(e, importer);
     if (e.type == "infinite") return make_infinite(e, importer);
     throw Unknown(e.place(), fmt::format("light type '{}' is not supported", printable(e.type)),
-                  fmt::format("{}; allowed: {}", did_you_mean(e.type, light_types), join(light_types)), "left out");
+                  "; " + allowed_instead(e.type, light_types), "left out");
 }
 
 }  // namespace

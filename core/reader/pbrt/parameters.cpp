@@ -82,8 +82,7 @@ std::optional<std::string> Parameters::text(const std::string& name) {
 std::string Parameters::choice(const std::string& name, const std::vector<std::string>& allowed, const std::string& missing) {
     const std::string value = text(name).value_or(missing);
     if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
-    complain(name, fmt::format("{} of {} is '{}'{}; allowed: {}", name, title_, printable(value), did_you_mean(value, allowed),
-                               join(allowed)));
+    complain(name, fmt::format("{} of {} is '{}'; {}", name, title_, printable(value), allowed_instead(value, allowed)));
     return missing;
 }
 
@@ -157,7 +156,7 @@ void Parameters::finish() {
             complain(p.name, fmt::format("{} of {} is of the type {}, which is not expected here", p.name, title_, p.type));
         else
             refuse(p.name, fmt::format("unknown parameter '{}' of {}", printable(p.name), title_),
-                   did_you_mean(p.name, known) + "; " + (known.empty() ? "it has none" : "allowed: " + join(known)));
+                   "; " + (known.empty() ? "it has none" : allowed_instead(p.name, known)));
     }
 }
 

@@ -130,6 +130,8 @@ void Parameters::read_values(Tokens& tokens, Parameter& parameter) {
     };
     if (tokens.peek() && tokens.peek()->is("[")) {
         const Token bracket = *tokens.next();
+        if (size != sizes_of_types().end() && size->second > 0 && parameter.type != "bool")
+            tokens.take_plain_numbers(parameter.type == "integer", parameter.numbers);
         while (tokens.peek() && !tokens.peek()->is("]")) {
             if (tokens.peek()->is("["))
                 throw InputError(tokens.place(), fmt::format("[ within the values of '{}', which begin at {}",
@@ -143,8 +145,8 @@ void Parameters::read_values(Tokens& tokens, Parameter& parameter) {
     if (size == sizes_of_types().end()) {
         std::vector<std::string> types;
         for (const auto& [type, count] : sizes_of_types()) types.push_back(type);
-        throw InputError(parameter.place, fmt::format("unknown type '{}'{}; allowed: {}", printable(parameter.type),
-                                                      did_you_mean(parameter.type, types), join(types)));
+        throw InputError(parameter.place,
+                         fmt::format("unknown type '{}'; {}", printable(parameter.type), allowed_instead(parameter.type, types)));
     }
     if (problem) throw *problem;
 }

@@ -123,10 +123,9 @@ Element make_sampler(PbrtScene& from, Element& scene, Importer& importer) {
     static const std::vector<std::string> types = {"halton", "independent", "paddedsobol", "pmj02bn",
                                                    "sobol",  "stratified",  "zsobol"};
     if (std::find(types.begin(), types.end(), e.type) == types.end())
-        importer.problems.replace(
-            Unknown(e.place(), fmt::format("sampler type '{}' is not supported", printable(e.type)),
-                    fmt::format("{}; allowed: {}", did_you_mean(e.type, types), join(types)), "taken as 'zsobol'"),
-            e.place());
+        importer.problems.replace(Unknown(e.place(), fmt::format("sampler type '{}' is not supported", printable(e.type)),
+                                          "; " + allowed_instead(e.type, types), "taken as 'zsobol'"),
+                                  e.place());
     std::int64_t count = 0;
     Location place = e.place();
     if (e.type == "stratified") {
@@ -159,10 +158,9 @@ Element make_sensor(PbrtScene& from, Element& scene, Importer& importer) {
     std::optional<Element> sensor = importer.problems.attempt(e.place(), [&] {
         if (e.type != "perspective" && e.type != "orthographic") {
             static const std::vector<std::string> types = {"orthographic", "perspective"};
-            importer.problems.replace(
-                Unknown(e.place(), fmt::format("camera type '{}' is not supported", printable(e.type)),
-                        fmt::format("{}; allowed: {}", did_you_mean(e.type, types), join(types)), "taken as 'perspective'"),
-                e.place());
+            importer.problems.replace(Unknown(e.place(), fmt::format("camera type '{}' is not supported", printable(e.type)),
+                                              "; " + allowed_instead(e.type, types), "taken as 'perspective'"),
+                                      e.place());
         }
         read_shutter(p, importer);
         const Screen screen = read_screen(p, film.width, film.height);

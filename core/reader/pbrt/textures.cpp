@@ -143,7 +143,7 @@ TextureValue Textures::make(TextureEntity& e) {
             a, b, [](const Rgb& x, const Rgb& y) { return x + y; }, importer_, e.place()));
     }
     throw Unknown(e.place(), fmt::format("texture type '{}' is not supported", printable(e.type)),
-                  fmt::format("{}; allowed: {}", did_you_mean(e.type, texture_types), join(texture_types)), "taken as 0.5");
+                  "; " + allowed_instead(e.type, texture_types), "taken as 0.5");
 }
 
 std::optional<TextureValue> Textures::find_texture(Parameters& p, const std::string& name, bool is_float) {

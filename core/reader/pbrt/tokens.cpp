@@ -2,6 +2,8 @@
 
 #include "core/reader/meshes/mesh_text.h"
 
+#include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -71,6 +73,20 @@ std::optional<Token> Tokens::read() {
         token.text = text_.substr(first, at_ - first);
     }
     return token;
+}
+
+void Tokens::take_plain_numbers(bool whole, std::vector<double>& values) {
+    while (!ahead_) {
+        skip_blanks();
+        const char *const begin = text_.data() + at_, *const end = text_.data() + text_.size();
+        double value = 0.0;
+        std::int32_t whole_value = 0;
+        const auto [behind, error] = whole ? std::from_chars(begin, end, whole_value) : std::from_chars(begin, end, value);
+        const bool ends = behind == end || is_token_blank(*behind) || *behind == ']';
+        if (error != std::errc() || !ends || !std::isfinite(value)) return;
+        values.push_back(whole ? whole_value : value);
+        at_ += static_cast<std::size_t>(behind - begin);
+    }
 }
 
 // A backslash stands before a quote or a backslash that is meant as such. Before anything else it is a backslash, as in the names

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace neumann::reader {
 
@@ -25,6 +26,10 @@ public:
     // The next one, or nothing at the end. Throws InputError for a string that does not end on its line.
     const std::optional<Token>& peek();
     std::optional<Token> next();
+
+    // Appends numbers, or whole numbers of 32 bits, as far as they are finite and end at a blank or at a ]; the first that is not
+    // is next. The fast way through long lists.
+    void take_plain_numbers(bool whole, std::vector<double>& values);
 
     const std::string& file() const { return file_; }
     Location place(const Token& token) const { return {file_, token.line, token.column}; }
