@@ -75,7 +75,8 @@ TEST(ExportedFiles, BlendersRoomAsCollada) {
     // The objects stand in another order.
     std::size_t red = 0;
     for (std::size_t i = 0; i < parts.shapes.size(); ++i)
-        red += glm::distance(reflectance(front(parts, i), {}), Rgb(0.6, 0.15, 0.1)) < 1e-6;
+        red += parts.sides_of_shape[i].front != Materials::absorbing &&
+               glm::distance(reflectance(front(parts, i), {}), Rgb(0.6, 0.15, 0.1)) < 1e-6;
     EXPECT_EQ(red, 1u);
 }
 
