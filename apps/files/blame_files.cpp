@@ -25,9 +25,8 @@ Json path_json(const OurPath& path, const Scene& scene) {
                             {"lamp", scene.emitters.is_emitter(v.shape)},
                             {"at", triple(v.position)},
                             {"film", v.film ? Json{v.film->x, v.film->y} : Json(nullptr)}});
-    return {{"sample", path.sample},         {"camera", triple(path.camera)}, {"vertices", vertices},
-            {"blocked", path.is_blocked},    {"bounce", path.bounce},          {"value", triple(path.value)},
-            {"text", path_text(path, scene)}};
+    return {{"sample", path.sample}, {"camera", triple(path.camera)}, {"vertices", vertices},          {"blocked", path.is_blocked},
+            {"bounce", path.bounce}, {"value", triple(path.value)},   {"text", path_text(path, scene)}};
 }
 
 Json place_json(const WorstPlace& place, const Scene& scene) {
