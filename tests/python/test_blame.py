@@ -41,7 +41,7 @@ class Blame(Case):
         self.assertEqual({wrong[name].shape for name in ("theirs", "ours", "difference", "difference_stderr", "z")}, {(24, 24, 3)})
         np.testing.assert_allclose(wrong.difference, wrong.theirs - wrong.ours, rtol=1e-5, atol=1e-6)
         np.testing.assert_allclose(wrong.z, wrong.difference / wrong.difference_stderr, rtol=1e-5)
-        self.assertEqual(len(wrong.worst), 3)
+        self.assertIn(len(wrong.worst), (1, 2, 3))  # of 3 × 3 blocks, none beside another
         for place in wrong.worst:
             block = np.s_[place.y : place.y + place.height, place.x : place.x + place.width]
             np.testing.assert_allclose(place.theirs, wrong.theirs[block].mean((0, 1)), rtol=1e-4)
