@@ -17,6 +17,12 @@ CLI::App* add_blame(CLI::App& app, BlameRequest& request) {
         ->type_name("PICTURES");
     command->add_option("--counts", request.counts, "How depths are counted: mitsuba, pbrt, cycles or bounces; default by the data")
         ->type_name("HOW");
+    command
+        ->add_option("--channels", request.channels,
+                     "The layer of the files that holds the picture: what is before .R, .G, .B, or the end of that; RGB for "
+                     "channels without a "
+                     "layer. By default these, or the only layer, or Combined or beauty")
+        ->type_name("NAME");
     command->add_option("--time", request.seconds, "Seconds for our own pictures; default 20")
         ->check(above_zero())
         ->type_name("SECONDS");
@@ -27,6 +33,8 @@ CLI::App* add_blame(CLI::App& app, BlameRequest& request) {
     add_threads(*command, request.threads);
     add_definitions(*command, request.definitions);
     add_lenient(*command, request.lenient);
+    command->add_option("-o", request.output, "Write into this folder a page with the verdict and the differences by bounce")
+        ->type_name("DIR");
     command->add_flag("--json", request.json, "Print JSON");
     return command;
 }

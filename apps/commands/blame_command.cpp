@@ -4,7 +4,9 @@
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/json_number.h"
+#include "apps/files/blame_files.h"
+#include "apps/files/other_picture.h"
+#include "apps/pages/blame_page.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
@@ -41,19 +43,6 @@ int number_in(const std::string& path) {
     return number;
 }
 
-Image read_picture(const std::string& path) {
-    const Texels texels = read_texels(path);
-    if (texels.values.empty() || texels.is_encoded)
-        throw InputError(path + ": holds whole numbers, expected radiance in floats, such as OpenEXR");
-    Image image(texels.width, texels.height);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                image.at(x, y)[c] =
-                    double{texels.values[texels.index(x, y) + static_cast<std::size_t>(texels.channels == 3 ? c : 0)]};
-    return image;
-}
-
 // By number. Of a folder, all OpenEXR files.
 std::map<int, std::string> files_by_number(const std::vector<std::string>& given) {
     std::vector<std::string> files;
@@ -81,12 +70,13 @@ std::vector<DepthPicture> read_pictures(const BlameRequest& request) {
     std::vector<DepthPicture> pictures;
     for (const auto& [number, file] : files) {
         if (again.empty()) {
-            pictures.push_back({number, read_picture(file)});
+            pictures.push_back({number, read_other_picture(file, request.channels)});
             continue;
         }
         const auto second = again.find(number);
         if (second == again.end()) throw InputError(fmt::format("{}: --again has no picture with the number {}", file, number));
-        pictures.push_back(mean_of_two(number, read_picture(file), read_picture(second->second)));
+        pictures.push_back(
+            mean_of_two(number, read_other_picture(file, request.channels), read_other_picture(second->second, request.channels)));
     }
     return pictures;
 }
@@ -97,7 +87,15 @@ Counting counting_of(const std::string& name) {
     throw InputError("--counts " + name + ": expected mitsuba, pbrt, cycles or bounces");
 }
 
-void print(const Blame& found) {
+void print_places(const std::vector<WorstPlace>& places, const Scene& scene) {
+    if (places.empty()) return;
+    fmt::print("\nWhere it differs most, in standard errors of a block of pixels, with a path of ours there:\n");
+    for (const WorstPlace& p : places)
+        fmt::print("{:>10.0f}  {},{} to {},{}: theirs {:.3g}, ours {:.3g}; {}\n", p.z, p.x, p.y, p.x + p.width - 1,
+                   p.y + p.height - 1, mean_component(p.theirs), mean_component(p.ours), path_text(p.path, scene));
+}
+
+void print(const Blame& found, const Scene& scene, const std::string& output) {
     fmt::print("{:<16}{:>12}{:>26}  {}\n", "", "theirs/ours", "95% interval", "by chance");
     for (const TermVerdict& t : found.terms)
         fmt::print(
@@ -105,55 +103,70 @@ void print(const Blame& found) {
             t.test.p > 0.001 ? fmt::format("{:.2g}", t.test.p) : fmt::format("{:.0e}", t.test.p), t.differs ? "  differs" : "");
     fmt::print("\n");
     for (const std::string& sentence : found.sentences) fmt::print("{}\n", sentence);
-    if (found.suspects.empty()) return;
-    constexpr std::size_t shown = 5;
-    fmt::print("\nLikeliest, with −2 log of how much less likely than the first:\n");
-    for (std::size_t i = 0; i < std::min(shown, found.suspects.size()); ++i)
-        fmt::print("{:>10.0f}  {}\n", found.suspects[i].misfit - found.suspects[0].misfit, found.suspects[i].words);
+    if (!found.is_right()) {
+        constexpr std::size_t shown = 5;
+        fmt::print("\nLikeliest, with −2 log of how much less likely than the first:\n");
+        for (std::size_t i = 0; i < std::min(shown, found.suspects.size()); ++i)
+            fmt::print("{:>10.0f}  {}\n", found.suspects[i].misfit - found.suspects[0].misfit, found.suspects[i].words);
+        print_places(found.terms[*found.first_wrong].worst, scene);
+    }
+    if (!output.empty()) fmt::print("\nThe pictures are on the page {}\n", (fs::path(output) / "index.html").string());
 }
 
-nlohmann::ordered_json json_of(const Blame& found) {
-    nlohmann::ordered_json json;
-    json["right"] = found.is_right();
-    json["counting"] = name_of(found.counting);
-    if (found.told) json["counting_by_the_data"] = name_of(*found.told);
-    json["noise_known"] = found.knows_their_noise;
-    for (const TermVerdict& t : found.terms)
-        json["terms"].push_back({{"first", t.bounces.first},
-                                 {"last", t.bounces.last},
-                                 {"ratio", json_number(t.test.ratio)},
-                                 {"ratio_stderr", json_number(t.test.ratio_error)},
-                                 {"p", t.test.p},
-                                 {"differs", t.differs}});
-    for (const Suspect& s : found.suspects)
-        json["suspects"].push_back(
-            {{"name", s.name}, {"words", s.words}, {"misfit", json_number(s.misfit)}, {"p_of_what_is_left", s.left.p}});
-    for (const Place& p : found.worst) json["worst_pixels"].push_back({{"x", p.x}, {"y", p.y}, {"z", json_number(p.z)}});
-    json["sentences"] = found.sentences;
+// With all that is needed to repeat it.
+nlohmann::ordered_json json_of(const Blame& found, const Scene& scene, const BlameRequest& request) {
+    nlohmann::ordered_json json = blame_json(found, scene);
+    json["scene"] = request.pictures.back();
+    json["pictures"] = std::vector<std::string>(request.pictures.begin(), request.pictures.end() - 1);
+    json["again"] = request.again;
+    json["seed"] = request.seed;
+    json["command"] = request.command_line;
+    json["version"] = NEUMANN_VERSION;
     return json;
+}
+
+void write_page(OutputFolder& folder, const Blame& found, const nlohmann::ordered_json& json) {
+    const PackedSeries pictures = packed_pictures(found);
+    if (pictures.factor() > 1) fmt::print(stderr, "note: {}\n", pictures.reduction());
+    write_blame_pictures(folder, found);
+    folder.write("blame.json", json.dump(2) + "\n");
+    folder.write("index.html", blame_page(pictures, json));
+    folder.commit();
 }
 
 }  // namespace
 
-int blame_command(const BlameRequest& request) {
-    if (request.pictures.size() < 2) throw InputError("expected pictures and a scene: neumann blame depth_*.exr scene.xml");
+BlameSettings blame_settings(const BlameRequest& request) {
     BlameSettings settings;
     if (request.counts) settings.counting = counting_of(*request.counts);
     if (request.seconds) settings.seconds = *request.seconds;
     settings.samples = request.samples;
     settings.seed = request.seed;
+    return settings;
+}
+
+int blame_command(const BlameRequest& request) {
+    if (request.pictures.size() < 2) throw InputError("expected pictures and a scene: neumann blame depth_*.exr scene.xml");
+    const BlameSettings settings = blame_settings(request);
     const std::vector<DepthPicture> pictures = read_pictures(request);
     const Scene scene = read_scene(request.pictures.back(), parse_definitions(request.definitions), {.lenient = request.lenient});
     print_warnings(scene.replaced, false);
     const ThreadLimit threads(request.threads);
     catch_interrupts();
+    std::optional<OutputFolder> folder;
+    if (!request.output.empty()) {
+        expect_pictures();  // before anything is sampled
+        folder.emplace(request.output, "blame");
+    }
     Watch watch;
     watch.stop = interrupted;
     const Blame found = blame(scene, pictures, settings, watch);
+    const nlohmann::ordered_json json = json_of(found, scene, request);
+    if (folder) write_page(*folder, found, json);
     if (request.json)
-        fmt::print("{}\n", json_of(found).dump(2));
+        fmt::print("{}\n", json.dump(2));
     else
-        print(found);
+        print(found, scene, request.output);
     return 0;
 }
 

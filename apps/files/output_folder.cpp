@@ -41,6 +41,12 @@ bool is_way(std::string_view name) {
     return std::regex_match(name.begin(), name.end(), pattern);
 }
 
+// "difference_002.exr", "z_000-001.exr"
+bool is_of_blame(std::string_view name) {
+    static const std::regex pattern("(difference|z)_[0-9]{3,}(-[0-9]{3,})?\\.exr");
+    return std::regex_match(name.begin(), name.end(), pattern);
+}
+
 // 0, or the error number.
 int write_all(int file, std::string_view bytes) {
     while (!bytes.empty()) {
@@ -81,11 +87,13 @@ std::optional<std::string_view> writer_of(std::string_view name) {
           "strip-terms.gif", preview_file, "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
         {"study", {"study.csv", "study.json"}},
         {"compare", {"compare.json"}},
+        {"blame", {"blame.json"}},
         {"export",
          {"T.mtx", "R.mtx", "R_r.mtx", "R_g.mtx", "R_b.mtx", "K.mtx", "K_r.mtx", "K_g.mtx", "K_b.mtx", "Le.mtx", "b.mtx",
           "measure.mtx", "ray_measure.mtx", "patches.csv"}},
         {"conform", {"picture.exr", "reference.exr", "p-reference.exr", "p-error.exr", "difference.exr"}}};
     if (is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name)) return "render";
+    if (is_of_blame(name)) return "blame";
     for (const auto& [command, its] : names)
         if (std::find(its.begin(), its.end(), name) != its.end()) return command;
     return std::nullopt;

@@ -1,18 +1,6 @@
 "use strict";
 // The pictures of the page, see apps/pages/packed_pictures.h: means, sums and errors of every bounce, a plane a channel.
 
-// What the bits of a half float stand for.
-const halves = new Float32Array(65536);
-for (let bits = 0; bits < 65536; ++bits) {
-  const exponent = bits >> 10 & 31, fraction = bits & 1023, sign = bits & 0x8000 ? -1 : 1;
-  halves[bits] = sign * (exponent === 31 ? (fraction ? NaN : Infinity) : exponent ? (1024 + fraction) * 2 ** (exponent - 25) : fraction * 2 ** -24);
-}
-const inflated = async text => {
-  const binary = atob(text), bytes = new Uint8Array(binary.length);
-  for (let k = 0; k < bytes.length; ++k) bytes[k] = binary.charCodeAt(k);
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
-};
-
 // A picture is named by { i, sum }: bounce i, or the sum up to it; i = last + 1 is the rest, unless it is a bounce that is `absent`.
 class Series {
   constructor({ run, convergence, decay, pictures }, index) {
@@ -29,14 +17,7 @@ class Series {
 
   // Decodes picture i; what was decoded stays.
   async load(i) {
-    const bytes = await inflated($(`picture-${this.index}-${i}`).textContent), n = 3 * this.pixels, scale = 2 ** this.heads[i].exponent;
-    const mean = new Float32Array(n), errors = {};
-    for (let k = 0; k < n; ++k) mean[k] = halves[bytes[k] << 8 | bytes[k + n]] * scale;
-    this.heads[i].errors.forEach(({ kind, low, step }, e) => {
-      const values = Float64Array.from({ length: 256 }, (_, c) => c === 0 ? 0 : c === 255 ? Infinity : 2 ** (low + (c - 1) * step));
-      errors[kind] = { codes: bytes.subarray((2 + e) * n, (3 + e) * n), values };
-    });
-    this.planes[i] = { mean, errors };
+    this.planes[i] = await decoded($(`picture-${this.index}-${i}`).textContent, this.heads[i], this.pixels);
     this.sums.clear();
   }
 

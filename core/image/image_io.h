@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace neumann {
 
@@ -48,6 +49,15 @@ Texels read_texels(const std::string& path);
 // The same of the bytes of a file, but all its channels, up to four: grey, grey and alpha, RGB, or RGB and alpha, which is not
 // multiplied into the colours. Errors begin with `name`.
 Texels decode_texels(std::string_view bytes, const std::string& name);
+
+// The layers of colour in a picture of any renderer: "ViewLayer.Combined" for channels ViewLayer.Combined.R, .G and .B, "" for R, G
+// and B; also r, g, b, and red, green, blue. In a file of several parts their names come first, unless the channels begin with
+// them. A channel that is alone in its part is grey. Throws InputError, beginning with the path, as read_texels(), and if there is
+// none.
+std::vector<std::string> layers_in(const std::string& path);
+
+// One of them, with three channels or one.
+Texels read_layer(const std::string& path, const std::string& name);
 
 // The font that labels are written in (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
 std::optional<std::string> find_label_font();

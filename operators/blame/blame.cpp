@@ -24,9 +24,18 @@ namespace {
 constexpr double strong_evidence = 40.0;
 // A suspect is named alone if the next is so much less likely.
 constexpr double clear_lead = 10.0;
-constexpr std::size_t worst_places = 5;
+constexpr std::size_t places_a_term = 3;
+constexpr std::uint64_t most_replayed = 64;  // samples of a pixel, from which a path is chosen
 // For what the mistakes make of the scene: some ten microseconds each.
 constexpr double most_paths = 4e6;
+
+void expect_finite(const DepthPicture& picture) {
+    const Image& mean = picture.mean;
+    for (int y = 0; y < mean.height; ++y)
+        for (int x = 0; x < mean.width; ++x)
+            if (!is_finite(mean.at(x, y)))
+                throw InputError(fmt::format("picture {}: the pixel in column {} and row {} is not finite", picture.depth, x, y));
+}
 
 Scene on_their_film(const Scene& scene, const Image& picture) {
     Film film = scene.film;
@@ -70,6 +79,22 @@ Image left_open(const BounceSeries& ours, const BounceRange& bounces) {
     return sum;
 }
 
+// Not below what few samples leave open in each pixel; `times`: as many times ours.
+Image believed_one_by_one(Image variance, const ComparedTerm& term, double times) {
+    for (std::size_t p = 0; p < variance.pixels.size(); ++p)
+        variance.pixels[p] = glm::max(variance.pixels[p], term.left_open.pixels[p] * times);
+    return variance;
+}
+
+Image in_errors(const Estimate& difference) {
+    Image z(difference.mean.width, difference.mean.height);
+    for (std::size_t p = 0; p < z.pixels.size(); ++p)
+        for (int c = 0; c < 3; ++c)
+            if (const double d = difference.mean.pixels[p][c]; d != 0.0)
+                z.pixels[p][c] = d / difference.standard_error.pixels[p][c];
+    return z;
+}
+
 std::vector<std::uint32_t> shapes_seen(const Scene& scene) {
     std::vector<std::uint32_t> shapes;
     for (int y = 0; y < scene.film.crop_height; ++y)
@@ -100,14 +125,15 @@ public:
             goal.seconds = settings_.seconds;
         const BounceSeries ours = render(scene_, independent_walk(), goal, watch_);
         if (ours.outcome == Outcome::interrupted) throw Stopped();
-        samples_ = ours.samples;
+        result_.samples = ours.samples;
         choose_counting(pictures, ours);
         judge_noise(pictures, ours);
         compare(terms_of(pictures, result_.counting), ours);
         find_first_wrong();
         if (result_.first_wrong) {
             find_suspects();
-            find_places();
+            find_shapes();
+            find_places(ours);
         }
         say();
         return std::move(result_);
@@ -126,7 +152,9 @@ private:
         constexpr double close = 0.02, clearly = 4.0;
         const double misfit = misfit_of_means(pictures, likely, sums);
         if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close) result_.told = likely;
-    }  // Samples that are independent of each other, as most renderers have: their variance then is ours, times a number.
+    }
+
+    // Samples that are independent of each other, as most renderers have: their variance then is ours, times a number.
     static method::Walk independent_walk() {
         method::Walk walk;
         walk.sampler = SamplerKind::independent;
@@ -177,21 +205,16 @@ private:
         const std::vector<WrongTerms> wrong = direct.empty() ? std::vector<WrongTerms>() : make_wrong(direct);
         for (std::size_t i = 0; i < compared_.size(); ++i) {
             const ComparedTerm& c = compared_[i];
-            TermVerdict v{c.bounces,
-                          test_difference(c.theirs, c.ours),
-                          false_alarms / static_cast<double>(compared_.size()),
-                          false,
-                          c.theirs.mean,
-                          Image(c.ours.mean.width, c.ours.mean.height)};
+            TermVerdict v;
+            v.bounces = c.bounces;
+            v.test = test_difference(c.theirs, c.ours);
+            v.threshold = false_alarms / static_cast<double>(compared_.size());
             v.differs = v.test.p < v.threshold || (!result_.first_wrong && is_clearly_something_else(i, wrong));
-            for (std::size_t p = 0; p < v.z.pixels.size(); ++p) {
-                v.difference.pixels[p] -= c.ours.mean.pixels[p];
-                for (int k = 0; k < 3; ++k) {
-                    const double variance = c.theirs.variance.pixels[p][k] + c.ours.variance.pixels[p][k],
-                                 d = v.difference.pixels[p][k];
-                    v.z.pixels[p][k] = variance > 0.0 ? d / std::sqrt(variance) : 0.0;
-                }
-            }
+            v.theirs = c.theirs;
+            v.ours = c.ours;
+            v.difference = difference_of({c.theirs.mean, believed_one_by_one(c.theirs.variance, c, times_)},
+                                         {c.ours.mean, believed_one_by_one(c.ours.variance, c, 1.0)});
+            v.z = in_errors(v.difference);
             if (v.differs && !result_.first_wrong) result_.first_wrong = i;
             result_.terms.push_back(std::move(v));
         }
@@ -199,7 +222,8 @@ private:
 
     std::vector<WrongTerms> make_wrong(const std::vector<BounceRange>& ranges) const {
         const auto pixels = static_cast<double>(compared_[0].ours.mean.pixels.size());
-        const double samples = std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(samples_, 16)));
+        const double samples =
+            std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(result_.samples, 16)));
         return wrong_terms(scene_, ranges, static_cast<int>(samples), settings_.seed + 1, watch_);
     }
 
@@ -209,9 +233,7 @@ private:
     bool is_clearly_something_else(std::size_t i, const std::vector<WrongTerms>& wrong) const {
         const ComparedTerm& c = compared_[i];
         if (c.bounces.last > 1) return false;
-        PictureNoise theirs = c.theirs;
-        for (std::size_t p = 0; p < theirs.variance.pixels.size(); ++p)
-            theirs.variance.pixels[p] = glm::max(theirs.variance.pixels[p], c.left_open.pixels[p] * times_);
+        const PictureNoise theirs{c.theirs.mean, believed_one_by_one(c.theirs.variance, c, times_)};
         if (c.bounces.first == 0)
             for (const WrongPictures& moved : moved_pictures({c}, are_sums()))
                 if (evidence_for(theirs, moved.terms[0], c.ours) > strong_evidence) return true;
@@ -273,33 +295,40 @@ private:
 
     bool are_sums() const { return result_.counting != Counting::bounces; }
 
-    void find_places() {
+    void find_shapes() {
         const TermVerdict& v = result_.terms[*result_.first_wrong];
-        const ComparedTerm& c = compared_[*result_.first_wrong];
         const std::vector<std::uint32_t> shapes = shapes_seen(scene_);
         struct Sums {
             double squares = 0.0, theirs = 0.0, ours = 0.0;
         };
         std::map<std::uint32_t, Sums> by_shape;
         double all = 0.0;
-        std::vector<Place> places;
         for (std::size_t p = 0; p < shapes.size(); ++p) {
             Sums& sums = by_shape[shapes[p]];
-            const double square = glm::dot(v.difference.pixels[p], v.difference.pixels[p]);
+            const double square = glm::dot(v.difference.mean.pixels[p], v.difference.mean.pixels[p]);
             sums.squares += square;
-            sums.theirs += mean_component(c.theirs.mean.pixels[p]);
-            sums.ours += mean_component(c.ours.mean.pixels[p]);
+            sums.theirs += mean_component(v.theirs.mean.pixels[p]);
+            sums.ours += mean_component(v.ours.mean.pixels[p]);
             all += square;
-            const auto width = static_cast<std::size_t>(v.z.width);
-            places.push_back({static_cast<int>(p % width), static_cast<int>(p / width), mean_component(v.z.pixels[p])});
         }
         for (const auto& [shape, sums] : by_shape)
             result_.shapes.push_back(
                 {shape, all > 0.0 ? sums.squares / all : 0.0, sums.ours > 0.0 ? sums.theirs / sums.ours : 1.0});
         std::sort(result_.shapes.begin(), result_.shapes.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
-        std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return std::abs(a.z) > std::abs(b.z); });
-        places.resize(std::min(places.size(), worst_places));
-        result_.worst = std::move(places);
+    }
+
+    void find_places(const BounceSeries& ours) {
+        const auto& record = std::get<PathRecord>(ours.record);
+        const RecordedSamples samples(
+            scene_, {ours.method, ours.seed, ours.bounces(), record.rest_probability.value_or(0.0), record.replicate_size});
+        for (TermVerdict& v : result_.terms) {
+            if (!v.differs) continue;
+            v.worst = worst_places(v.theirs, v.ours, places_a_term);
+            for (WorstPlace& place : v.worst) {
+                const auto pixel = static_cast<std::uint32_t>(place.pixel_y * v.z.width + place.pixel_x);
+                place.path = brightest_path(scene_, samples, pixel, std::min(ours.samples, most_replayed), v.bounces);
+            }
+        }
     }
 
     std::string title(std::uint32_t shape) const {
@@ -347,7 +376,6 @@ private:
     const Scene& scene_;
     const BlameSettings& settings_;
     const Watch& watch_;
-    std::uint64_t samples_ = 0;
     double times_ = std::numeric_limits<double>::infinity();  // their variance, in units of ours
     std::vector<ComparedTerm> compared_;
     Blame result_;
@@ -357,6 +385,7 @@ private:
 
 Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch) {
     if (pictures.empty()) throw InputError("there are no pictures to compare with");
+    for (const DepthPicture& picture : pictures) expect_finite(picture);
     terms_of(pictures, settings.counting.value_or(Counting::pbrt));  // sizes and numbers
     const Scene seen = on_their_film(scene, pictures.front().mean);
     return Judge(seen, settings, watch).judge(pictures);

@@ -4,6 +4,7 @@
 #include "core/scene/scene.h"
 #include "operators/blame/difference_test.h"
 #include "operators/blame/other_pictures.h"
+#include "operators/blame/worst_places.h"
 #include "operators/watch.h"
 
 #include <optional>
@@ -24,21 +25,18 @@ struct TermVerdict {
     DifferenceTest test;
     double threshold = 0.0;  // the term differs where test.p is below
     bool differs = false;
-    Image difference, z;  // theirs less ours, and that in standard errors of a pixel
+    PictureNoise theirs, ours;
+    Estimate difference;            // theirs less ours
+    Image z;                        // the same in standard errors of the pixel
+    std::vector<WorstPlace> worst;  // if it differs
 };
 
 // What may be wrong, likeliest first.
 struct Suspect {
     std::string name, words;
-    double misfit = 0.0;  // −2 log of the likelihood, with 2 log n for each parameter that was fitted; differences count    bool
-                          // is_fitted = false;  // a factor or an offset, which describes and does not explain
+    double misfit = 0.0;     // −2 log of the likelihood, with 2 log n for each parameter that was fitted; differences count
     bool is_fitted = false;  // a factor or an offset, which describes and does not explain
     DifferenceTest left;     // of the first wrong term against what this mistake makes of it
-};
-
-struct Place {
-    int x = 0, y = 0;
-    double z = 0.0;
 };
 
 struct ShapeShare {
@@ -55,7 +53,7 @@ struct Blame {
     std::optional<std::size_t> first_wrong;  // among the terms
     std::vector<Suspect> suspects;
     std::vector<ShapeShare> shapes;  // of the first wrong term, largest share first
-    std::vector<Place> worst;        // pixels of it
+    std::uint64_t samples = 0;       // of ours, a pixel
     std::vector<std::string> sentences;
 
     bool is_right() const { return !first_wrong; }
@@ -64,8 +62,8 @@ struct Blame {
 // The chance that a right renderer is called wrong, over all terms together.
 constexpr double false_alarms = 0.005;
 
-// `pictures`: of one size, which becomes that of the scene's film. Throws InputError as terms_of() does, and if the film has
-// another shape; Stopped.
+// `pictures`: of one size, which becomes that of the scene's film. Throws InputError as terms_of() does, if a value is
+// not finite, and if the film has another shape; Stopped.
 Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch = {});
 
 }  // namespace neumann

@@ -23,11 +23,6 @@ double mean_of(const Image& image, int c) {
     return sum / static_cast<double>(image.pixels.size());
 }
 
-// Mean, and its variance, of the difference in a block.
-struct BlockDifference {
-    double mean, variance, pixels;
-};
-
 // By how much the variance of a block's mean exceeds that of independent pixels: 1 + 2ρ in both directions, ρ the correlation of
 // neighbours.
 double correlation_factor(const Image& difference, int c) {
@@ -59,34 +54,27 @@ double correlation_factor(const Image& difference, int c) {
     return factor(across, n_across) * factor(down, n_down);
 }
 
-std::vector<BlockDifference> block_differences(const PictureNoise& a, const PictureNoise& b, const Image& difference, int c) {
-    const double correlated = correlation_factor(difference, c);
-    const double least = rounding * std::max(std::abs(mean_of(a.mean, c)), std::abs(mean_of(b.mean, c)));
-    std::vector<BlockDifference> blocks;
-    for (int y0 = 0; y0 < difference.height; y0 += block)
-        for (int x0 = 0; x0 < difference.width; x0 += block) {
-            double n = 0.0, sum = 0.0, squares = 0.0, said = 0.0;
-            for (int y = y0; y < std::min(y0 + block, difference.height); ++y)
-                for (int x = x0; x < std::min(x0 + block, difference.width); ++x) {
-                    const double d = difference.at(x, y)[c];
-                    ++n;
-                    sum += d;
-                    squares += d * d;
-                    said += a.variance.at(x, y)[c] + b.variance.at(x, y)[c];
-                }
-            const double mean = sum / n, spread = n > 1.0 ? std::max(squares - n * mean * mean, 0.0) / (n - 1.0) : 0.0;
-            blocks.push_back({mean, std::max(spread, said / n) * correlated / n + least * least, n});
+// The difference's mean in a channel of a block, and the variance of that mean. `said`: the sum of the pixels' variances.
+void put_channel(BlockDifference& of, int c, const Image& difference, double said, double correlated, double least) {
+    double sum = 0.0, squares = 0.0;
+    for (int y = of.y; y < of.y + of.height; ++y)
+        for (int x = of.x; x < of.x + of.width; ++x) {
+            const double d = difference.at(x, y)[c];
+            sum += d;
+            squares += d * d;
         }
-    return blocks;
+    const double n = of.pixels(), mean = sum / n, spread = n > 1.0 ? std::max(squares - n * mean * mean, 0.0) / (n - 1.0) : 0.0;
+    of.mean[c] = mean;
+    of.variance[c] = std::max(spread, said / n) * correlated / n + least * least;
 }
 
 // The smallest of three: the mean over all blocks, the block that differs most, and the sum of squares.
-double p_of(const std::vector<BlockDifference>& blocks) {
+double p_of(const std::vector<BlockDifference>& blocks, int c) {
     double sum = 0.0, variance = 0.0, squares = 0.0, most = 1.0;
     for (const BlockDifference& b : blocks) {
-        sum += b.mean;
-        variance += b.variance;
-        const double t2 = b.mean * b.mean / b.variance, freedom = std::max(b.pixels - 1.0, 1.0);
+        sum += b.mean[c];
+        variance += b.variance[c];
+        const double t2 = b.mean[c] * b.mean[c] / b.variance[c], freedom = std::max(b.pixels() - 1.0, 1.0);
         squares += t2 * (freedom > 3.0 ? (freedom - 2.0) / freedom : 0.3);  // Student's t has a larger variance than 1
         most = std::min(most, student_t_two_sided(std::sqrt(t2), freedom));
     }
@@ -145,15 +133,45 @@ double times_the_variance(const Image& picture, const PictureNoise& known) {
     return std::max(std::min(median(by_difference), median(by_neighbours)), 0.0);
 }
 
-DifferenceTest test_difference(const PictureNoise& a, const PictureNoise& b) {
+Estimate difference_of(const PictureNoise& a, const PictureNoise& b) {
+    Estimate difference{a.mean, a.variance};
+    Rgb least(0.0);
+    for (int c = 0; c < 3; ++c) least[c] = rounding * std::max(std::abs(mean_of(a.mean, c)), std::abs(mean_of(b.mean, c)));
+    for (std::size_t i = 0; i < difference.mean.pixels.size(); ++i) {
+        difference.mean.pixels[i] -= b.mean.pixels[i];
+        difference.standard_error.pixels[i] = glm::sqrt(a.variance.pixels[i] + b.variance.pixels[i] + least * least);
+    }
+    return difference;
+}
+
+std::vector<BlockDifference> block_differences(const PictureNoise& a, const PictureNoise& b) {
     Image difference = a.mean;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= b.mean.pixels[i];
+    std::vector<BlockDifference> blocks;
+    for (int y = 0; y < difference.height; y += block)
+        for (int x = 0; x < difference.width; x += block)
+            blocks.push_back(
+                {x, y, std::min(block, difference.width - x), std::min(block, difference.height - y), Rgb(0.0), Rgb(0.0)});
+    for (int c = 0; c < 3; ++c) {
+        const double correlated = correlation_factor(difference, c);
+        const double least = rounding * std::max(std::abs(mean_of(a.mean, c)), std::abs(mean_of(b.mean, c)));
+        for (BlockDifference& of : blocks) {
+            double said = 0.0;
+            for (int y = of.y; y < of.y + of.height; ++y)
+                for (int x = of.x; x < of.x + of.width; ++x) said += a.variance.at(x, y)[c] + b.variance.at(x, y)[c];
+            put_channel(of, c, difference, said, correlated, least);
+        }
+    }
+    return blocks;
+}
+
+DifferenceTest test_difference(const PictureNoise& a, const PictureNoise& b) {
+    const std::vector<BlockDifference> blocks = block_differences(a, b);
     DifferenceTest result;
     double sum_a = 0.0, sum_b = 0.0, variance = 0.0;
     for (int c = 0; c < 3; ++c) {
-        const std::vector<BlockDifference> blocks = block_differences(a, b, difference, c);
-        result.p = std::min(result.p, 3.0 * p_of(blocks));
-        for (const BlockDifference& d : blocks) variance += d.variance * d.pixels * d.pixels;
+        result.p = std::min(result.p, 3.0 * p_of(blocks, c));
+        for (const BlockDifference& d : blocks) variance += d.variance[c] * d.pixels() * d.pixels();
         for (const Rgb& v : a.mean.pixels) sum_a += v[c];
         for (const Rgb& v : b.mean.pixels) sum_b += v[c];
     }

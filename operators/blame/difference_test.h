@@ -3,6 +3,8 @@
 
 #include "core/image/image.h"
 
+#include <vector>
+
 namespace neumann {
 
 struct PictureNoise {
@@ -17,15 +19,28 @@ Image local_variance(const Image& picture);
 // ratio of their numbers. The smaller of what differences and neighbourhoods say, for most pixels; infinite where nothing is noisy.
 double times_the_variance(const Image& picture, const PictureNoise& known);
 
+// a less b with standard errors, which are at least 0.02% of the pictures' means, as of rounding.
+Estimate difference_of(const PictureNoise& a, const PictureNoise& b);
+
+// The mean of the difference over a block of 8×8 pixels, fewer at the edges, and the variance of that mean.
+struct BlockDifference {
+    int x = 0, y = 0, width = 0, height = 0;
+    Rgb mean, variance;
+
+    double pixels() const { return static_cast<double>(width) * height; }
+};
+
 struct DifferenceTest {
     double p = 1.0;            // of a difference at least so large by chance, for all channels and blocks together
     double ratio = 1.0;        // of the means, the first to the second
     double ratio_error = 0.0;  // standard error
 };
 
-// Compares means over 8×8 blocks of pixels and over all pixels. The variance of a block's difference is the larger one of its
-// pixels' spread and what the pictures say; neighbouring pixels may be correlated, as those of wide pixel filters are. Differences
-// below `rounding` of the mean do not count.
+// The variance of a block's difference is the larger one of its pixels' spread and what the pictures say; neighbouring pixels may
+// be correlated, as those of wide pixel filters are. Differences below 0.02% of the mean do not count.
+std::vector<BlockDifference> block_differences(const PictureNoise& a, const PictureNoise& b);
+
+// Compares means over these blocks and over all pixels.
 DifferenceTest test_difference(const PictureNoise& a, const PictureNoise& b);
 
 // −2 log of the likelihood of a, given b, up to a constant: Student's t with 4 degrees of freedom in each pixel and channel, so

@@ -12,16 +12,21 @@ std::string why_no_replay(const Method& method) {
     return "";
 }
 
-Replay replay(const Scene& scene, const RecordedRender& render, const SampleName& name) {
+RecordedSamples::RecordedSamples(const Scene& scene, const RecordedRender& render) {
     const Plan plan = plan_for(render.method, scene);
-    const std::optional<Scene> reduced = without_unlit_materials(plan, scene);
-    const Scene& rendered = reduced ? *reduced : scene;
+    if (std::optional<Scene> reduced = without_unlit_materials(plan, scene))
+        reduced_ = std::make_unique<const Scene>(std::move(*reduced));
+    const Scene& rendered = reduced_ ? *reduced_ : scene;
     SamplingSettings settings = sampling_settings(render.method, rendered, plan, render.seed);
     settings.walk.bounces = render.bounces;
     settings.walk.rest_probability = render.rest_probability;
     settings.replicate_size = render.replicate_size;
     set_up(render.method, rendered, render.bounces, render.seed, default_memory(), settings);
-    return replay(PictureSampler(rendered, settings), name);
+    sampler_ = std::make_unique<const PictureSampler>(rendered, settings);
+}
+
+Replay replay(const Scene& scene, const RecordedRender& render, const SampleName& name) {
+    return RecordedSamples(scene, render).replay(name);
 }
 
 }  // namespace neumann

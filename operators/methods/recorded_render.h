@@ -4,6 +4,7 @@
 #include "operators/methods/method.h"
 #include "operators/pictures/replay.h"
 
+#include <memory>
 #include <string>
 
 namespace neumann {
@@ -20,7 +21,19 @@ struct RecordedRender {
 // Why this method has no paths to replay, in words; empty if it has.
 std::string why_no_replay(const Method& method);
 
-// With the same bits as in the render, if the scene is the same. Throws InputError if the method cannot render the scene.
+// Many samples of one render. With the same bits as in the render, if the scene is the same.
+class RecordedSamples {
+public:
+    // The scene must outlive this object. Throws InputError if the method cannot render it.
+    RecordedSamples(const Scene& scene, const RecordedRender& render);
+
+    Replay replay(const SampleName& name) const { return neumann::replay(*sampler_, name); }
+
+private:
+    std::unique_ptr<const Scene> reduced_;
+    std::unique_ptr<const PictureSampler> sampler_;
+};
+
 Replay replay(const Scene& scene, const RecordedRender& render, const SampleName& name);
 
 }  // namespace neumann

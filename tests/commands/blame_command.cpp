@@ -46,6 +46,82 @@ TEST_F(BlameCommand, AFactorIsNamedAndCountingIsToldByTheData) {
     EXPECT_FALSE(json.at("right").get<bool>());
 }
 
+TEST_F(BlameCommand, WritesAPageAndPictures) {
+    render_as("depth", "1", 0.5);
+    const std::vector<std::string> command{"blame", "depth_1.exr", "depth_3.exr", room_, "--spp",
+                                           "64",    "--counts",    "mitsuba",     "-o",  "out"};
+    const Finished done = run(command);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_TRUE(done.out.ends_with("\nThe pictures are on the page out/index.html\n")) << done.out;
+    EXPECT_EQ(names("out"),
+              (Names{"blame.json", "difference_000.exr", "difference_001-002.exr", "index.html", "z_000.exr", "z_001-002.exr"}));
+    const auto json = nlohmann::json::parse(text_of(path("out/blame.json")));
+    EXPECT_EQ(json.at("terms")[1].at("first"), 1);
+    EXPECT_EQ(json.at("terms")[1].at("last"), 2);
+    EXPECT_EQ(json.at("pictures"), (nlohmann::json{"depth_1.exr", "depth_3.exr"}));
+    EXPECT_TRUE(json.at("command").get<std::string>().ends_with("--counts mitsuba -o out"));
+
+    // Theirs is half of the light, up to noise, so that the difference is minus their picture; z is the difference in its errors.
+    const PixelEstimate difference = read_exr(path("out/difference_001-002.exr"));
+    const Image z = read_exr(path("out/z_001-002.exr")).mean, one = read_exr(path("depth_1.exr")).mean,
+                three = read_exr(path("depth_3.exr")).mean;
+    double theirs = 0.0, apart = 0.0;
+    for (std::size_t p = 0; p < z.pixels.size(); ++p) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(z.pixels[p][c] * difference.standard_error.pixels[p][c], difference.mean.pixels[p][c],
+                        1e-5 * std::abs(difference.mean.pixels[p][c]));
+        theirs += mean_component(three.pixels[p] - one.pixels[p]);
+        apart += mean_component(difference.mean.pixels[p]);
+    }
+    EXPECT_NEAR(apart / theirs, -1.0, 0.1);
+
+    // A place is a block of the picture with their mean and ours.
+    const auto& worst = json.at("terms")[1].at("worst");
+    ASSERT_FALSE(worst.empty());
+    EXPECT_LT(worst[0].at("z"), -4.0);
+    for (const auto& place : worst) {
+        Rgb sum(0.0);
+        for (int y = place.at("y"); y < place.at("y").get<int>() + place.at("height").get<int>(); ++y)
+            for (int x = place.at("x"); x < place.at("x").get<int>() + place.at("width").get<int>(); ++x)
+                sum += difference.mean.at(x, y);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(sum[c] / 64.0, place.at("theirs")[c].get<double>() - place.at("ours")[c].get<double>(), 1e-5);
+        const std::string text = place.at("path").at("text");
+        EXPECT_TRUE(text.starts_with("camera → ")) << text;
+        EXPECT_NE(text.find("mitsuba-cornell.xml:"), std::string::npos) << text;
+    }
+
+    // Another run replaces it whole, and one that fails leaves it as it is.
+    const auto before = contents("out");
+    EXPECT_EQ(refused({"blame", "depth_1.exr", room_, "--counts", "arnold", "-o", "out"}),
+              "--counts arnold: expected mitsuba, pbrt, cycles or bounces\n");
+    EXPECT_EQ(contents("out"), before);
+    EXPECT_EQ(run(command, 20000).exit_code, 1);  // a disk with no room for the page
+    EXPECT_EQ(contents("out"), before);
+    EXPECT_EQ(refused({"render", room_, "-o", "out"}),
+              "out holds blame.json of blame, which would be lost; expected another folder\n");
+}
+
+TEST_F(BlameCommand, ALayerIsChosen) {
+    render_as("depth", "1");
+    EXPECT_EQ(refused({"blame", "depth_1.exr", room_, "--channels", "direct"}),
+              "depth_1.exr: --channels direct: expected one of RGB\n");
+    PixelEstimate picture;
+    picture.mean = read_exr(path("depth_1.exr")).mean;
+    picture.standard_error = Image(picture.mean.width, picture.mean.height);
+    write("depth_1.exr", encode_exr(picture));
+    EXPECT_EQ(refused({"blame", "depth_1.exr", room_, "--channels", "direct"}),
+              "depth_1.exr: --channels direct: expected one of RGB, stderr\n");
+    const auto right = [&](const std::string& channels) {
+        const Finished done =
+            run({"blame", "depth_1.exr", room_, "--spp", "64", "--counts", "mitsuba", "--json", "--channels", channels});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return nlohmann::json::parse(done.out).at("right").get<bool>();
+    };
+    EXPECT_TRUE(right("RGB"));
+    EXPECT_FALSE(right("stderr"));  // which is 0 here
+}
+
 TEST_F(BlameCommand, WrongInput) {
     EXPECT_EQ(refused({"blame", room_}), "expected pictures and a scene: neumann blame depth_*.exr scene.xml\n");
     EXPECT_EQ(refused({"blame", "depth.exr", room_}),

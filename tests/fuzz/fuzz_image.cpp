@@ -18,5 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const neumann::Texels texels = neumann::read_texels(path);
         if (texels.bytes.size() + texels.values.size() != texels.index(0, texels.height)) std::abort();
     });
+    try_picture([](const std::string& path) {
+        for (const std::string& layer : neumann::layers_in(path)) neumann::read_layer(path, layer);
+    });
     return 0;
 }

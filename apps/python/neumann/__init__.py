@@ -16,6 +16,7 @@ Bounce i is the power of K: bounce 0 is emission seen directly, bounce 1 direct 
 surface, R scatters it there; operators/NOTATION.md is the dictionary.
 """
 
+from ._blame import Blame, blame
 from ._bounces import BounceSeries, Way, compare, read
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._neumann import InputError, RunError
@@ -25,6 +26,7 @@ from ._scene import Plan, Scene, load
 from ._study import Study
 
 __all__ = [
+    "Blame",
     "BounceSeries",
     "HealthWarning",
     "InputError",
@@ -38,6 +40,7 @@ __all__ = [
     "Solutions",
     "Study",
     "Way",
+    "blame",
     "compare",
     "cube",
     "load",

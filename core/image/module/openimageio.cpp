@@ -12,6 +12,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <array>
@@ -73,7 +74,7 @@ Image pick_channels(const OIIO::ImageSpec& spec, const std::vector<float>& value
 void read_pixels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type, void* values) {
     std::string error;
     try {
-        if (input.read_image(0, 0, 0, input.spec().nchannels, type, values)) return;
+        if (input.read_image(input.current_subimage(), 0, 0, input.spec().nchannels, type, values)) return;
         error = input.geterror();
     } catch (const std::exception& e) {
         error = e.what();
@@ -170,6 +171,66 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     return open_picture(path, file, std::filesystem::file_size(path, ignored), nullptr);
 }
 
+// Three channels of a part of the file, or the only one.
+struct Layer {
+    std::string name;
+    int part;
+    std::vector<std::size_t> places;
+};
+
+// Red, green or blue by the end of a channel's name, 0 to 2: "R" of "diffuse.R", "red".
+std::optional<std::size_t> component_of(std::string_view end) {
+    static constexpr std::array<std::array<std::string_view, 2>, 3> names = {{{"r", "red"}, {"g", "green"}, {"b", "blue"}}};
+    const std::string lower = OIIO::Strutil::lower(OIIO::string_view(end.data(), end.size()));
+    for (std::size_t c = 0; c < names.size(); ++c)
+        if (lower == names[c][0] || lower == names[c][1]) return c;
+    return std::nullopt;
+}
+
+// In the order of the file. `part_name`: of one part among several.
+std::vector<Layer> layers_of_part(const OIIO::ImageSpec& spec, int part, const std::string& part_name) {
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<Layer> layers;
+    for (std::size_t i = 0; i < spec.channelnames.size(); ++i) {
+        const std::string& channel = spec.channelnames[i];
+        const std::size_t dot = channel.rfind('.'), begin = dot == std::string::npos ? 0 : dot + 1;
+        const auto component = component_of(std::string_view(channel).substr(begin));
+        if (!component) continue;
+        std::string name = channel.substr(0, begin == 0 ? 0 : dot);
+        if (!name.starts_with(part_name)) name = name.empty() ? part_name : part_name + "." + name;
+        auto layer = std::ranges::find(layers, name, &Layer::name);
+        if (layer == layers.end()) layer = layers.insert(layers.end(), {name, part, std::vector(3, none)});
+        layer->places[*component] = i;
+    }
+    std::erase_if(layers, [&](const Layer& l) { return std::ranges::count(l.places, none) > 0; });
+    if (layers.empty() && spec.nchannels == 1) layers.push_back({part_name, part, {0}});
+    return layers;
+}
+
+// Goes to a part of the file, if there is one of this number.
+bool go_to(OIIO::ImageInput& input, int part, const std::string& path) {
+    try {
+        return input.seek_subimage(part, 0);
+    } catch (const std::exception& e) {
+        throw InputError(fmt::format("{}: the picture is damaged: {}", path, e.what()));
+    }
+}
+
+// Of all parts. A file of a single one has no name of its own.
+std::vector<Layer> find_layers(OIIO::ImageInput& input, const std::string& path) {
+    const bool has_parts = go_to(input, 1, path);
+    std::vector<Layer> layers;
+    std::string channels;
+    for (int part = 0; go_to(input, part, path); ++part) {
+        const OIIO::ImageSpec& spec = input.spec();
+        const std::string name = has_parts ? std::string(spec.get_string_attribute("oiio:subimagename")) : "";
+        for (Layer& layer : layers_of_part(spec, part, name)) layers.push_back(std::move(layer));
+        for (const std::string& channel : spec.channelnames) channels += (channels.empty() ? "" : ", ") + channel;
+    }
+    if (layers.empty()) throw InputError(fmt::format("{}: no channels R, G, B; it has {}", path, channels));
+    return layers;
+}
+
 std::vector<float> read_values(OIIO::ImageInput& input, const std::string& path) {
     const OIIO::ImageSpec& spec = input.spec();
     std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
@@ -213,6 +274,24 @@ Texels read_texels(const std::string& path) {
     return read_channels(*input, path, places);
 }
 
+std::vector<std::string> layers_in(const std::string& path) {
+    const auto input = open_picture(path);
+    std::vector<std::string> names;
+    for (const Layer& layer : find_layers(*input, path)) names.push_back(layer.name);
+    return names;
+}
+
+Texels read_layer(const std::string& path, const std::string& name) {
+    const auto input = open_picture(path);
+    const std::vector<Layer> layers = find_layers(*input, path);
+    const auto layer = std::ranges::find(layers, name, &Layer::name);
+    if (layer == layers.end()) throw InputError(fmt::format("{}: no layer {}", path, name));
+    go_to(*input, layer->part, path);
+    std::error_code ignored;
+    expect_possible_size(input->spec(), std::filesystem::file_size(path, ignored), path);
+    return read_channels(*input, path, layer->places);
+}
+
 Texels decode_texels(std::string_view bytes, const std::string& name) {
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // which only reads
     std::istringstream file{std::string(bytes)};
@@ -227,6 +306,6 @@ Texels decode_texels(std::string_view bytes, const std::string& name) {
 
 extern "C" const neumann::PictureReader* neumann_picture_reader() {
     using namespace neumann::openimageio;
-    static const neumann::PictureReader reader{read_exr, read_texels, decode_texels};
+    static const neumann::PictureReader reader{read_exr, read_texels, decode_texels, layers_in, read_layer};
     return &reader;
 }

@@ -9,6 +9,8 @@ struct PictureReader {
     decltype(&neumann::read_exr) read_exr;
     decltype(&neumann::read_texels) read_texels;
     decltype(&neumann::decode_texels) decode_texels;
+    decltype(&neumann::layers_in) layers_in;
+    decltype(&neumann::read_layer) read_layer;
 };
 
 struct PictureWriter {

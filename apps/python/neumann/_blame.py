@@ -1,0 +1,97 @@
+"""Which bounce of another renderer is wrong, and in what way."""
+
+from typing import Any, List, Mapping, Optional, Sequence, Union
+
+from numpy.typing import ArrayLike
+
+from . import _neumann, _report
+from ._arguments import options
+from ._display import as_table
+from ._progress import run
+from ._report import Report
+from ._scene import Scene
+
+Pictures = Union[Mapping[int, ArrayLike], Sequence[ArrayLike]]
+
+MAPS = ("theirs", "ours", "difference", "difference_stderr", "z")
+
+
+class Blame:
+    """What ``blame()`` finds.
+
+    right: whether no bounce differs. sentences: the verdict in words. counting: how depths were counted; counting_by_the_data: what the
+    data say, where that is something else. noise_known: whether a second set of pictures told their noise. samples: of ours, a pixel.
+
+    terms: a Report for each bounce, or for bounces that one picture more holds together: first and last bounce; ratio of their mean to ours
+    and ratio_stderr; p, the probability of such a difference by chance; differs; worst, the blocks of pixels that differ most, each with a
+    path of ours through it; and as arrays (height, width, 3), float32, W·m⁻²·sr⁻¹: theirs, ours, difference = theirs − ours, its
+    standard errors difference_stderr, and z = difference / difference_stderr.
+
+    suspects: what may be wrong, likeliest first: name, words, misfit (−2 log of the likelihood). shapes: share of the squared difference of
+    the first wrong term, and ratio of their light to ours, on what the camera sees.
+    """
+
+    def __init__(self, json: str, maps: List[Any]) -> None:
+        data = _report.from_json(json)
+        self.right: bool = data.right
+        self.sentences: List[str] = data.sentences
+        self.counting: str = data.counting
+        self.counting_by_the_data: Optional[str] = data.get("counting_by_the_data")
+        self.noise_known: bool = data.noise_known
+        self.samples: int = data.samples
+        self.terms: List[Report] = data.terms
+        self.suspects: List[Report] = data.suspects
+        self.shapes: List[Report] = data.shapes
+        for term, pictures in zip(self.terms, maps):
+            term.update(zip(MAPS, pictures))
+
+    @property
+    def first_wrong(self) -> Optional[Report]:
+        """The first of the terms that differs, or None."""
+        return next((term for term in self.terms if term.differs), None)
+
+    def __str__(self) -> str:
+        return "\n".join(self.sentences)
+
+    def __repr__(self) -> str:
+        wrong = self.first_wrong
+        said = "right" if wrong is None else f"wrong from bounce {wrong.first} on: {self.suspects[0].name}"
+        return f"<Blame of bounces 0 to {self.terms[-1].last}: {said}>"
+
+    def _repr_html_(self) -> str:
+        rows: List[List[Any]] = []
+        for t in self.terms:
+            bounces = str(t.first) if t.first == t.last else f"{t.first} to {t.last}"
+            rows.append([bounces, t.ratio, t.ratio_stderr, t.p, "differs" if t.differs else "agrees"])
+        return as_table(["bounce", "theirs / ours", "±", "by chance", ""], rows, str(self))
+
+
+def _numbered(pictures: Pictures) -> Any:
+    return dict(pictures) if isinstance(pictures, Mapping) else dict(enumerate(pictures))
+
+
+def blame(
+    scene: Scene,
+    pictures: Pictures,
+    *,
+    again: Optional[Pictures] = None,
+    counts: Optional[str] = None,
+    time: Optional[float] = None,
+    spp: Optional[int] = None,
+    seed: Optional[int] = None,
+    threads: Optional[int] = None,
+    quiet: bool = False,
+) -> Blame:
+    """Compares pictures of another renderer with our terms of the scene: as ``neumann blame``, on arrays.
+
+    pictures: arrays (height, width, 3), linear radiance, row 0 on top, by depth limit, {1: …, 2: …}, or a list that begins with 0. The
+    film takes their size. again: the same with another seed, which tells their noise. counts: how depths are counted, "mitsuba" (depth d
+    holds bounces 0 to d − 1), "pbrt" (to d), "cycles" (to d + 1), or "bounces" (bounce d alone); by the data without it. time: seconds for
+    our own pictures, 20 without it, or spp: samples a pixel. seed; threads: all without it. quiet: no progress.
+
+    Raises InputError for pictures that do not fit together or the scene.
+    """
+    keywords = {"counts": counts, "time": time, "spp": spp, "seed": seed, "threads": threads}
+    job = _neumann.blame(scene._scene, _numbered(pictures), {} if again is None else _numbered(again), options(keywords))
+    found: Blame = run(job, quiet, lambda made: Blame(*made))
+    return found
