@@ -76,7 +76,7 @@ TEST(ExportedFiles, BlendersRoomAsCollada) {
     std::size_t red = 0;
     for (std::size_t i = 0; i < parts.shapes.size(); ++i)
         red += parts.sides_of_shape[i].front != Materials::absorbing &&
-               glm::distance(reflectance(front(parts, i), {}), Rgb(0.6, 0.15, 0.1)) < 1e-6;
+               glm::distance(reflectance(front(parts, i), point_with_coordinates({0.5, 0.5})), Rgb(0.6, 0.15, 0.1)) < 1e-6;
     EXPECT_EQ(red, 1u);
 }
 
