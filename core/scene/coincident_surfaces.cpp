@@ -1,5 +1,8 @@
 #include "core/scene/coincident_surfaces.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 namespace neumann {
 
 namespace {
@@ -28,39 +31,57 @@ bool is_alone(const Geometry& geometry, const Geometry::Place& place, const Vec2
     return !geometry.caster().intersect(from, -t.normal(), 2.0 * near, own, hit);
 }
 
+// Of some faces of a shape: how many others cover, and the first such shape of another material that faces the same way.
+struct Covered {
+    std::size_t faces = 0;
+    std::optional<std::uint32_t> unlike;
+};
+
+// Adds what is seen right in front of a face.
+void look_at(const Geometry& geometry, const Materials& materials, const Face& face, std::size_t looks, Covered& covered) {
+    const auto& [shape, primitive] = face;
+    bool is_covered = false;
+    for (std::size_t k = 0; k < looks; ++k) {
+        if (is_alone(geometry, geometry.place(shape, primitive), places[k])) continue;
+        const SurfacePoint point = geometry.point(shape, primitive, places[k]);
+        const double near = looks_from * point.error;
+        SurfacePoint seen;
+        if (!geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen) || seen.shape == shape)
+            continue;
+        is_covered = true;
+        const bool is_like =
+            glm::dot(seen.normal, point.normal) < 0.999 || materials.at(shape, true) == materials.at(seen.shape, true);
+        if (!is_like && !covered.unlike) covered.unlike = seen.shape;
+    }
+    covered.faces += is_covered;
+}
+
 }  // namespace
 
 CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials& materials,
                                        const std::vector<int>& light_of_shape) {
     const auto shapes = static_cast<std::uint32_t>(geometry.shapes().size());
-    std::size_t primitives = 0;
-    for (std::uint32_t shape = 0; shape < shapes; ++shape)
-        primitives += geometry.primitive_count(shape) / step(geometry.shapes()[shape]);
-    const std::size_t looks = primitives > many ? 1 : std::size(places);
+    const auto faces_of = [&](std::uint32_t shape) { return geometry.primitive_count(shape) / step(geometry.shapes()[shape]); };
+    std::size_t faces = 0;
+    for (std::uint32_t shape = 0; shape < shapes; ++shape) faces += faces_of(shape);
+    const std::size_t looks = faces > many ? 1 : std::size(places);
+    using Range = oneapi::tbb::blocked_range<std::uint32_t>;
     CoincidentSurfaces found;
     for (std::uint32_t shape = 0; shape < shapes; ++shape) {
         if (!has_extent(geometry.shapes()[shape])) continue;
-        bool is_unlike = false;
-        for (std::uint32_t primitive = 0; primitive < geometry.primitive_count(shape);
-             primitive += step(geometry.shapes()[shape])) {
-            bool is_covered = false;
-            for (std::size_t k = 0; k < looks; ++k) {
-                if (is_alone(geometry, geometry.place(shape, primitive), places[k])) continue;
-                const SurfacePoint point = geometry.point(shape, primitive, places[k]);
-                const double near = looks_from * point.error;
-                SurfacePoint seen;
-                if (!geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen) ||
-                    seen.shape == shape)
-                    continue;
-                is_covered = true;
-                if (glm::dot(seen.normal, point.normal) < 0.999 || materials.at(shape, true) == materials.at(seen.shape, true))
-                    continue;
-                is_unlike = true;
-                if (!found.first_unlike) found.first_unlike = {shape, seen.shape};
-            }
-            found.lights += is_covered && light_of_shape[shape] != Emitters::none;
-        }
-        found.unlike += is_unlike;
+        const Covered covered = oneapi::tbb::parallel_reduce(
+            Range(0, faces_of(shape), 1024), Covered(),
+            [&](const Range& range, Covered sum) {
+                for (std::uint32_t i = range.begin(); i != range.end(); ++i)
+                    look_at(geometry, materials, {shape, i * step(geometry.shapes()[shape])}, looks, sum);
+                return sum;
+            },
+            [](const Covered& first, const Covered& second) {
+                return Covered{first.faces + second.faces, first.unlike ? first.unlike : second.unlike};
+            });
+        if (light_of_shape[shape] != Emitters::none) found.lights += covered.faces;
+        found.unlike += covered.unlike.has_value();
+        if (covered.unlike && !found.first_unlike) found.first_unlike = {shape, *covered.unlike};
     }
     return found;
 }
