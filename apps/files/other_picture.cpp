@@ -39,9 +39,9 @@ std::string choose(const std::string& path, const std::vector<std::string>& laye
                          [&](const std::string& l) { return wanted ? end_of(l) == *wanted : is_whole_picture(l); });
     if (fit.size() == 1) return fit.front();
     if (wanted)
-        throw InputError(fit.empty()
-                             ? fmt::format("{}: --channels {}: expected one of {}", path, *wanted, listed(layers))
-                             : fmt::format("{}: --channels {}: is the end of {}; expected one of them", path, *wanted, listed(fit)));
+        throw InputError(
+            fit.empty() ? fmt::format("{}: --channels {}: expected one of {}", path, *wanted, listed(layers))
+                        : fmt::format("{}: --channels {}: is the end of {}; expected one of them", path, *wanted, listed(fit)));
     throw InputError(fmt::format("{}: which layer is the picture? Expected --channels with one of {}", path, listed(layers)));
 }
 

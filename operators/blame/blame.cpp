@@ -234,6 +234,9 @@ private:
         const ComparedTerm& c = compared_[i];
         if (c.bounces.last > 1) return false;
         const PictureNoise theirs{c.theirs.mean, believed_one_by_one(c.theirs.variance, c, times_)};
+        // Lamps fill parts of blocks, whose spread then hides a factor.
+        if (c.bounces.first == 0 && evidence_for(theirs, scaled(c.ours, fitted_factor(theirs, c.ours)), c.ours) > strong_evidence)
+            return true;
         if (c.bounces.first == 0)
             for (const WrongPictures& moved : moved_pictures({c}, are_sums()))
                 if (evidence_for(theirs, moved.terms[0], c.ours) > strong_evidence) return true;
