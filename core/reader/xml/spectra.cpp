@@ -129,7 +129,7 @@ void write_out_object(Element& e, const std::string& type, Problems& problems) {
 }  // namespace
 
 void write_out_spectrum(Element& e, const std::string& parent_tag, Document& document, Problems& problems) {
-    if (const Attribute* type = e.find("type")) {
+    if (e.find("type")) {
         static const std::vector<std::string> types = {"blackbody", "d65", "irregular", "regular", "uniform"};
         const std::string otherwise = parent_tag == "emitter" ? "0" : "0.5";
         if (const std::string known = type_of(e, types, otherwise, problems); known != otherwise)
