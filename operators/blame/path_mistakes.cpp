@@ -34,6 +34,10 @@ constexpr Kind kinds[] = {
     {Mistake::lamps_shine_back, "lamps_shine_back", "lamps shine from both sides", true},
     {Mistake::light_twice, "light_twice",
      "light is counted twice: samples of lamps and directions that hit them both count in full", false},
+    {Mistake::no_lamp_samples, "no_lamp_samples",
+     "samples of lamps are missing (paths with s = 1), and directions that hit lamps have their weight beside them", false},
+    {Mistake::no_hits, "no_hits",
+     "directions that hit lamps are missing (paths with s = 0), and samples of lamps have their weight beside them", false},
     {Mistake::no_light_after_mirror, "no_light_after_mirror",
      "lamps that are hit after a mirror or glass do not count: their reflections and caustics are missing", false},
     {Mistake::no_caustics, "no_caustics", "light that comes by way of mirrors or glass to other surfaces is missing", false},
@@ -178,6 +182,7 @@ void WrongPaths::Walk::ask_lamp(const SurfaceSide& side, const SurfacePoint& x, 
         double f = w.without_hits ? 1.0 : share;
         if (!is_seen && w.mistake != Mistake::no_shadows) continue;
         if (s.is_back && w.mistake != Mistake::lamps_shine_back) continue;
+        if (w.mistake == Mistake::no_lamp_samples) continue;
         switch (w.mistake) {
             case Mistake::no_cosine:
                 f /= cosine;
@@ -215,7 +220,7 @@ void WrongPaths::Walk::hit(const SurfacePoint& x, const Vec3& wo, const Rgb& bet
     const double share = is_mirror ? 1.0 : pdf * pdf / (pdf * pdf + pdf_of_lamp * pdf_of_lamp);
     for (std::size_t m = 0; m < now.size(); ++m) {
         const WrongTerms& w = paths.wrong_[m];
-        if (w.without_hits && !is_mirror) continue;
+        if ((w.without_hits || w.mistake == Mistake::no_hits) && !is_mirror) continue;
         if (is_mirror && (w.mistake == Mistake::no_light_after_mirror || (w.mistake == Mistake::no_caustics && had_diffuse)))
             continue;
         const Rgb& Le = w.mistake == Mistake::lamps_shine_back && is_black(front) ? back : front;

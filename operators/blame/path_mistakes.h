@@ -27,7 +27,9 @@ enum class Mistake {
     twice_light,
     no_shadows,
     lamps_shine_back,
-    light_twice,  // samples of lamps and directions that hit them both count in full
+    light_twice,      // samples of lamps and directions that hit them both count in full
+    no_lamp_samples,  // lamps are not sampled, and directions that hit them count with their weights (paths with s = 1 are missing)
+    no_hits,          // directions that hit lamps do not count, and samples of lamps count with their weights (s = 0 is missing)
     no_light_after_mirror,
     no_caustics,         // no light that comes by mirrors or glass to other surfaces
     no_mirrors,          // mirrors and glass reflect nothing

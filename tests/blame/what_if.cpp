@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace neumann::what_if_test {
@@ -49,6 +50,28 @@ TEST(WhatIf, WithoutAMistakeIsTheWalk) {
             EXPECT_NEAR(mean_of_channels(none.terms[i].mean), mean_of_channels(walk.term(i).mean), 4.5 * std::sqrt(variance))
                 << "ball " << b << ", bounce " << i;
         }
+    }
+}
+
+// Samples of lamps and directions that hit them make up the light together: along the same paths, what one of them leaves out the
+// other has. In bounce 2, what is sampled at bounce 1 weighs what it does at any.
+TEST(WhatIf, TheTwoTechniquesShareTheLight) {
+    SceneMaker maker;
+    for (const auto& wall : room({-1, -1, -1}, {1, 1, 1})) maker.add(wall, matte(0.5));
+    maker.add(parallelogram({-0.4, -0.4, 0.5}, {0, 0.8, 0}, {0.8, 0, 0}), lamp(4.0));
+    maker.parts.camera = {
+        .to_world = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, -0.95, 0, 1}), .fov = 0.5 * pi, .near_clip = 1e-3};
+    maker.parts.film = {16, 16, 0, 0, 16, 16};
+    const std::vector<WrongTerms> all = wrong_terms(maker.make(), {{1, 1}, {2, 2}}, 16, 1);
+    const auto mean = [&](Mistake mistake, std::size_t i) {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const WrongTerms& w) { return w.mistake == mistake; });
+        return mean_of_channels(found->terms[i].mean);
+    };
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double asked = mean(Mistake::no_hits, i), hit = mean(Mistake::no_lamp_samples, i);
+        EXPECT_NEAR(asked + hit, mean(Mistake::none, i), 1e-12) << i;
+        EXPECT_GT(hit, 0.01 * asked) << i;
+        EXPECT_GT(asked, 0.5 * mean(Mistake::none, i)) << i;
     }
 }
 
