@@ -54,7 +54,7 @@ TEST(WhatIf, WithoutAMistakeIsTheWalk) {
 }
 
 // Samples of lamps and directions that hit them make up the light together: along the same paths, what one of them leaves out the
-// other has. In bounce 2, what is sampled at bounce 1 weighs what it does at any.
+// other has.
 TEST(WhatIf, TheTwoTechniquesShareTheLight) {
     SceneMaker maker;
     for (const auto& wall : room({-1, -1, -1}, {1, 1, 1})) maker.add(wall, matte(0.5));
