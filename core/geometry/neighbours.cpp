@@ -54,7 +54,10 @@ Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const Ray
     : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), round_(faces.shapes().size(), State::unknown) {
     for (const Face& f : large_) largest_error_ = std::max(largest_error_, faces_.error(f));
     for (std::uint32_t shape = 0; shape < faces_.shapes().size(); ++shape)
-        if (faces_.is_of_instance({shape, 0})) error_of_rest_ = std::max(error_of_rest_, faces_.error({shape, 0}));
+        if (faces_.is_of_instance({shape, 0})) {
+            keeps_nothing_ = true;
+            error_of_rest_ = std::max(error_of_rest_, faces_.error({shape, 0}));
+        }
     largest_error_ = std::max(largest_error_, error_of_rest_);
     if (large_.size() <= largest_asked_one_by_one) return;
     const auto rest = large_.begin() + largest_asked_one_by_one;
@@ -67,9 +70,11 @@ Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const Ray
 }
 
 // In a fine mesh, the reach extends at most to the next triangle but one.
+double Neighbours::reach(double errors, double smaller) {
+    return std::max(errors, std::min(reach_in_errors * errors, 0.125 * smaller));
+}
 double Neighbours::reach(const Face& a, const Face& b) const {
-    const double errors = faces_.error(a) + faces_.error(b);
-    return std::max(errors, std::min(reach_in_errors * errors, 0.125 * std::min(faces_.size(a), faces_.size(b))));
+    return reach(faces_.error(a) + faces_.error(b), std::min(faces_.size(a), faces_.size(b)));
 }
 
 // Appends all faces closer to p than `distance`, or within their reach of a face whose error is at most distance / reach_in_errors.
@@ -137,11 +142,15 @@ double Neighbours::reach_of_close_points(const Face& f, const Face& other) const
 
 bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
     const Face f{p.shape, p.primitive};
-    std::vector<Face> others;
-    append_near(p.position, reach_in_errors * p.error + aside, others);
+    const double size = faces_.size(f);
+    std::vector<Face> others = large_;
+    if (error_of_rest_ > 0.0) caster_->near(p.position, reach(p.error + error_of_rest_, size) + aside, others);
+    // First by the box of the other face: most are not that near.
     return std::any_of(others.begin(), others.end(), [&](const Face& other) {
-        const double most = reach_in_errors * (p.error + faces_.error(other)) + aside;
-        if (other == f || !faces_.is_near(other, p.position, most)) return false;
+        if (other == f) return false;
+        const Bounds bounds = faces_.bounds(other);
+        const double most = reach(p.error + faces_.error(other), std::min(size, 2.0 * bounds.radius())) + aside;
+        if (!bounds.grown(most).holds(p.position) || !faces_.is_near(other, p.position, most)) return false;
         const double reach = reach_of_close_points(f, other);
         return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
     });
@@ -149,7 +158,7 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
 
 bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
-    if (faces_.is_of_instance(f)) return is_near_other(p, 0.0);
+    if (keeps_nothing_) return is_near_other(p, 0.0);
     if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
         if (!t->is_examined()) examine(f);
@@ -163,8 +172,7 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
 
 bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const Face f{p.shape, p.primitive};
-    if (faces_.is_of_instance(f))
-        return std::abs(cosine) < Triangle::grazing || is_near_other(p, largest_error_ / std::abs(cosine));
+    if (keeps_nothing_) return std::abs(cosine) < Triangle::grazing || is_near_other(p, largest_error_ / std::abs(cosine));
     if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
         if (t->is_clear(w, cosine)) return false;

@@ -5,8 +5,8 @@
 // point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong
 // one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
 // origin sees past it what the point does not see. Which parts of a face are close is computed when the face is first hit, and
-// cached; usually these are strips along edges, a millionth of the scene wide. Rays of close points are intersected with the faces
-// around them in double, and with all others by Embree.
+// cached, unless there are instances; usually these are strips along edges, a millionth of the scene wide. Rays of close points are
+// intersected with the faces around them in double, and with all others by Embree.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -70,7 +70,7 @@ private:
     };
     // Points of f that are nearer than this to the other face are close; 0 if the other continues f.
     double reach_of_close_points(const Face& f, const Face& other) const;
-    // For instances, of which nothing is cached: whether another face is that near, plus `aside`.
+    // Where nothing is cached: whether another face is that near, plus `aside`.
     bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
     // Whether the state of a round face is `clear`.
@@ -83,13 +83,18 @@ private:
     bool is_behind(const Face& f, const Face& own, const Vec3& direction) const;
     // The distance below which two faces that do not touch have close points.
     double reach(const Face& a, const Face& b) const;
+    // `errors`: the sum of both; `smaller`: the size of the smaller face.
+    static double reach(double errors, double smaller);
     void append_near(const Vec3& p, double distance, std::vector<Face>& found) const;
 
     DoubleFaces faces_;
     Giants giants_;
     const RayCaster* caster_;
-    std::vector<Face> large_;   // tested one by one, so that small search spheres suffice for the others
-    double error_of_rest_ = 0;  // the largest error of the others
+    std::vector<Face> large_;  // tested one by one, so that small search spheres suffice for the others
+    double error_of_rest_ =
+        0;  // the largest error of the others
+            // Scenes with instances may have a thousand times more faces than memory for them, all of them near a ground.
+    bool keeps_nothing_ = false;
     double largest_error_ = 0;  // the largest error of all faces: how far an origin of a ray may be displaced
     // State of round faces, by shape. For triangles see Triangle::is_clear().
     enum class State : std::uint8_t { unknown, clear, not_clear };

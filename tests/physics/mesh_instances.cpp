@@ -164,7 +164,15 @@ TEST(MeshInstancesSlow, TakeTheMemoryOfOne) {
         std::vector<Shape> shapes;
         for (int i = 0; i < count; ++i)
             shapes.emplace_back(MeshInstance(shared, glm::translate(Mat4(1.0), Vec3(3 * (i % 32), 3 * (i / 32), 0))));
+        shapes.emplace_back(parallelogram({-100, -100, -0.5}, {300, 0, 0}, {0, 300, 0}));
         const Geometry geometry(std::move(shapes));
+        // On a ground, to which each of them is near, and on them.
+        Sampler random(3, 0);
+        random.start(0);
+        for (int i = 0; i < 1000; ++i) {
+            SurfacePoint p;
+            EXPECT_TRUE(geometry.first_hit({100.0 * random.next(), 100.0 * random.next(), 3.0}, {0, 0, -1}, 10.0, p));
+        }
         return peak_memory();
     };
     const double one = peak(1), thousand = peak(1000);
