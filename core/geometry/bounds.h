@@ -19,9 +19,6 @@ struct Bounds {
         low = glm::min(low, b.low);
         high = glm::max(high, b.high);
     }
-    bool holds(const Vec3& p) const {
-        return low.x <= p.x && low.y <= p.y && low.z <= p.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
-    }
     bool is_empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
     Vec3 center() const { return 0.5 * (low + high); }
     // Radius of the sphere around the box.

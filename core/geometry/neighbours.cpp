@@ -27,6 +27,10 @@ int cells_for(std::size_t boxes) {
     return count;
 }
 
+bool holds(const Bounds& box, const Vec3& p) {
+    return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
+}
+
 bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
     if (!faces.is_triangle(a) || !faces.is_triangle(b)) return false;
     const auto of_a = faces.vertices(a), of_b = faces.vertices(b);
@@ -150,7 +154,7 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
         if (other == f) return false;
         const Bounds bounds = faces_.bounds(other);
         const double most = reach(p.error + faces_.error(other), std::min(size, 2.0 * bounds.radius())) + aside;
-        if (!bounds.grown(most).holds(p.position) || !faces_.is_near(other, p.position, most)) return false;
+        if (!holds(bounds.grown(most), p.position) || !faces_.is_near(other, p.position, most)) return false;
         const double reach = reach_of_close_points(f, other);
         return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
     });
