@@ -254,13 +254,14 @@ private:
                                               compared_.begin() + static_cast<std::ptrdiff_t>(first + count));
         const auto n = static_cast<double>(terms.front().ours.mean.pixels.size() * 3 * count);
         const auto add = [&](const std::string& name, const std::string& words, const std::vector<PictureNoise>& wrong,
-                             int parameters, bool is_fitted) {
+                             int parameters, bool is_fitted, bool is_smoothed = false) {
             double sum = parameters * std::log(n);
-            for (std::size_t i = 0; i < count; ++i) sum += misfit(terms[i].theirs, wrong[i]);
+            for (std::size_t i = 0; i < count; ++i)
+                sum += misfit(terms[i].theirs, wrong[i], is_smoothed ? terms[i].ours.variance : wrong[i].variance);
             result_.suspects.push_back({name, words, sum, is_fitted, test_difference(terms[0].theirs, wrong[0])});
         };
         for (const WrongPictures& w : wrong_pictures(terms, are_sums(), shapes_seen(scene_)))
-            add(w.name, w.words, w.terms, w.parameters, w.parameters > 0);
+            add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed);
         std::vector<BounceRange> ranges;
         for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
         for (const WrongTerms& w : make_wrong(ranges)) {

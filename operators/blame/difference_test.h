@@ -44,8 +44,10 @@ std::vector<BlockDifference> block_differences(const PictureNoise& a, const Pict
 DifferenceTest test_difference(const PictureNoise& a, const PictureNoise& b);
 
 // −2 log of the likelihood of a, given b, up to a constant: Student's t with 4 degrees of freedom in each pixel and channel, so
-// that fireflies do not decide. Smaller is likelier; differences of 10 are strong evidence.
-double misfit(const PictureNoise& a, const PictureNoise& b);
+// that fireflies do not decide. Smaller is likelier; differences of 10 are strong evidence. `usual`: the variance of b by which
+// densities are normalised: of pixels that are means of others the variance of these, so that less noise is no evidence.
+double misfit(const PictureNoise& a, const PictureNoise& b, const Image& usual);
+inline double misfit(const PictureNoise& a, const PictureNoise& b) { return misfit(a, b, b.variance); }
 
 // By how much b is a likelier source of a than the other: the difference of χ², without what the noise of b and the other adds to
 // it, where no pixel counts for more than 3, so that what few pixels say by chance does not decide.

@@ -1,6 +1,7 @@
 #include "operators/blame/picture_mistakes.h"
 
 #include "core/base/vec.h"
+#include "core/sampling/warp.h"
 
 #include <fmt/format.h>
 
@@ -77,6 +78,12 @@ public:
     WrongPictures linear(const std::string& name, const std::string& words, const std::function<Image(const Image&, Of)>& f) const {
         WrongPictures wrong{name, words, {}};
         for (const ComparedTerm& t : terms_) wrong.terms.push_back({f(t.ours.mean, Of::means), f(t.ours.variance, Of::variances)});
+        return wrong;
+    }
+    WrongPictures smoothed(const std::string& name, const std::string& words,
+                           const std::function<Image(const Image&, Of)>& f) const {
+        WrongPictures wrong = linear(name, words, f);
+        wrong.is_smoothed = true;
         return wrong;
     }
     WrongPictures encoded(const std::string& name, const std::string& words, const std::function<double(double)>& f) const {
@@ -232,12 +239,12 @@ std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms
     for (const double dx : {-1.0, -0.5, 0.0, 0.5, 1.0})
         for (const double dy : {-1.0, -0.5, 0.0, 0.5, 1.0})
             if (dx != 0.0 || dy != 0.0)
-                all.push_back(of.linear("shifted",
-                                        fmt::format("the picture is shifted by {:g} pixels to the right and {:g} down", dx, dy),
-                                        [=](const Image& p, Of what) { return shifted(p, dx, dy, what); }));
+                all.push_back(of.smoothed("shifted",
+                                          fmt::format("the picture is shifted by {:g} pixels to the right and {:g} down", dx, dy),
+                                          [=](const Image& p, Of what) { return shifted(p, dx, dy, what); }));
     for (const double sigma : {0.35, 0.5, 0.7, 1.0})
-        all.push_back(of.linear("blurred", fmt::format("the pixel filter is wider, by a Gaussian of about {:g} pixels", sigma),
-                                [=](const Image& p, Of what) { return blurred(p, sigma, what); }));
+        all.push_back(of.smoothed("blurred", fmt::format("the pixel filter is wider, by a Gaussian of about {:g} pixels", sigma),
+                                  [=](const Image& p, Of what) { return blurred(p, sigma, what); }));
     all.push_back(of.encoded("encoded", "the pictures are encoded as sRGB, not linear", to_srgb));
     all.push_back(of.encoded("encoded", "the pictures are encoded by a gamma of 2.2, not linear",
                              [](double v) { return std::pow(std::max(v, 0.0), 1.0 / 2.2); }));

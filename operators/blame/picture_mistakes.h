@@ -20,6 +20,7 @@ struct WrongPictures {
     std::string name, words;
     std::vector<PictureNoise> terms;
     int parameters = 0;
+    bool is_smoothed = false;  // pixels are means of ours, and have less noise
 };
 
 struct ComparedTerm {
