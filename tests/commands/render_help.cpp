@@ -30,10 +30,10 @@ protected:
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
     EXPECT_EQ(options(help),
-              (std::set<std::string>{"-h,--help", "-o",           "-n",           "--tail",     "--spp",   "--time", "--error",
-                                     "--method",  "--direct",     "--lights",     "--roulette", "--split", "--ways", "--sampler",
-                                     "--patches", "--directions", "--reference",  "--seed",     "-t",      "-D",     "--quiet",
-                                     "--json",    "--files",      "--importance", "--plan",     "--memory"}));
+              (std::set<std::string>{"-h,--help", "-o",           "-n",          "--tail",       "--spp",   "--time",  "--error",
+                                     "--method",  "--direct",     "--lights",    "--roulette",   "--split", "--ways",  "--sampler",
+                                     "--patches", "--directions", "--reference", "--seed",       "-t",      "-D",      "--lenient",
+                                     "--quiet",   "--json",       "--files",     "--importance", "--plan",  "--memory"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -47,26 +47,27 @@ TEST_F(RenderHelp, OptionsOfCompare) {
 
 TEST_F(RenderHelp, OptionsOfSpectrum) {
     EXPECT_EQ(options(printed({"help", "spectrum"})),
-              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json",
-                                     "--eigenvalues", "--csv", "--time", "--most", "--memory"}));
+              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
+                                     "--json", "--eigenvalues", "--csv", "--time", "--most", "--memory"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSolve) {
     EXPECT_EQ(options(printed({"help", "solve"})),
-              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json",
-                                     "--channel", "--error", "--most", "--csv", "--memory"}));
+              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
+                                     "--json", "--channel", "--error", "--most", "--csv", "--memory"}));
 }
 
 TEST_F(RenderHelp, OptionsOfExport) {
     EXPECT_EQ(options(printed({"help", "export"})),
-              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--quiet", "--json", "-o",
-                                     "--with-K", "--memory"}));
+              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
+                                     "--json", "-o", "--with-K", "--memory"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStudy) {
-    EXPECT_EQ(options(printed({"help", "study"})),
-              (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
-                                     "--repeats", "-n", "--error", "--resume", "--seed", "-t", "-D", "--quiet", "--json"}));
+    EXPECT_EQ(
+        options(printed({"help", "study"})),
+        (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
+                               "--repeats", "-n", "--error", "--resume", "--seed", "-t", "-D", "--lenient", "--quiet", "--json"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStress) {
@@ -75,7 +76,7 @@ TEST_F(RenderHelp, OptionsOfStress) {
 }
 
 TEST_F(RenderHelp, OptionsOfPlan) {
-    EXPECT_EQ(options(printed({"help", "plan"})), (std::set<std::string>{"-h,--help", "-D", "--json"}));
+    EXPECT_EQ(options(printed({"help", "plan"})), (std::set<std::string>{"-h,--help", "-D", "--lenient", "--json"}));
 }
 
 TEST_F(RenderHelp, TheCommands) {

@@ -85,7 +85,7 @@ void expect_the_same_pictures(const std::function<Scene()>& make) {
 TEST(PlannedPictures, OfAllScenesThatComeAlong) {
     int count = 0;
     for (const auto& folder : std::filesystem::directory_iterator(SCENES)) {
-        if (!folder.is_directory()) continue;
+        if (!folder.is_directory() || folder.path().filename() == "compare") continue;  // which has scripts for another renderer
         const std::string name = folder.path().filename();
         SCOPED_TRACE(name);
         expect_the_same_pictures([&] { return read_scene((folder.path() / (name + ".xml")).string(), {{"res", "12"}}); });
