@@ -49,9 +49,9 @@ void look_at(const Geometry& geometry, const Materials& materials, const Face& f
         if (!geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen) || seen.shape == shape)
             continue;
         is_covered = true;
-        const bool is_like =
-            glm::dot(seen.normal, point.normal) < 0.999 || materials.at(shape, true) == materials.at(seen.shape, true);
-        if (!is_like && !covered.unlike) covered.unlike = seen.shape;
+                const bool is_unlike =
+            glm::dot(seen.normal, point.normal) >= 0.999 && materials.at(shape, true) != materials.at(seen.shape, true);
+        if (is_unlike && !covered.unlike) covered.unlike = seen.shape;
     }
     covered.faces += is_covered;
 }

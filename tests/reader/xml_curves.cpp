@@ -128,13 +128,9 @@ TEST_F(XmlCurves, ConesTaperToAPoint) {
 TEST_F(XmlCurves, SplineAlongALine) {
     const TriangleMesh mesh = tube("bsplinecurve", "0 0 0 0.25\n0 0 1 0.25\n0 0 2 0.25\n0 0 3 0.25\n0 0 4 0.25\n");
     EXPECT_TRUE(is_closed(mesh));
-    double low = 1e9, high = -1e9;
-    for (const Vec3& v : mesh.vertices) {
-        low = std::min(low, v.z);
-        high = std::max(high, v.z);
-    }
-    EXPECT_NEAR(low, 1.0, 1e-12);
-    EXPECT_NEAR(high, 3.0, 1e-12);
+    const Bounds bounds = bounds_of(mesh);
+    EXPECT_NEAR(bounds.low.z, 1.0, 1e-12);
+    EXPECT_NEAR(bounds.high.z, 3.0, 1e-12);
     const double polygon = 0.5 * 12.0 * std::pow(0.25 * (pi / 12.0) / std::sin(pi / 12.0), 2.0) * std::sin(2.0 * pi / 12.0);
     EXPECT_NEAR(volume(mesh), 2.0 * polygon, 1e-12);
     EXPECT_NEAR(area(mesh), 2.0 * pi * 0.25 * 2.0 + 2.0 * polygon, 1e-12);
@@ -168,13 +164,9 @@ TEST_F(XmlCurves, SplineOfAParabola) {
 TEST_F(XmlCurves, SplineThatBeginsAtItsFirstPoint) {
     const TriangleMesh mesh = tube("bsplinecurve", "1 0 0 0.1\n1 0 0 0.1\n1 0 0 0.1\n3 0 0 0.1\n5 0 0 0.1\n5 0 0 0.1\n5 0 0 0.1\n");
     EXPECT_TRUE(is_closed(mesh));
-    double left = 1e9, right = -1e9;
-    for (const Vec3& v : mesh.vertices) {
-        left = std::min(left, v.x);
-        right = std::max(right, v.x);
-    }
-    EXPECT_NEAR(left, 1.0, 1e-12);
-    EXPECT_NEAR(right, 5.0, 1e-12);
+    const Bounds bounds = bounds_of(mesh);
+    EXPECT_NEAR(bounds.low.x, 1.0, 1e-12);
+    EXPECT_NEAR(bounds.high.x, 5.0, 1e-12);
 }
 
 // As in Mitsuba the radii are not scaled.

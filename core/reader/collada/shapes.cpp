@@ -1,5 +1,6 @@
 #include "core/reader/collada/shapes.h"
 
+#include "core/geometry/affine.h"
 #include "core/reader/collada/corners.h"
 #include "core/reader/collada/materials.h"
 #include "core/reader/collada/meshes.h"
@@ -25,10 +26,6 @@ std::string file_name(const std::string& id, std::size_t number) {
         if (static_cast<unsigned char>(c) < ' ' || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos) c = '_';
     return fmt::format("meshes/{}{}.ply", name, number == 0 ? "" : fmt::format("-{}", number));
 }
-
-Vec3 transformed(const Mat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
-
-bool is_mirror(const Mat4& m) { return glm::determinant(glm::dmat3(m)) < 0.0; }
 
 class ShapeAdder {
 public:
@@ -92,7 +89,7 @@ private:
         placed_.push_back(std::move(sphere));
         for (int i = 0; i < 8; ++i) {
             const Vec3 corner((i & 1) != 0 ? r : -r, (i & 2) != 0 ? r : -r, (i & 4) != 0 ? r : -r);
-            bounds.add(transformed(instance.to_world, corner));
+            bounds.add(transformed_point(instance.to_world, corner));
         }
     }
 
@@ -113,12 +110,13 @@ private:
         if (part.is_flat) add_boolean(part.shape, "face_normals", true, primitive.place);
         if (!triangles.uv.empty()) add_boolean(part.shape, "flip_tex_coords", true, primitive.place);
         placed_.push_back(std::move(part));
-        for (const Vec3& v : triangles.vertices) bounds.add(transformed(instance.to_world, v));
+        for (const Vec3& v : triangles.vertices) bounds.add(transformed_point(instance.to_world, v));
     }
 
     void add_alone(Placed placed) const {
         const Instance& instance = *placed.instance;
-        if (placed.is_flat && is_mirror(instance.to_world)) add_boolean(placed.shape, "flip_normals", true, instance.node->place);
+        if (placed.is_flat && is_mirroring(instance.to_world))
+            add_boolean(placed.shape, "flip_normals", true, instance.node->place);
         add_to_world(placed.shape, instance);
         add_surface(placed);
         reader::add(import_.scene.root, std::move(placed.shape));
@@ -170,7 +168,7 @@ private:
     bool is_on_a_lamp(const TriangleMesh& mesh, const Instance& instance) const {
         return std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) {
             Bounds on_lamp;
-            for (const Vec3& v : mesh.vertices) on_lamp.add(lamp.coordinates(transformed(instance.to_world, v)));
+            for (const Vec3& v : mesh.vertices) on_lamp.add(lamp.coordinates(transformed_point(instance.to_world, v)));
             constexpr double thickness = 1e-4;  // of the lamp's size
             return std::max(std::abs(on_lamp.low.z), std::abs(on_lamp.high.z)) <= thickness && on_lamp.low.x < 1.0 &&
                    on_lamp.high.x > -1.0 && on_lamp.low.y < 1.0 && on_lamp.high.y > -1.0;
