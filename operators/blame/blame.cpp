@@ -2,10 +2,11 @@
 
 #include "operators/blame/path_mistakes.h"
 #include "operators/blame/picture_mistakes.h"
+#include "operators/blame/sentences.h"
+#include "operators/blame/technique_mistakes.h"
 #include "operators/methods/render.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +23,6 @@ namespace {
 // A picture mistake is an alarm of its own, beside the tests of blocks, if it is so much likelier than none: moved edges fill few
 // pixels. In 100 seeds of a right renderer none was.
 constexpr double strong_evidence = 40.0;
-// A suspect is named alone if the next is so much less likely.
-constexpr double clear_lead = 10.0;
 constexpr std::size_t places_a_term = 3;
 constexpr std::uint64_t most_replayed = 64;  // samples of a pixel, from which a path is chosen
 // For what the mistakes make of the scene: some ten microseconds each.
@@ -135,7 +134,7 @@ public:
             find_shapes();
             find_places(ours);
         }
-        say();
+        result_.sentences = sentences_about(result_, scene_);
         return std::move(result_);
     }
 
@@ -220,11 +219,14 @@ private:
         }
     }
 
-    std::vector<WrongTerms> make_wrong(const std::vector<BounceRange>& ranges) const {
+    // For what mistakes make of the scene.
+    int paths_a_pixel() const {
         const auto pixels = static_cast<double>(compared_[0].ours.mean.pixels.size());
-        const double samples =
-            std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(result_.samples, 16)));
-        return wrong_terms(scene_, ranges, static_cast<int>(samples), settings_.seed + 1, watch_);
+        return static_cast<int>(
+            std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(result_.samples, 16))));
+    }
+    std::vector<WrongTerms> make_wrong(const std::vector<BounceRange>& ranges) const {
+        return wrong_terms(scene_, ranges, paths_a_pixel(), settings_.seed + 1, watch_);
     }
 
     // Whether a mistake is clearly likelier than none: differences of few pixels do not show in blocks. Beyond bounce 1 fireflies
@@ -274,6 +276,8 @@ private:
             for (const PictureNoise& p : w.terms) rescaled.push_back(scaled(p, factor));
             add(name_of(w.mistake), describe(w.mistake), rescaled, 1, false);
         }
+        for (const WrongPictures& w : without_techniques(scene_, ranges, paths_a_pixel(), settings_.seed + 2, watch_))
+            add(w.name, w.words, w.terms, 0, false);
         std::stable_sort(result_.suspects.begin(), result_.suspects.end(),
                          [](const Suspect& a, const Suspect& b) { return a.misfit < b.misfit; });
         put_causes_first();
@@ -333,48 +337,6 @@ private:
                 place.path = brightest_path(scene_, samples, pixel, std::min(ours.samples, most_replayed), v.bounces);
             }
         }
-    }
-
-    std::string title(std::uint32_t shape) const {
-        if (shape == SurfacePoint::infinity) return "what is beyond the surfaces";
-        if (shape >= scene_.origins.size()) return fmt::format("shape {}", shape);
-        const Origin& origin = scene_.origins[shape];
-        return fmt::format("{} at {} ({})", origin.shape, to_string(origin.place), origin.bsdf);
-    }
-
-    void say() {
-        std::vector<std::string>& say = result_.sentences;
-        if (!result_.first_wrong) {
-            double widest = 0.0;
-            for (const TermVerdict& t : result_.terms) widest = std::max(widest, t.test.ratio_error);
-            say.push_back(
-                fmt::format("No bounce differs: the means of all {} agree with ours within their errors, of which the largest is "
-                            "{:.1g} of a bounce, and so do their blocks of pixels.",
-                            result_.terms.size(), widest));
-        } else {
-            const TermVerdict& wrong = result_.terms[*result_.first_wrong];
-            std::string text = to_string(wrong.bounces);
-            text[0] = 'B';
-            say.push_back(fmt::format(
-                "{} {} the first to differ: {} {:.4g} ± {:.2g} of our light{}{}.", text,
-                wrong.bounces.first == wrong.bounces.last ? "is" : "are",
-                wrong.bounces.first == wrong.bounces.last ? "it has" : "they have", wrong.test.ratio, 1.96 * wrong.test.ratio_error,
-                wrong.test.p < wrong.threshold ? fmt::format(" (by chance in 1 of {:.0g})", 1.0 / std::max(wrong.test.p, 1e-300))
-                                               : ", in other places",
-                *result_.first_wrong > 0 ? "; those before agree" : ""));
-            const Suspect &best = result_.suspects[0], &next = result_.suspects[1];
-            say.push_back(fmt::format("It looks as if {}{}{}.", best.words,
-                                      best.left.p < 1e-6 ? ", which explains most but not all of it" : "",
-                                      next.misfit - best.misfit < clear_lead ? fmt::format("; or {}", next.words) : ""));
-            const ShapeShare& most = result_.shapes[0];
-            say.push_back(fmt::format("{:.0f}% of the squared difference is on {}, which has {:.3g} of our light.",
-                                      100.0 * most.share, title(most.shape), most.ratio));
-        }
-        if (result_.told)
-            say.push_back(fmt::format("The pictures' means look as if depths were counted as {} does, not as {}.",
-                                      name_of(*result_.told), name_of(result_.counting)));
-        if (!result_.knows_their_noise)
-            say.push_back("Their noise was judged by the pictures themselves; those of a second seed would tell it.");
     }
 
     const Scene& scene_;

@@ -74,6 +74,19 @@ TEST_F(ColladaCourse, Materials) {
     EXPECT_EQ(sample(front(glass), {}, Vec3(0, 0, 1), Vec2(0.05, 0.5)).weight, Rgb(1.0, 1.0, 0.5));
     EXPECT_EQ(sample(front(glass), {}, Vec3(0, 0, 1), Vec2(0.5, 0.5)).weight, Rgb(1.0, 0.75, 0.5) * 0.25);
 
+    // 1/9 of the light is lost, since the program's refraction reflects nothing.
+    const SceneParts refraction = material("<refraction><transmittance>1 0.75 0.5</transmittance><ior>2</ior></refraction>");
+    Rgb reflected(0.0), let_through(0.0);
+    constexpr int steps = 900;
+    for (int i = 0; i < steps; ++i) {
+        const BsdfSample s = sample(front(refraction), {}, Vec3(0, 0, 1), Vec2((i + 0.5) / steps, 0.5));
+        (s.wi.z > 0.0 ? reflected : let_through) += s.weight / double{steps};
+    }
+    EXPECT_EQ(reflected, Rgb(0.0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(let_through[c], Rgb(1.0, 0.75, 0.5)[c] * 0.25 * 8.0 / 9.0, 1e-9);
+    EXPECT_EQ(warnings(refraction).front(),
+              "material 'red': a refraction lets through what Fresnel's equations leave, and not all as in the course's program");
+
     const SceneParts metal = material("<microfacet><eta>0.2 0.9 1.1</eta><k>3.9 2.4 2.2</k><alpha>0.05</alpha></microfacet>");
     EXPECT_TRUE(std::holds_alternative<RoughConductor<Beckmann>>(front(metal)));
     EXPECT_EQ(lobe(front(metal)).alpha, 0.05);

@@ -26,6 +26,7 @@ TEST_F(ColladaMeshes, Primitives) {
     EXPECT_EQ(corners(mesh(read_changed(as("tristrips", "1", "<p>0 1 3 2</p>")))), strip);
     // Lines have no area.
     EXPECT_EQ(read_changed({{"</polylist>", "</polylist><lines count='1'><p>0 1</p></lines>"}}).shapes.size(), 1u);
+    EXPECT_EQ(read_changed({{"</polylist>", "</polylist><linestrips count='1'><p>0 1 2</p></linestrips>"}}).shapes.size(), 1u);
 }
 
 // An accessor skips what has no name, begins at its offset and steps by its stride.

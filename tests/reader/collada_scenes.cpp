@@ -62,6 +62,10 @@ TEST_F(ColladaScenes, Cameras) {
                                           {"</perspective>", "</orthographic>"}});
     EXPECT_EQ(flat.camera.kind, SensorOptions::Kind::orthographic);
     EXPECT_EQ(Vec3(flat.camera.to_world[0]), Vec3(-6, 0, 0));
+    const SceneParts wide = read_changed(
+        {{lens, "<xmag>6</xmag><ymag>3</ymag>"}, {"<perspective>", "<orthographic>"}, {"</perspective>", "</orthographic>"}});
+    EXPECT_EQ(Vec3(wide.camera.to_world[0]), Vec3(-6, 0, 0));
+    EXPECT_EQ(wide.film.height, 384);
 
     const SceneParts scaled = read_changed({{"<translate>0 0 5</translate>", "<translate>0 0 5</translate><scale>7 7 7</scale>"}});
     EXPECT_EQ(scaled.camera.to_world, parts.camera.to_world);
@@ -151,6 +155,12 @@ TEST_F(ColladaScenes, Materials) {
                   "<lambert><diffuse><color>1 1 1</color></diffuse><reflectivity><float>0.5</float></reflectivity></lambert>")),
               std::vector<std::string>{"material 'red': its mirror image, <reflective>, is left out"});
 
+    const SceneParts refracts = material(
+        "<lambert><diffuse><color>0.6 0.2 0.1 1</color></diffuse><index_of_refraction><float>1.5</float></index_of_refraction>"
+        "</lambert>");
+    EXPECT_EQ(largest_albedo(front(refracts)), Rgb(0.6, 0.2, 0.1));
+    EXPECT_TRUE(warnings(refracts).empty());
+
     const SceneParts by_parameter = read_changed(
         {{"<technique sid=\"common\">", "<newparam sid='c'><float3>0.1 0.2 0.3</float3></newparam><technique sid=\"common\">"},
          {"<color>0.6 0.2 0.1 1</color>", "<param ref='c'/>"}});
@@ -200,6 +210,40 @@ TEST_F(ColladaScenes, Pictures) {
     EXPECT_EQ(albedo("file://" + path("my%20pictures/größe 1.pfm")), 0.5);
     write("beside.pfm", std::string("Pf\n1 1\n-1.0\n") + std::string("\0\0\x80\x3e", 4));  // 0.25
     EXPECT_EQ(albedo("file:///C:/Users/someone/beside.pfm"), 0.25);
+}
+
+// Beyond its edges; v counts from the lowest row.
+TEST_F(ColladaScenes, PicturesGoOn) {
+    write("a.pfm", std::string("Pf\n2 1\n-1.0\n") + std::string("\0\0\x80\x3e\0\0\0\x3f", 8));  // 0.25, 0.5
+    const auto beyond = [&](const std::string& mode) {
+        const SceneParts parts = read_changed(
+            {{"<technique sid=\"common\">",
+              "<newparam sid='s'><surface type='2D'><init_from>image</init_from></surface></newparam>"
+              "<newparam sid='m'><sampler2D><source>s</source><wrap_s>" +
+                  mode + "</wrap_s><wrap_t>" + mode + "</wrap_t></sampler2D></newparam><technique sid=\"common\">"},
+             {"<color>0.6 0.2 0.1 1</color>", "<texture texture='m' texcoord='UV'/>"},
+             {"<library_effects>",
+              "<library_images><image id='image'><init_from>a.pfm</init_from></image></library_images><library_effects>"},
+             {"<vertices id=\"corners\">", "<vertices id=\"corners\"><input semantic='TEXCOORD' source='#positions'/>"}});
+        return std::pair(reflectance(front(parts), point_with_coordinates({1.25, 0.5})).r,
+                         reflectance(front(parts), point_with_coordinates({-0.25, 0.5})).r);
+    };
+    EXPECT_EQ(beyond("WRAP"), std::pair(0.25, 0.5));
+    EXPECT_EQ(beyond("MIRROR"), std::pair(0.5, 0.25));
+    EXPECT_EQ(beyond("CLAMP"), std::pair(0.5, 0.25));
+    EXPECT_EQ(beyond("BORDER"), std::pair(0.5, 0.25));
+}
+
+TEST_F(ColladaScenes, LeftOut) {
+    const SceneParts moving = read_changed({{"<library_visual_scenes>",
+                                             "<library_animations><animation id='a'/></library_animations>"
+                                             "<library_visual_scenes>"}});
+    EXPECT_EQ(warnings(moving), std::vector<std::string>{"animations are left out: the scene is as its nodes have it"});
+    const SceneParts coloured =
+        read_changed({{"<vertices id=\"corners\">", "<vertices id=\"corners\"><input semantic='COLOR' source='#positions'/>"}});
+    ASSERT_EQ(warnings(coloured).size(), 1u);
+    EXPECT_NE(warnings(coloured).front().find("colo"), std::string::npos) << warnings(coloured).front();
+    EXPECT_EQ(largest_albedo(front(coloured)), Rgb(0.6, 0.2, 0.1));
 }
 
 TEST_F(ColladaScenes, Errors) {

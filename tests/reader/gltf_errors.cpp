@@ -52,6 +52,16 @@ TEST_F(GltfErrors, RequiredExtensions) {
         "export the scene without the compression of meshes\n"
         "scene.gltf#/extensionsRequired/2: the file requires the extension EXT_x, which is not supported\n"
         "scene.gltf#/extensionsRequired/3: not a text, expected the name of an extension");
+    for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        file["extensionsRequired"] = {name};
+        EXPECT_EQ(gltf_error(), "scene.gltf#/extensionsRequired/0: the file requires the extension " + name +
+                                    ", which is not supported; export the scene without the compression of meshes");
+    }
+    for (const std::string name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
+        file["extensionsRequired"] = {name};
+        EXPECT_EQ(gltf_error(), "scene.gltf#/extensionsRequired/0: the file requires the extension " + name +
+                                    ", which is not supported; export the pictures as PNG or JPEG");
+    }
 }
 
 TEST_F(GltfErrors, Properties) {

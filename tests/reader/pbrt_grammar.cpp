@@ -188,6 +188,17 @@ TEST_F(PbrtGrammar, UnknownNames) {
               "simplevolpath, sppm, volpath");
 }
 
+TEST_F(PbrtGrammar, Options) {
+    EXPECT_EQ(pbrt_file_error("Option \"integer seed\" 7 Option \"bool disablepixeljitter\" false WorldBegin"), "no error");
+    EXPECT_EQ(pbrt_file_error("Option \"bool disablepixeljitter\" true WorldBegin"),
+              "scene.pbrt:1:8: disablepixeljitter is not supported");
+    EXPECT_EQ(pbrt_file_error("Option \"bool forcediffuse\" true WorldBegin"), "scene.pbrt:1:8: forcediffuse is not supported");
+    EXPECT_EQ(pbrt_file_error("Option \"bool forcedifuse\" true WorldBegin"),
+              "scene.pbrt:1:8: unknown parameter 'forcedifuse' of Option; allowed: disablepixeljitter, disabletexturefiltering, "
+              "disablewavelengthjitter, displacementedgescale, forcediffuse, msereferenceimage, msereferenceout, pixelstats, "
+              "rendercoordsys, seed, wavefront; did you mean 'forcediffuse'?");
+}
+
 TEST_F(PbrtGrammar, BlocksAndOrder) {
     EXPECT_EQ(pbrt_error("AttributeBegin"), "scene.pbrt:3:1: AttributeBegin without an end");
     EXPECT_EQ(pbrt_error("AttributeEnd"), "scene.pbrt:3:1: AttributeEnd without AttributeBegin");
