@@ -1,5 +1,6 @@
 #include "apps/command_line/commands.h"
 
+#include "apps/command_line/resume.h"
 #include "apps/commands/blame_command.h"
 #include "apps/commands/compare_command.h"
 #include "apps/commands/conform_command.h"
@@ -31,15 +32,31 @@ Command command(CLI::App& app, const std::string& line, CLI::App* (&add)(CLI::Ap
     return {add(app, *request), [request, &run] { return run(*request); }};
 }
 
+Command render_as_given(CLI::App& app, const std::string& line) {
+    auto request = std::make_shared<RenderRequest>();
+    request->command_line = line;
+    const CLI::App* render = add_render(app, *request);
+    return {render, [request, render] {
+                request->options = given_options(*render);
+                return render_command(request->resume.empty() ? *request : resumed(*request));
+            }};
+}
+
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
-    return {command(app, line, add_render, render_command),     command(app, line, add_compare, compare_command),
-            command(app, line, add_spectrum, spectrum_command), command(app, line, add_solve, solve_command),
-            command(app, line, add_export, export_command),     command(app, line, add_conform, conform_command),
-            command(app, line, add_study, study_command),       command(app, line, add_replay, replay_command),
-            command(app, line, add_stress, stress_command),     command(app, line, add_plan, plan_command),
-            command(app, line, add_convert, convert_command),   command(app, line, add_blame, blame_command)};
+    return {render_as_given(app, line),
+            command(app, line, add_compare, compare_command),
+            command(app, line, add_spectrum, spectrum_command),
+            command(app, line, add_solve, solve_command),
+            command(app, line, add_export, export_command),
+            command(app, line, add_conform, conform_command),
+            command(app, line, add_study, study_command),
+            command(app, line, add_replay, replay_command),
+            command(app, line, add_stress, stress_command),
+            command(app, line, add_plan, plan_command),
+            command(app, line, add_convert, convert_command),
+            command(app, line, add_blame, blame_command)};
 }
 
 void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments) {

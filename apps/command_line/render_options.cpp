@@ -39,6 +39,17 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->type_name("pictures,tables,sheets,strips,page")
         ->delimiter(',')
         ->check(CLI::IsMember(file_groups()));
+    render
+        ->add_option("--checkpoint", request.checkpoint,
+                     "Seconds after which what there is of the render is written to disk, again and again")
+        ->type_name("S")
+        ->check(above_zero())
+        ->capture_default_str();
+    render
+        ->add_option("--resume", request.resume,
+                     "Go on with the render in this folder that was cut off, or add samples to one that is finished")
+        ->type_name("DIR")
+        ->each([scene = render->get_option("SCENE")](const std::string&) { scene->required(false); });
     add_seed(*render, request.goal.seed);
     add_threads(*render, request.threads);
     add_definitions(*render, request.definition_texts);

@@ -1,11 +1,13 @@
 #include "apps/commands/render_command.h"
 
+#include "apps/commands/checkpoints.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/preview.h"
 #include "apps/commands/progress_line.h"
 #include "apps/files/reference.h"
+#include "apps/files/saved_render.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
 #include "apps/files/ways_files.h"
@@ -86,9 +88,41 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
     fmt::print("{} samples a pixel in {:.1f} s. The pictures are in {}\n", series.samples, series.seconds, folder);
 }
 
+void expect_nothing_unfinished(const std::string& folder) {
+    if (std::filesystem::exists(std::filesystem::path(folder) / unfinished_render_file))
+        throw InputError(
+            fmt::format("{0}: holds a render that was not finished; neumann render --resume {0} goes on with it, and to "
+                        "begin another one there, remove {1}",
+                        folder, unfinished_render_file));
+}
+
+// What is there already, and can be gone on with to the goal.
+std::optional<RenderState> read_state(const RenderRequest& request, const Scene& scene) {
+    if (request.resume.empty()) return std::nullopt;
+    if (scene.hash != request.scene_hash)
+        throw InputError(fmt::format("--resume {}: {} is not the scene that it began with, or has changed since", request.resume,
+                                     request.scene));
+    const auto file = saved_render_in(request.resume);
+    if (!file) return std::nullopt;
+    RenderState state = read_saved_render(*file);
+    const std::uint64_t there = state.series.samples, size = state.render.replicate_size;
+    const SeriesMoments& moments = state.series.moments;
+    if (moments.width() != scene.film.crop_width || moments.height() != scene.film.crop_height)
+        throw InputError(fmt::format("{}: damaged: its pictures have another size", file->string()));
+    if (const auto& samples = request.goal.samples) {
+        if (*samples < there)
+            throw InputError(fmt::format("--spp {}: {} has {} samples a pixel already", *samples, request.resume, there));
+        if (*samples % size != 0)
+            throw InputError(fmt::format("--spp {}: {} samples {} at once for each pixel, expected a multiple of that", *samples,
+                                         request.resume, size));
+    }
+    return state;
+}
+
 }  // namespace
 
-std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& given) {
+std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& given,
+                                  Saving saving) {
     const Stopwatch clock;
     Goal goal = request.goal;
     if (request.memory) goal.memory = memory_limit(request.memory);
@@ -101,10 +135,11 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
         };
         watch.judge = [&](const auto& term, const Image& sum, Checkpoint& checkpoint) { reference->judge(term, sum, checkpoint); };
     }
-    BounceSeries series = render(*scene, make_method(request.method), goal, watch);
+    BounceSeries series = render(*scene, make_method(request.method), goal, watch, std::move(saving));
     if (reference) warn_of_reference(request.reference, series, series.warnings);
-    return std::make_shared<Rendering>(Rendering{request.scene, request.command_line, request.definitions, std::move(scene),
-                                                 std::move(series), clock.seconds(), choose_files(request.files)});
+    return std::make_shared<Rendering>(Rendering{request.scene, request.command_line, request.options, request.definitions,
+                                                 std::move(scene), std::move(series), clock.seconds(),
+                                                 choose_files(request.files)});
 }
 
 int render_command(const RenderRequest& given) {
@@ -117,12 +152,14 @@ int render_command(const RenderRequest& given) {
     std::error_code missing;
     if (!request.reference.empty() && std::filesystem::equivalent(request.reference, request.output, missing))
         throw InputError(fmt::format("-o {}: is the reference, which would be lost; expected another folder", request.output));
+    if (request.resume.empty()) expect_nothing_unfinished(request.output);
     const Stopwatch clock;
     catch_interrupts();
     const ThreadLimit threads(request.threads);
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
+    std::optional<RenderState> state = read_state(request, *scene);
     const double reading_seconds = clock.seconds();
     ProgressLine line(request.quiet);
     Watch watch;
@@ -139,7 +176,10 @@ int render_command(const RenderRequest& given) {
     watch.tell = [&](const std::string& text) {
         if (!request.quiet) fmt::print(stderr, "{}\n", text);
     };
-    const auto rendering = render(request, scene, watch);
+    Checkpoints checkpoints(*folder, {request.options, scene->hash}, request.checkpoint, !request.resume.empty());
+    Saving saving{std::move(state), {}, 0.5 * request.checkpoint};
+    saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
+    const auto rendering = render(request, scene, watch, std::move(saving));
     line.clear();
     rendering->seconds += reading_seconds;
     const auto [warnings, json] = [&] {

@@ -4,8 +4,11 @@
 #include "apps/files/rendering_files.h"
 #include "operators/methods/goal.h"
 #include "operators/methods/method_options.h"
+#include "operators/methods/saving.h"
 
 namespace neumann {
+
+constexpr double default_checkpoint = 60.0;
 
 struct RenderRequest {
     std::string scene;
@@ -21,13 +24,18 @@ struct RenderRequest {
     int threads = 0;                                 // 0: all
     bool quiet = false;
     bool json = false;
-    std::string command_line;  // as typed, for run.json
+    std::string resume;                      // the folder of a render that this one goes on with; the request is as that one began
+    std::string scene_hash;                  // of that one
+    double checkpoint = default_checkpoint;  // seconds between two states on disk
+    nlohmann::ordered_json options;          // as typed, by name, for a resumed render
+    std::string command_line;                // as typed, for run.json
 };
 
 // Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 
 // The same for a scene in memory, with the pictures kept in memory. `watch` must not have a judge. Throws InputError and RunError.
-std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch);
+std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch,
+                                  Saving saving = {});
 
 }  // namespace neumann

@@ -48,20 +48,21 @@ bool is_of_blame(std::string_view name) {
 }
 
 // 0, or the error number.
-int write_all(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return errno;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
+int write_all(int file, std::span<const std::string_view> pieces) {
+    for (std::string_view bytes : pieces)
+        while (!bytes.empty()) {
+            const ssize_t count = ::write(file, bytes.data(), bytes.size());
+            if (count < 0 && errno == EINTR) continue;
+            if (count < 0) return errno;
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        }
     return ::fsync(file) == 0 ? 0 : errno;
 }
 
-int write_file(const fs::path& path, std::string_view bytes) {
+int write_file(const fs::path& path, std::span<const std::string_view> pieces) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) return errno;
-    const int written = write_all(file, bytes);
+    const int written = write_all(file, pieces);
     const int closed = ::close(file) == 0 ? 0 : errno;
     return written != 0 ? written : closed;
 }
@@ -84,7 +85,8 @@ std::optional<std::string_view> writer_of(std::string_view name) {
         {"any", {"run.json", "index.html"}},
         {"render",
          {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
-          "strip-terms.gif", preview_file, "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
+          "strip-terms.gif", preview_file, unfinished_render_file, samples_file, "strip-sums.png", "strip-sums.gif",
+          "strip-doubling.png", "strip-doubling.gif"}},
         {"study", {"study.csv", "study.json"}},
         {"compare", {"compare.json"}},
         {"blame", {"blame.json"}},
@@ -126,7 +128,7 @@ OutputFolder::OutputFolder(const fs::path& path, std::string_view command) : pat
         remove_leftovers();
         // Finds read-only file systems and the like before anything is computed.
         const fs::path probe = partial("probe");
-        const int error = write_file(probe, "");
+        const int error = write_file(probe, {});
         ::unlink(probe.c_str());
         if (error != 0) throw InputError(cannot_be_written(path_, error));
     } catch (...) {
@@ -186,13 +188,15 @@ void OutputFolder::discard() noexcept {
     descriptor_ = -1;
 }
 
-void OutputFolder::write(const std::string& name, std::string_view bytes) {
+void OutputFolder::write(const std::string& name, std::string_view bytes) { write_pieces(name, std::span(&bytes, 1)); }
+
+void OutputFolder::write_pieces(const std::string& name, std::span<const std::string_view> pieces) {
     if (!is_output_name(name)) throw std::invalid_argument("OutputFolder::write: " + name + " is not a name of an output file");
     {
         const std::scoped_lock lock(written_by_one_);
         if (std::find(written_.begin(), written_.end(), name) == written_.end()) written_.push_back(name);
     }
-    const int error = write_file(partial(name), bytes);
+    const int error = write_file(partial(name), pieces);
     if (error == 0) return;
     ::unlink(partial(name).c_str());
     throw RunError(cannot_be_written(path_ / name, error));
@@ -201,6 +205,12 @@ void OutputFolder::write(const std::string& name, std::string_view bytes) {
 void OutputFolder::show(std::string_view bytes) {
     write(preview_file, bytes);
     put(preview_file);
+}
+
+void OutputFolder::save(std::span<const std::string_view> pieces) {
+    write_pieces(unfinished_render_file, pieces);
+    put(unfinished_render_file);
+    ::fsync(descriptor_);
 }
 
 void OutputFolder::put(const std::string& name) {
@@ -220,7 +230,10 @@ void OutputFolder::expect_space(double bytes) const {
 
 void OutputFolder::commit() {
     const std::vector<std::string> names = written_;
-    const auto is_new = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    const bool has_samples = ::rename((path_ / unfinished_render_file).c_str(), (path_ / samples_file).c_str()) == 0;
+    const auto is_new = [&](std::string_view name) {
+        return std::find(names.begin(), names.end(), name) != names.end() || (has_samples && name == samples_file);
+    };
     const std::string last = "run.json";
 
     ::unlink((path_ / last).c_str());

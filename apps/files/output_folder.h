@@ -3,11 +3,15 @@
 
 #include <filesystem>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace neumann {
+
+// A render under way, and what is kept of it when it is finished (saved_render.h).
+inline const std::string unfinished_render_file = "render.unfinished", samples_file = "render.samples";
 
 // Whether the program writes files of this name into an output folder: bounce_000.exr, run.json, …
 bool is_output_name(std::string_view name);
@@ -36,6 +40,11 @@ public:
     // process was killed, the next run does. As write().
     void show(std::string_view bytes);
 
+    // Puts render.unfinished, one after the other of these pieces, in place at once, of which another process makes the pictures if
+    // this one does not. It stays until commit(), which calls it render.samples. If not all bytes can be written, the one before it
+    // stays as it was. As write().
+    void save(std::span<const std::string_view> pieces);
+
     // Throws InputError if fewer bytes are free, before time is spent on results that cannot be written.
     void expect_space(double bytes) const;
 
@@ -47,6 +56,7 @@ public:
 
 private:
     std::filesystem::path partial(const std::string& name) const { return path_ / ("." + name + ".partial"); }
+    void write_pieces(const std::string& name, std::span<const std::string_view> pieces);
     void put(const std::string& name);
     void expect_no_other_files(std::string_view command) const;
     void create();

@@ -16,6 +16,7 @@ namespace neumann {
 
 struct Rendering {
     std::string scene_file, command_line;
+    nlohmann::ordered_json options;  // as typed, by name; null where they were not typed
     std::map<std::string, std::string> definitions;
     std::shared_ptr<const Scene> scene;
     BounceSeries series;

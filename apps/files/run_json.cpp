@@ -154,6 +154,7 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = rendering.command_line;
+    if (!rendering.options.is_null()) json["request"] = rendering.options;
     json["scene"] = scene_json(scene, rendering.scene_file, rendering.definitions);
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
     json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}

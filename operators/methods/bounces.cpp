@@ -39,7 +39,8 @@ int default_bounces(const Pilot& pilot) {
 
 int choose_bounces(const RenderJob& job) {
     const Goal& goal = job.goal;
-    const int bounces = goal.bounces        ? *goal.bounces
+    const int bounces = job.saving.from     ? job.saving.from->render.bounces
+                        : goal.bounces      ? *goal.bounces
                         : goal.tail         ? bounces_for(*goal.tail, job.pilot())
                         : job.scene.bounces ? *job.scene.bounces
                                             : default_bounces(job.pilot());

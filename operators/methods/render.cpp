@@ -21,33 +21,49 @@ DirectLightSettings direct_of_pilot(const Method& method) {
         method);
 }
 
-BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const PilotOnDemand& pilot) {
-    if (const auto* open = std::get_if<method::Auto>(&method)) {
-        MethodChoice choice = choose_method(*open, scene, goal, watch);
-        Goal rest = goal;
-        rest.spent = choice.seconds;
-        BounceSeries series = render(scene, choice.method, rest, watch, pilot);
-        series.choice = std::move(choice);
-        return series;
-    }
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const PilotOnDemand& pilot,
+                    Saving& saving, const std::optional<MethodChoice>& choice) {
     Plan plan = plan_for(method, scene);
     const std::optional<Scene> reduced = without_unlit_materials(plan, scene);
-    const RenderJob job{reduced ? *reduced : scene, plan, goal, watch, pilot};
+    const RenderJob job{reduced ? *reduced : scene, plan, goal, watch, pilot, saving, choice};
     BounceSeries series = has_fields(method) ? render_by_fields(method, job) : render_by_paths(method, job);
     series.seed = goal.seed;
     series.plan = std::move(plan);
+    series.choice = choice;
     return series;
+}
+
+BounceSeries render_chosen(const Scene& scene, const Method& method, Goal goal, const Watch& watch, const PilotOnDemand& pilot,
+                           Saving saving) {
+    if (saving.from) {
+        const Method begun = saving.from->render.method;
+        const std::optional<MethodChoice> choice = saving.from->choice;
+        goal.seed = saving.from->render.seed;
+        if (choice) goal.spent = choice->seconds;
+        return render(scene, begun, goal, watch, pilot, saving, choice);
+    }
+    std::optional<MethodChoice> choice;
+    if (const auto* open = std::get_if<method::Auto>(&method)) {
+        choice = choose_method(*open, scene, goal, watch);
+        goal.spent = choice->seconds;
+    }
+    return render(scene, choice ? choice->method : method, goal, watch, pilot, saving, choice);
 }
 
 }  // namespace
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
-    show_first_pictures(scene, method, goal, watch);
-    return render(scene, method, goal, watch, PilotOnDemand(scene, direct_of_pilot(method), goal.seed));
+    return render(scene, method, goal, watch, Saving());
+}
+
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Saving saving) {
+    if (!saving.from) show_first_pictures(scene, method, goal, watch);
+    const PilotOnDemand pilot(scene, direct_of_pilot(method), goal.seed);
+    return render_chosen(scene, method, goal, watch, pilot, std::move(saving));
 }
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot) {
-    return render(scene, method, goal, watch, PilotOnDemand(pilot));
+    return render_chosen(scene, method, goal, watch, PilotOnDemand(pilot), Saving());
 }
 
 }  // namespace neumann

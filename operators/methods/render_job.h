@@ -35,6 +35,8 @@ struct RenderJob {
     const Goal& goal;
     const Watch& watch;
     const PilotOnDemand& pilot;
+    Saving& saving;
+    const std::optional<MethodChoice>& choice;
 };
 
 BounceSeries render_by_paths(const Method& method, const RenderJob& job);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <utility>
 
 namespace neumann {
 
@@ -23,6 +24,7 @@ constexpr double shortest_sampling = 1e-3;
 
 // Samples per pixel in one replicate: as many as still give several replicates.
 std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& job, const Split& split) {
+    if (job.saving.from) return job.saving.from->render.replicate_size;
     if (job.goal.replicates) return share_of_replicate(job.goal);
     if (goal.samples) return replicate_size(*goal.samples);
     if (!goal.seconds) return largest_replicate;
@@ -142,32 +144,6 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     }
 }
 
-// For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N.
-struct Sampled {
-    RenderedSeries series;
-    SeriesReport report;
-};
-Sampled sample(SamplingSettings& settings, const SamplingGoal& goal, RestVerdict verdict, const RenderJob& job) {
-    for (;;) {
-        const int N = settings.walk.bounces;
-        check_memory(job.goal, job.scene.film, N);
-        settings.walk.rest_probability =
-            verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
-        Watch watch = job.watch;
-        watch.checkpoints = watch.checkpoints && !job.goal.only_pictures;
-        RenderedSeries series = render_series(job.scene, settings, goal, watch);
-        SeriesReport report = report_series(job.scene, series, verdict);
-        const double tail = job.goal.tail.value_or(0.0);
-        if (!job.goal.tail || job.goal.bounces || watch.stop() || verdict != RestVerdict::measured ||
-            report.tail_fraction() <= tail)
-            return {std::move(series), std::move(report)};
-        settings.walk.bounces += std::max(1, N / 4);
-        watch.tell(fmt::format("The rest is {:.3g} of the sum, more than {}: once more with {} bounces", report.tail_fraction(),
-                               tail, settings.walk.bounces));
-        watch.chosen(settings.walk.bounces);
-    }
-}
-
 // The method with the options that had been left open.
 Method as_it_ran(Method method, const SamplingSettings& settings) {
     std::visit(
@@ -184,6 +160,40 @@ Method as_it_ran(Method method, const SamplingSettings& settings) {
         },
         method);
     return method;
+}
+
+// For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N.
+struct Sampled {
+    RenderedSeries series;
+    SeriesReport report;
+};
+Sampled sample(const Method& method, SamplingSettings& settings, const SamplingGoal& goal, RestVerdict verdict,
+               const RenderJob& job) {
+    std::optional<RenderedSeries> from;
+    if (job.saving.from) from = std::move(job.saving.from->series);
+    for (;;) {
+        const int N = settings.walk.bounces;
+        check_memory(job.goal, job.scene.film, N);
+        settings.walk.rest_probability =
+            verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
+        Watch watch = job.watch;
+        watch.checkpoints = watch.checkpoints && !job.goal.only_pictures;
+        const auto keep = [&](const RenderedSeries& so_far, bool is_last) {
+            job.saving.keep({as_it_ran(method, settings), job.goal.seed, N, settings.walk.rest_probability, so_far.replicate_size},
+                            job.choice, so_far, is_last);
+        };
+        RenderedSeries series =
+            render_series(job.scene, settings, goal, watch, {std::exchange(from, std::nullopt), keep, job.saving.longest_part});
+        SeriesReport report = report_series(job.scene, series, verdict);
+        const double tail = job.goal.tail.value_or(0.0);
+        if (!job.goal.tail || job.goal.bounces || watch.stop() || verdict != RestVerdict::measured ||
+            report.tail_fraction() <= tail)
+            return {std::move(series), std::move(report)};
+        settings.walk.bounces += std::max(1, N / 4);
+        watch.tell(fmt::format("The rest is {:.3g} of the sum, more than {}: once more with {} bounces", report.tail_fraction(),
+                               tail, settings.walk.bounces));
+        watch.chosen(settings.walk.bounces);
+    }
 }
 
 }  // namespace
@@ -207,7 +217,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
 
     const Paths paths = paths_of(settings.generator, scene);
     const RestVerdict verdict = rest_verdict(settings.generator, job);
-    auto [sampled, report] = sample(settings, to_reach, verdict, job);
+    auto [sampled, report] = sample(method, settings, to_reach, verdict, job);
     if (paths != Paths::all) report_missing(report, job.pilot());
 
     const auto moments = std::make_shared<const SeriesMoments::Result>(sampled.moments.result());

@@ -32,6 +32,19 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
     return checkpoint;
 }
 
+// What is there before the first part.
+RenderedSeries beginning(const PictureSampler& sampler, std::optional<RenderedSeries>& from) {
+    if (!from) return {SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
+    RenderedSeries series = std::move(*from);
+    // Where an earlier part ended is no number of samples at which an uncut render looks at its errors.
+    std::erase_if(series.convergence, [](const Checkpoint& c) { return !std::has_single_bit(c.samples); });
+    return series;
+}
+
+bool is_reached(double error, const Checkpoint& checkpoint) {
+    return *std::max_element(checkpoint.term_error.begin(), checkpoint.term_error.end()) <= error;
+}
+
 }  // namespace
 
 std::uint32_t replicate_size(std::uint64_t samples) {
@@ -41,17 +54,18 @@ std::uint32_t replicate_size(std::uint64_t samples) {
 }
 
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
-                             const Watch& watch) {
+                             const Watch& watch, Continuation continuation) {
     const PictureSampler sampler(scene, settings);
     const std::uint64_t size = settings.replicate_size;
-    RenderedSeries series{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
+    RenderedSeries series = beginning(sampler, continuation.from);
     series.replicate_size = settings.replicate_size;
     series.samples_are_bounded = samples_are_bounded(scene, settings);
     series.rest_has_finite_variance = rest_has_finite_variance(scene, settings);
     const Stopwatch clock;
+    const auto seconds_so_far = [&, before = series.seconds] { return before + clock.seconds(); };
 
     const auto report = [&](double replicates_done) {
-        const double seconds = clock.seconds();
+        const double seconds = seconds_so_far();
         RenderProgress progress{settings.walk.bounces, series.samples, seconds, 0.0, std::nullopt};
         const double samples = replicates_done * static_cast<double>(size);
         if (goal.samples) progress.fraction = samples / static_cast<double>(*goal.samples);
@@ -63,14 +77,21 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     // Whether --spp with this number of samples gives the same replicate size.
     const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
     std::vector<double> memory;
-    bool error_reached = false;
-    for (std::uint64_t done = 0;;) {
+    bool error_reached = goal.relative_error && std::ranges::any_of(series.convergence, [&](const Checkpoint& checkpoint) {
+                             return checkpoint.samples > size && is_reached(*goal.relative_error, checkpoint);
+                         });
+    for (std::uint64_t done = series.samples / size;;) {
+        if (done > 0 && ((goal.samples && series.samples >= *goal.samples) || (error_reached && repeatable(done)))) {
+            series.outcome = error_reached ? Outcome::error_reached : Outcome::samples_reached;
+            break;
+        }
         // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
+        while (done % block != 0) block /= 2;
         if (goal.samples)
             while (block > 1 && (done + block) * size > *goal.samples) block /= 2;
         if (goal.seconds && done > 0) {
-            const double each = clock.seconds() / static_cast<double>(done), left = *goal.seconds - clock.seconds();
+            const double each = seconds_so_far() / static_cast<double>(done), left = *goal.seconds - seconds_so_far();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
             if (each > left && repeatable(done)) {
                 series.outcome = Outcome::time_reached;
@@ -78,19 +99,24 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             }
         }
 
+        if (done > 0)
+            while (block > 1 &&
+                   static_cast<double>(block) * seconds_so_far() > continuation.longest_part * static_cast<double>(done))
+                block /= 2;
+
         Watch of_block;
         of_block.progress = [&](const RenderProgress& part) {
             report(static_cast<double>(done) + static_cast<double>(block) * part.fraction);
         };
         of_block.stop = [&] {
-            const bool may_drop = clock.seconds() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
+            const bool may_drop = seconds_so_far() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
             return may_drop && watch.stop();
         };
         auto node = sampler.run(done, block, series.tally, of_block, std::move(memory));
         if (!node && done == 0) {
             PictureSampler::Settings single = settings;
             single.replicate_size = 1;
-            return render_series(scene, single, goal, watch);
+            return render_series(scene, single, goal, watch, {{}, continuation.keep, continuation.longest_part});
         }
         if (!node) {
             series.outcome = Outcome::interrupted;
@@ -99,16 +125,16 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         memory = series.moments.add(std::move(*node));
         done += block;
         series.samples = done * size;
-        series.seconds = clock.seconds();
+        series.seconds = seconds_so_far();
 
         const bool last = goal.samples && series.samples >= *goal.samples;
         const bool stop = watch.stop() && (repeatable(done) || series.seconds > patience);
         if (std::has_single_bit(series.samples) && !last && (watch.checkpoints || goal.relative_error)) {
             series.convergence.push_back(make_checkpoint(series, watch));
-            const auto& errors = series.convergence.back().term_error;
-            if (goal.relative_error && done > 1 && *std::max_element(errors.begin(), errors.end()) <= *goal.relative_error)
+            if (goal.relative_error && done > 1 && is_reached(*goal.relative_error, series.convergence.back()))
                 error_reached = true;
         }
+        continuation.keep(series, false);
         if (last || stop || (error_reached && repeatable(done))) {
             series.outcome = last ? Outcome::samples_reached : stop ? Outcome::interrupted : Outcome::error_reached;
             break;
@@ -116,6 +142,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     }
     if (series.convergence.empty() || series.convergence.back().samples != series.samples)
         series.convergence.push_back(make_checkpoint(series, watch));
+    continuation.keep(series, true);
     return series;
 }
 

@@ -4,6 +4,8 @@
 #include "operators/pictures/picture_sampler.h"
 #include "operators/watch.h"
 
+#include <functional>
+#include <limits>
 #include <optional>
 
 namespace neumann {
@@ -30,6 +32,14 @@ struct RenderedSeries {
     bool rest_has_finite_variance = false;
 };
 
+// How a render is cut into parts, from each of which another process can go on.
+struct Continuation {
+    std::optional<RenderedSeries> from = {};  // what is there already, of the same scene and settings
+    // Called after every part with all that is there, and once more when the render ends.
+    std::function<void(const RenderedSeries&, bool is_last)> keep = [](const RenderedSeries&, bool) {};
+    double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
+};
+
 // Samples per pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 4 replicates. Larger
 // replicates have less error (stratification), but more replicates estimate it better: the 95% interval is ±12.7 standard errors
 // with 2 replicates and ±3.2 with 4.
@@ -38,8 +48,9 @@ std::uint32_t replicate_size(std::uint64_t samples);
 
 // A render that is stopped by time or error ends at a number of samples from which replicate_size() gives the same replicate size
 // again, and so does one that is interrupted, unless that would take long. An interrupted render drops the samples that not all
-// pixels have; if that is all of them, it renders one sample per pixel.
+// pixels have; if that is all of them, it renders one sample per pixel. The bits do not depend on how a render was cut, and the
+// seconds of the goal are those of all parts.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
-                             const Watch& watch = {});
+                             const Watch& watch = {}, Continuation continuation = {});
 
 }  // namespace neumann

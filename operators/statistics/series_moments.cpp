@@ -65,6 +65,11 @@ void SeriesMoments::add(const SeriesMoments& next) {
     for (const Node& node : next.nodes_) join(node);
 }
 
+void SeriesMoments::set(std::vector<Node> nodes, SampleRanges ranges) {
+    nodes_ = std::move(nodes);
+    ranges_ = std::move(ranges);
+}
+
 void SeriesMoments::join(const SampleRanges& ranges) {
     if (nodes_.empty())
         ranges_ = ranges;

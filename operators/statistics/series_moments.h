@@ -38,12 +38,19 @@ struct MomentsNode {
 // Any consecutive replicates, stored as the smallest number of nodes.
 class SeriesMoments {
 public:
+    struct Node {
+        std::uint64_t first, count;
+        std::shared_ptr<std::vector<double>> data;  // shared with results
+    };
+
     SeriesMoments(int width, int height, std::size_t quantities) : width_(width), height_(height), quantities_(quantities) {}
 
     // `node` must start where the present replicates end. Returns memory that is free again, if any, for the next node.
     std::vector<double> add(MomentsNode node);
     // `next` must start where these replicates end.
     void add(const SeriesMoments& next);
+    // The nodes and ranges of other moments, as nodes() and ranges() tell them.
+    void set(std::vector<Node> nodes, SampleRanges ranges);
 
     std::uint64_t first() const { return nodes_.empty() ? 0 : nodes_.front().first; }
     std::uint64_t replicates() const;
@@ -51,10 +58,6 @@ public:
     std::size_t doubles_per_pixel() const { return quantities_ * PixelMoments::doubles_per_quantity; }
     int width() const { return width_; }
     int height() const { return height_; }
-    struct Node {
-        std::uint64_t first, count;
-        std::shared_ptr<std::vector<double>> data;  // shared with results
-    };
     const std::vector<Node>& nodes() const { return nodes_; }
     // Ranges of all samples; empty if they were not kept.
     const SampleRanges& ranges() const { return ranges_; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace neumann {
 
@@ -29,6 +30,11 @@ struct Hill {
 };
 
 }  // namespace
+
+LargestSamples::LargestSamples(std::uint64_t count, std::vector<Sample> kept) : count_(count), heap_(std::move(kept)) {
+    std::make_heap(heap_.begin(), heap_.end(), larger);
+    if (heap_.size() == capacity) threshold_ = heap_.front().value;
+}
 
 void LargestSamples::insert(const Sample& sample) {
     heap_.push_back(sample);

@@ -15,6 +15,7 @@ namespace neumann {
 class LargestSamples {
 public:
     static constexpr std::size_t capacity = 1000;
+    LargestSamples() = default;
 
     // add() does not count the sample; add_count() counts samples. Zeros therefore need not be added one by one.
     void add(double x, const SamplePlace& place = {}) {
@@ -35,6 +36,9 @@ public:
         double value;
         SamplePlace place;
     };
+    // Those that are kept, in no order, and from them the set again.
+    const std::vector<Sample>& kept() const { return heap_; }
+    LargestSamples(std::uint64_t count, std::vector<Sample> kept);
     // Largest first, without samples whose value equals that of samples not kept: among these, chance decided which were kept.
     std::vector<Sample> standing_out() const;
 

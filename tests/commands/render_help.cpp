@@ -33,7 +33,8 @@ TEST_F(RenderHelp, OptionsOfRender) {
               (std::set<std::string>{"-h,--help", "-o",           "-n",          "--tail",       "--spp",   "--time",  "--error",
                                      "--method",  "--direct",     "--lights",    "--roulette",   "--split", "--ways",  "--sampler",
                                      "--patches", "--directions", "--reference", "--seed",       "-t",      "-D",      "--lenient",
-                                     "--quiet",   "--json",       "--files",     "--importance", "--plan",  "--memory"}));
+                                     "--quiet",   "--json",       "--files",     "--importance", "--plan",  "--memory",
+                                     "--resume",  "--checkpoint"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.

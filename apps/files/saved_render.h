@@ -1,0 +1,35 @@
+// A render under way on disk, so that another process can go on with it: the line "neumann render 1", the size of the header (8
+// bytes, little-endian), the header (JSON), the numbers that it counts (moments, ranges of samples, errors by samples), and a hash
+// of all that (XXH3, 8 bytes). A file that is cut off or has another byte anywhere is refused.
+#pragma once
+
+#include "apps/files/output_folder.h"
+#include "operators/methods/saving.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+// What was asked for.
+struct RequestOnDisk {
+    nlohmann::ordered_json options;  // as typed, by name
+    std::string scene_hash;
+};
+
+void save_render(OutputFolder& folder, const RequestOnDisk& request, const RecordedRender& render,
+                 const std::optional<MethodChoice>& choice, const RenderedSeries& series);
+
+// Of the render that is under way in a folder, of the samples that are kept there or else of its run.json. Throws InputError if
+// none of them is there.
+RequestOnDisk request_in(const std::filesystem::path& folder);
+// The file of what is under way or kept there, if any.
+std::optional<std::filesystem::path> saved_render_in(const std::filesystem::path& folder);
+
+// Throws InputError ("out/x/render.unfinished: damaged: …") if it is not whole, and if another version of the program wrote it.
+RenderState read_saved_render(const std::filesystem::path& file);
+
+}  // namespace neumann
