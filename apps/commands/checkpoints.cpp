@@ -19,7 +19,8 @@ constexpr double writing_share = 0.05;
 void Checkpoints::keep(const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series,
                        bool is_last) {
     const bool is_due = since_last_.seconds() >= std::max(seconds_, writing_seconds_ / writing_share);
-    const bool wants_end = is_last && (keeps_ || is_due || interrupted()) && series.samples != samples_on_disk_;
+    const bool is_new = series.samples != samples_on_disk_ || series.convergence.size() != rows_on_disk_;
+    const bool wants_end = is_last && (keeps_ || is_due || interrupted()) && is_new;
     if (!wants_end && (is_last || !is_due)) return;
     const Stopwatch clock;
     try {
@@ -33,6 +34,7 @@ void Checkpoints::keep(const RecordedRender& render, const std::optional<MethodC
     }
     keeps_ = true;
     samples_on_disk_ = series.samples;
+    rows_on_disk_ = series.convergence.size();
     writing_seconds_ = clock.seconds();
     since_last_ = Stopwatch();
 }

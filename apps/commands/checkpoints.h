@@ -23,6 +23,7 @@ private:
     double seconds_;
     bool keeps_;
     std::uint64_t samples_on_disk_ = 0;
+    std::size_t rows_on_disk_ = 0;
     double writing_seconds_ = 0.0;  // of the last state
     Stopwatch since_last_;
 };

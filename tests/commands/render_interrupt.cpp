@@ -19,7 +19,10 @@ protected:
         EXPECT_EQ(done.exit_code, 0) << done.err;
         EXPECT_NE(done.out.find("\nInterrupted: the pictures hold what was sampled so far.\n"), std::string::npos) << done.out;
         EXPECT_EQ(run_json("a").at("samples").at("outcome"), "interrupted");
-        EXPECT_EQ(names("a"), output_names(2));
+        Names expected = output_names(2);
+        if (run_json("a").at("options").at("method") != "matrix") expected.insert("render.samples");  // to go on with
+        EXPECT_EQ(names("a"), expected);
+        std::filesystem::remove(path("a/render.samples"));
         const Table convergence(path("a/convergence.csv"));
         EXPECT_EQ(convergence.last("samples"), run_json("a").at("samples").at("per_pixel").get<double>());
     }
