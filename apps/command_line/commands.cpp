@@ -6,6 +6,7 @@
 #include "apps/commands/conform_command.h"
 #include "apps/commands/convert_command.h"
 #include "apps/commands/export_command.h"
+#include "apps/commands/merge_command.h"
 #include "apps/commands/plan_command.h"
 #include "apps/commands/render_command.h"
 #include "apps/commands/replay_command.h"
@@ -56,6 +57,7 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
             command(app, line, add_stress, stress_command),
             command(app, line, add_plan, plan_command),
             command(app, line, add_convert, convert_command),
+            command(app, line, add_merge, merge_command),
             command(app, line, add_blame, blame_command)};
 }
 

@@ -1,6 +1,7 @@
 #include "apps/command_line/options.h"
 
 #include "apps/commands/patch_scene.h"
+#include "apps/files/chosen_files.h"
 
 #include <fmt/format.h>
 #include <charconv>
@@ -43,6 +44,32 @@ void add_memory(CLI::App& command, std::optional<double>& gibibytes) {
     command.add_option("--memory", gibibytes, "Approximate memory that may be taken, in GiB; default half of the machine's")
         ->type_name("GIB")
         ->check(above_zero());
+}
+
+PartOfSamples part_of(const std::string& text) {
+    PartOfSamples part{0, 0};
+    const char* end = text.data() + text.size();
+    const auto k = std::from_chars(text.data(), end, part.k);
+    if (k.ec != std::errc() || k.ptr == end || *k.ptr != '/') return {0, 0};
+    const auto n = std::from_chars(k.ptr + 1, end, part.n);
+    return n.ec == std::errc() && n.ptr == end ? part : PartOfSamples{0, 0};
+}
+
+CLI::Validator whole_part() {
+    return CLI::Validator(
+        [](std::string& text) {
+            const PartOfSamples part = part_of(text);
+            const bool good = part.k >= 1 && part.k <= part.n;
+            return good ? std::string() : fmt::format("'{}' is not K/N with K from 1 to N, such as 3/16", text);
+        },
+        "", "part");
+}
+
+void add_files(CLI::App& command, std::vector<std::string>& files) {
+    command.add_option("--files", files, "What is written beside run.json; default all of these")
+        ->type_name("pictures,tables,sheets,strips,page")
+        ->delimiter(',')
+        ->check(CLI::IsMember(file_groups()));
 }
 
 void add_definitions(CLI::App& command, std::vector<std::string>& texts) {

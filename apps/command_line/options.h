@@ -1,6 +1,8 @@
 // Options that several commands share. The validators have no description, because CLI11 would print it in the help.
 #pragma once
 
+#include "operators/methods/goal.h"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -22,6 +24,11 @@ void add_threads(CLI::App& command, int& threads);
 
 // --memory, in GiB; by default half of the memory.
 void add_memory(CLI::App& command, std::optional<double>& gibibytes);
+// "3/16": K from 1 to N.
+CLI::Validator whole_part();
+PartOfSamples part_of(const std::string& text);
+// --files: what is written beside run.json.
+void add_files(CLI::App& command, std::vector<std::string>& files);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
 // --lenient.

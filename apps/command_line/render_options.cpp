@@ -35,10 +35,13 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->add_option("--reference", request.reference,
                      "Folder of an earlier render; convergence.csv then also has the errors against it")
         ->type_name("DIR");
-    render->add_option("--files", request.files, "What is written beside run.json; default all of these")
-        ->type_name("pictures,tables,sheets,strips,page")
-        ->delimiter(',')
-        ->check(CLI::IsMember(file_groups()));
+    add_files(*render, request.files);
+    render
+        ->add_option_function<std::string>(
+            "--part", [&request](const std::string& text) { request.goal.part = part_of(text); },
+            "Render the K-th of N parts of the samples of --spp, which neumann merge puts together")
+        ->type_name("K/N")
+        ->check(whole_part());
     render
         ->add_option("--checkpoint", request.checkpoint,
                      "Seconds after which what there is of the render is written to disk, again and again")

@@ -15,7 +15,8 @@ struct RenderRequest;
 nlohmann::ordered_json given_options(const CLI::App& command);
 
 // The request with which the render in request.resume began, with the limits, the files and the threads that are given now. Throws
-// InputError if there is no such render, and if another option is given that it did not have ("--resume: --seed is 2, and it was 1").
+// InputError if there is no such render, and if another option is given that it did not have ("--resume: --seed is 2, and it was
+// 1").
 RenderRequest resumed(const RenderRequest& request);
 
 }  // namespace neumann

@@ -9,10 +9,10 @@ namespace neumann {
 
 class Checkpoints {
 public:
-    // A state every so many seconds, and one in the end if the render took longer, was interrupted or had been resumed: samples
-    // that took a while can be added to.
-    Checkpoints(OutputFolder& folder, RequestOnDisk request, double seconds, bool is_resumed)
-        : folder_(folder), request_(std::move(request)), seconds_(seconds), keeps_(is_resumed) {}
+    // A state every so many seconds, and one in the end if the render took longer or was interrupted, or if it `keeps` its samples
+    // anyway: those of a part, and those that were added to.
+    Checkpoints(OutputFolder& folder, RequestOnDisk request, double seconds, bool keeps)
+        : folder_(folder), request_(std::move(request)), seconds_(seconds), keeps_(keeps) {}
 
     // As Saving::keep. Throws RunError, which tells what to do, if the state cannot be written.
     void keep(const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series, bool is_last);

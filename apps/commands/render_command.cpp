@@ -5,12 +5,12 @@
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/preview.h"
+#include "apps/commands/print_rendering.h"
 #include "apps/commands/progress_line.h"
 #include "apps/files/reference.h"
 #include "apps/files/saved_render.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
-#include "apps/files/ways_files.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
@@ -26,67 +26,6 @@
 namespace neumann {
 
 namespace {
-
-std::string interval(const MeanWithError& mean, bool infinite_variance, bool rare_large_samples = false, bool unmet = false) {
-    if (unmet) return std::isfinite(mean.interval()) ? fmt::format("< {:.2g}", mean.interval()) : "no sample met it";
-    if (infinite_variance) return "infinite variance";
-    return fmt::format("± {:.2g}{}", mean.interval(), rare_large_samples ? " at least" : "");
-}
-
-void print_summary(const BounceSeries& series, const std::string& folder) {
-    const SeriesReport& report = series.report;
-    const bool discretised = report.sum_discretisation.has_value();
-    const auto patches = [&](const std::optional<DiscretisationReport>& d) {
-        return d ? fmt::format("  {:>9.2g}  {:>9.2g}", d->mean, d->worst) : std::string();
-    };
-    const bool subset = series.paths != Paths::all;
-    fmt::print("{:>6}  {:>12}  {:<18}  {:>8}  {:>10}{}{}\n", "bounce", "mean", "95% interval", "ratio", "tail bound",
-               discretised ? "  discretisation: mean, worst" : "", subset ? "  missing" : "");
-    for (std::size_t i = 0; i < report.bounces.size(); ++i) {
-        const BounceReport& b = report.bounces[i];
-        fmt::print(
-            "{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>10}{}{}\n", i, b.mean.mean,
-            interval(b.mean, b.infinite_variance, b.rare_large_samples, b.unmet), b.ratio ? fmt::format("{:.4f}", *b.ratio) : "",
-            std::isfinite(b.bound) ? fmt::format("{:.3g}", b.bound) : "none", patches(b.discretisation),
-            b.missing ? fmt::format("  {:.3g} {}", b.missing->mean, interval(*b.missing, b.infinite_variance, b.rare_large_samples))
-                      : "");
-    }
-    fmt::print("{:>6}  {:>12.6g}  {:<18}{:>22}{}\n", "sum", report.sum.mean,
-               interval(report.sum, report.infinite_variance(), report.rare_large_samples()), "",
-               patches(report.sum_discretisation));
-    switch (report.rest_verdict) {
-        case RestVerdict::measured:
-            fmt::print("{:>6}  {:>12.6g}  {:<18}  measured: {}\n", "rest", report.rest.mean,
-                       interval(report.rest, report.rest_infinite_variance, report.rest_rare_large_samples, report.rest_unmet),
-                       std::isfinite(report.tail_fraction())
-                           ? fmt::format("with its interval {:.2g} of the sum", report.tail_fraction())
-                           : "no sample met any light");
-            break;
-        case RestVerdict::not_converging:
-            fmt::print("{:>6}  not converging: {}\n", "rest",
-                       discretised ? "the terms do not fall, or too slowly to add them up" : "walks did not end and were given up");
-            break;
-        case RestVerdict::not_sampled:
-            break;
-    }
-    const auto unmet = [](const BounceReport& b) { return b.unmet; };
-    if (report.rest_unmet || std::any_of(report.bounces.begin(), report.bounces.end(), unmet))
-        fmt::print("Where the interval is an upper bound, no sample met anything; what is known to be 0 is ± 0.\n");
-    if (report.importance) fmt::print("These are importance, in m⁻²·sr⁻¹, not radiance.\n");
-    if (subset)
-        fmt::print("These are some of all paths. What is missing of a bounce is its mean over walks of all paths, less this.\n");
-    if (report.infinite_variance())
-        fmt::print(
-            "The largest samples show that the variance is infinite: no interval holds there, and more samples help little.\n");
-    if (report.rare_large_samples() || report.rest_rare_large_samples)
-        fmt::print(
-            "At least: the variance is finite, but the largest samples are rare and make much of what is there. The interval may "
-            "be\n"
-            "too short; more samples help, or another method.\n");
-    if (series.choice) fmt::print("By method {}: {}.\n", name_of(series.choice->method), series.choice->why);
-    if (series.outcome == Outcome::interrupted) fmt::print("Interrupted: the pictures hold what was sampled so far.\n");
-    fmt::print("{} samples a pixel in {:.1f} s. The pictures are in {}\n", series.samples, series.seconds, folder);
-}
 
 void expect_nothing_unfinished(const std::string& folder) {
     if (std::filesystem::exists(std::filesystem::path(folder) / unfinished_render_file))
@@ -105,6 +44,9 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
     const auto file = saved_render_in(request.resume);
     if (!file) return std::nullopt;
     RenderState state = read_saved_render(*file);
+    if (!state.series.merged.empty())
+        throw InputError(
+            fmt::format("--resume {}: was merged of several seeds; render another seed and merge that, too", request.resume));
     const std::uint64_t there = state.series.samples, size = state.render.replicate_size;
     const SeriesMoments& moments = state.series.moments;
     if (moments.width() != scene.film.crop_width || moments.height() != scene.film.crop_height)
@@ -146,6 +88,9 @@ int render_command(const RenderRequest& given) {
     RenderRequest request = given;
     request.definitions = parse_definitions(request.definition_texts);
     const bool fields = has_fields(make_method(request.method));  // refuses what does not go together, before the scene is read
+    if (request.goal.part && (fields || !request.goal.samples))
+        throw InputError(fields ? fmt::format("--part: --method {} has no samples that could be put together", request.method.name)
+                                : std::string("--part needs --spp, the samples of all parts"));
     const ChosenFiles files = choose_files(request.files);
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
@@ -176,7 +121,8 @@ int render_command(const RenderRequest& given) {
     watch.tell = [&](const std::string& text) {
         if (!request.quiet) fmt::print(stderr, "{}\n", text);
     };
-    Checkpoints checkpoints(*folder, {request.options, scene->hash}, request.checkpoint, !request.resume.empty());
+    Checkpoints checkpoints(*folder, {request.options, scene->hash}, request.checkpoint,
+                            !request.resume.empty() || request.goal.part);
     Saving saving{std::move(state), {}, 0.5 * request.checkpoint};
     saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
     const auto rendering = render(request, scene, watch, std::move(saving));
@@ -191,17 +137,12 @@ int render_command(const RenderRequest& given) {
         }
     }();
 
-    if (!request.quiet)
-        for (const auto& [text, count] : warnings.counts())
-            fmt::print(stderr, "warning: {}{}\n", text, count > 1 ? fmt::format(" ({} times)", count) : "");
-    if (!request.quiet)
-        for (const std::string& complaint : rendering->complaints(request.output)) fmt::print(stderr, "sick: {}\n", complaint);
-    const BounceSeries& series = rendering->series;
-    if (request.json)
+    if (request.json) {
+        if (!request.quiet) print_problems(*rendering, warnings, request.output);
         fmt::print("{}\n", json.dump(2));
-    else if (!request.quiet)
-        print_summary(series, request.output);
-    if (series.ways && !request.json && !request.quiet) fmt::print("{}", ways_table(*series.ways));
+    } else if (!request.quiet) {
+        print_rendering(*rendering, warnings, request.output);
+    }
     return 0;
 }
 

@@ -26,7 +26,8 @@ struct RecordedRun {
     bool lenient = false;
     RecordedRender render;
     std::uint64_t samples = 0;
-    Json named;  // the samples that the health report names
+    std::vector<SeedRange> merged;  // where the samples are of several seeds
+    Json named;                     // the samples that the health report names
 };
 
 RecordedRun read_run(const std::string& folder) {
@@ -52,6 +53,9 @@ RecordedRun read_run(const std::string& folder) {
         render.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
         render.replicate_size = samples.at("replicate_size");
         run.samples = samples.at("per_pixel");
+        if (samples.contains("merged"))
+            for (const Json& range : samples.at("merged"))
+                run.merged.push_back({range.at("seed"), range.at("first_replicate"), range.at("replicates")});
         run.named = json.at("health").at("samples");
         return run;
     } catch (const Json::exception& e) {
@@ -90,6 +94,21 @@ Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& 
                          ? fmt::format("{}: its health report names no sample; take --pixel X,Y --sample S", request.folder)
                          : fmt::format("{}: its health report names samples 1 to {}, not {}", request.folder, run.named.size(),
                                        *request.number));
+}
+
+// Of a merged render: the one of its renders that has the sample, and the sample's name there.
+std::pair<RecordedRender, SampleName> where_it_began(const RecordedRun& run, SampleName name) {
+    RecordedRender render = run.render;
+    std::uint64_t replicate = name.sample / render.replicate_size;
+    for (const SeedRange& range : run.merged) {
+        if (replicate < range.count) {
+            render.seed = range.seed;
+            name.sample = (range.first + replicate) * render.replicate_size + name.sample % render.replicate_size;
+            break;
+        }
+        replicate -= range.count;
+    }
+    return {render, name};
 }
 
 std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
@@ -171,7 +190,8 @@ int replay_command(const ReplayRequest& request) {
         fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
                    NEUMANN_VERSION);
     const Chosen chosen = choose(request, run, scene.film);
-    const Replay found = replay(scene, run.render, chosen.name);
+    const auto [render, name] = where_it_began(run, chosen.name);
+    const Replay found = replay(scene, render, name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 

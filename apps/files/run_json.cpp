@@ -108,6 +108,9 @@ Json samples_json(const BounceSeries& series) {
     Json json = {{"per_pixel", series.samples}};
     if (const auto* paths = std::get_if<PathRecord>(&series.record)) {
         json.update({{"replicate_size", paths->replicate_size}, {"replicates", paths->replicates}});
+        if (paths->first_replicate > 0) json["first_replicate"] = paths->first_replicate;
+        for (const SeedRange& range : paths->merged)
+            json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},
                                                   {"expected_vertices", walk.vertices},  // null if infinite

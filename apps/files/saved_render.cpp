@@ -67,8 +67,21 @@ Tally tally_from(const Json& json) {
     return tally;
 }
 
+Json as_json(const std::vector<SeedRange>& merged) {
+    Json json = Json::array();
+    for (const SeedRange& range : merged) json.push_back({range.seed, range.first, range.count});
+    return json;
+}
+
+std::vector<SeedRange> merged_from(const Json& json) {
+    std::vector<SeedRange> merged;
+    for (const Json& range : json) merged.push_back({range.at(0), range.at(1), range.at(2)});
+    return merged;
+}
+
 Json as_json(const MethodChoice& choice) {
-    Json json = {{"options", neumann::as_json(choice.method)}, {"why", choice.why}, {"seconds", choice.seconds}, {"trials", Json::array()}};
+    Json json = {
+        {"options", neumann::as_json(choice.method)}, {"why", choice.why}, {"seconds", choice.seconds}, {"trials", Json::array()}};
     for (const MethodTrial& t : choice.trials) json["trials"].push_back({t.method, t.rays, t.error});
     return json;
 }
@@ -189,6 +202,7 @@ void save_render(OutputFolder& folder, const RequestOnDisk& request, const Recor
                    {"samples", series.samples},
                    {"seconds", series.seconds},
                    {"tally", as_json(series.tally)},
+                   {"merged", as_json(series.merged)},
                    {"checkpoints", {series.convergence.size(), terms}},
                    {"ranges", moments.ranges().of.size()},
                    {"nodes", Json::array()}};
@@ -248,6 +262,7 @@ RenderState read_saved_render(const std::filesystem::path& path) {
         series.convergence = checkpoints_from(file.numbers<double>(rows * (5 + 2 * terms)), rows, terms);
         header.at("samples").get_to(series.samples);
         header.at("seconds").get_to(series.seconds);
+        series.merged = merged_from(header.at("merged"));
         header.at("replicate_size").get_to(series.replicate_size);
         file.expect_hash();
         RenderState state{{method_from_json(header.at("options")), header.at("seed"), header.at("bounces"),

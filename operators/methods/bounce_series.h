@@ -9,6 +9,7 @@
 #include "operators/methods/ways.h"
 #include "operators/pictures/health.h"
 #include "operators/pictures/missing_paths.h"
+#include "operators/pictures/rendered_series.h"
 #include "operators/plan/plan.h"
 #include "operators/walk/furnace_walk.h"
 
@@ -24,6 +25,8 @@ namespace neumann {
 struct PathRecord {
     std::uint32_t replicate_size = 1;  // samples per pixel
     std::size_t replicates = 0;
+    std::uint64_t first_replicate = 0;   // above 0 in a part of a render
+    std::vector<SeedRange> merged = {};  // where several seeds were merged
     // The probability of going on into the rest, if the rest was measured; otherwise `why_no_rest` gives the reason in words.
     std::optional<double> rest_probability;
     std::string why_no_rest;

@@ -8,12 +8,18 @@
 
 namespace neumann {
 
+// The k-th of n renders that share the replicates of one seed.
+struct PartOfSamples {
+    std::uint32_t k = 1, n = 1;
+};
+
 // A render stops at the first of the given limits that it reaches. If samples, seconds and error are all missing, it aims at
 // default_error for at most default_seconds.
 struct Goal {
     std::optional<int> bounces = {};            // N, the last one with a picture of its own
     std::optional<double> tail = {};            // instead of N: N is raised until the rest is below this part of the sum
     std::optional<std::uint64_t> samples = {};  // per pixel
+    std::optional<PartOfSamples> part = {};              // of the samples, which are then those of all parts; paths only
     // The number of independent replicates from which standard errors are estimated. Each takes the same power of two of samples
     // per pixel. The default depends on the samples.
     std::optional<std::uint32_t> replicates = {};

@@ -62,6 +62,17 @@ SamplingGoal sampling_goal(const Goal& goal) {
     return {limits.samples, limits.seconds, limits.relative_error};
 }
 
+// The replicates of a part, and of no other.
+void take_part(const PartOfSamples& part, std::uint64_t size, SamplingGoal& goal) {
+    const std::uint64_t all = *goal.samples / size;
+    if (all < part.n)
+        throw InputError(
+            fmt::format("--part {}/{}: {} samples a pixel are {} replicates of {}, which is fewer than one for each part", part.k,
+                        part.n, *goal.samples, all, size));
+    goal.first = all * (part.k - 1) / part.n;
+    goal.samples = (all * part.k / part.n - goal.first) * size;
+}
+
 RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
     if (generator == PathGenerator::pointwise || job.goal.only_pictures) return RestVerdict::not_sampled;
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
@@ -213,6 +224,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     // The set-up counts towards the time limit.
     if (setup_seconds > 0.0 && to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
     settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split);
+    if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
     const Paths paths = paths_of(settings.generator, scene);
@@ -247,6 +259,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     PathRecord record;
     record.replicate_size = sampled.replicate_size;
     record.replicates = sampled.moments.replicates();
+    record.first_replicate = to_reach.first;
+    record.merged = sampled.merged;
     record.walks_given_up = sampled.tally.given_up;
     if (verdict == RestVerdict::measured) record.rest_probability = settings.walk.rest_probability;
     if (verdict == RestVerdict::not_converging)

@@ -63,10 +63,12 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
     }
     const PictureSampler sampler(scene, settings);
     for (std::size_t q = 0; q < quantities; ++q)
-        if (SampleHealth& bounce = health.bounces[q]; bounce.fireflies > 0)
+        if (SampleHealth& bounce = health.bounces[q]; bounce.fireflies > 0 && series.merged.empty())  // else of several seeds
             bounce.remedies = remedies(scene, sampler, bounce.largest->sample.place.name, q);
     health.first_non_finite = series.tally.non_finite;
-    health.checkup = check_up(scene, sampler, series.samples);
+    const std::uint64_t of_this_seed =
+        series.merged.empty() ? series.samples : series.merged.front().count * std::uint64_t{series.replicate_size};
+    health.checkup = check_up(scene, sampler, of_this_seed);
     return health;
 }
 

@@ -17,21 +17,6 @@ namespace {
 // repeated, and to the end of its first replicate.
 constexpr double patience = 3.0;
 
-Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
-    Checkpoint checkpoint;
-    checkpoint.samples = series.samples;
-    checkpoint.seconds = series.seconds;
-    checkpoint.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
-    const auto result = series.moments.result();
-    const std::size_t terms = result.quantities() - 1;
-    for (std::size_t i = 0; i < terms; ++i) checkpoint.term_error.push_back(relative_standard_error(result.term(i)));
-    checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
-    const auto term = [&](std::size_t i) { return result.term(i).mean; };
-    if (watch.judge) watch.judge(term, result.sum(terms - 1).mean, checkpoint);
-    if (watch.show) watch.show(terms - 1, term);
-    return checkpoint;
-}
-
 // What is there before the first part.
 RenderedSeries beginning(const PictureSampler& sampler, std::optional<RenderedSeries>& from) {
     if (!from) return {SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
@@ -46,6 +31,21 @@ bool is_reached(double error, const Checkpoint& checkpoint) {
 }
 
 }  // namespace
+
+Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
+    Checkpoint checkpoint;
+    checkpoint.samples = series.samples;
+    checkpoint.seconds = series.seconds;
+    checkpoint.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
+    const auto result = series.moments.result();
+    const std::size_t terms = result.quantities() - 1;
+    for (std::size_t i = 0; i < terms; ++i) checkpoint.term_error.push_back(relative_standard_error(result.term(i)));
+    checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
+    const auto term = [&](std::size_t i) { return result.term(i).mean; };
+    if (watch.judge) watch.judge(term, result.sum(terms - 1).mean, checkpoint);
+    if (watch.show) watch.show(terms - 1, term);
+    return checkpoint;
+}
 
 std::uint32_t replicate_size(std::uint64_t samples) {
     std::uint32_t size = largest_replicate;
@@ -87,7 +87,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         }
         // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
-        while (done % block != 0) block /= 2;
+        while ((goal.first + done) % block != 0) block /= 2;
         if (goal.samples)
             while (block > 1 && (done + block) * size > *goal.samples) block /= 2;
         if (goal.seconds && done > 0) {
@@ -112,7 +112,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             const bool may_drop = seconds_so_far() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
             return may_drop && watch.stop();
         };
-        auto node = sampler.run(done, block, series.tally, of_block, std::move(memory));
+        auto node = sampler.run(goal.first + done, block, series.tally, of_block, std::move(memory));
         if (!node && done == 0) {
             PictureSampler::Settings single = settings;
             single.replicate_size = 1;

@@ -16,6 +16,12 @@ struct SamplingGoal {
     std::optional<double> seconds;
     std::optional<double> relative_error;  // relative_standard_error() of every term that is not all zero; checked when the number
                                            // of samples is a power of two
+    std::uint64_t first = 0;               // replicate; those before it are sampled elsewhere
+};
+
+// Replicates of a seed.
+struct SeedRange {
+    std::uint64_t seed = 0, first = 0, count = 0;
 };
 
 enum class Outcome { samples_reached, time_reached, error_reached, interrupted, memory_reached, does_not_pay };
@@ -27,10 +33,15 @@ struct RenderedSeries {
     Outcome outcome = Outcome::samples_reached;
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
+    // Where renders of several seeds were merged: whose replicates come one after the other. Otherwise empty.
+    std::vector<SeedRange> merged = {};
     double seconds = 0.0;
     bool samples_are_bounded = false;  // of bounces 0 … N (bounded_samples.h)
     bool rest_has_finite_variance = false;
 };
+
+// The errors of what is there.
+Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch);
 
 // How a render is cut into parts, from each of which another process can go on.
 struct Continuation {

@@ -65,6 +65,14 @@ void SeriesMoments::add(const SeriesMoments& next) {
     for (const Node& node : next.nodes_) join(node);
 }
 
+void SeriesMoments::unite(const SeriesMoments& other) {
+    const auto data = std::make_shared<std::vector<double>>(*result().data_);
+    const std::uint64_t count = replicates(), more = other.replicates();
+    merge_pictures(*data, static_cast<double>(count), *other.result().data_, static_cast<double>(more), doubles_per_pixel());
+    join(other.ranges_);
+    nodes_ = {{0, count + more, data}};
+}
+
 void SeriesMoments::set(std::vector<Node> nodes, SampleRanges ranges) {
     nodes_ = std::move(nodes);
     ranges_ = std::move(ranges);

@@ -49,6 +49,9 @@ public:
     std::vector<double> add(MomentsNode node);
     // `next` must start where these replicates end.
     void add(const SeriesMoments& next);
+    // `other` holds independent replicates of the same pictures, by another seed: both become one node, in which replicates have no
+    // numbers any more.
+    void unite(const SeriesMoments& other);
     // The nodes and ranges of other moments, as nodes() and ranges() tell them.
     void set(std::vector<Node> nodes, SampleRanges ranges);
 

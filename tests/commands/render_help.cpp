@@ -34,7 +34,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
                                      "--method",  "--direct",     "--lights",    "--roulette",   "--split", "--ways",  "--sampler",
                                      "--patches", "--directions", "--reference", "--seed",       "-t",      "-D",      "--lenient",
                                      "--quiet",   "--json",       "--files",     "--importance", "--plan",  "--memory",
-                                     "--resume",  "--checkpoint"}));
+                                     "--resume",  "--checkpoint", "--part"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -96,7 +96,7 @@ TEST_F(RenderHelp, UnknownCommands) {
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_EQ(done.err,
               "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, stress, "
-              "plan, convert, blame, help\n");
+              "plan, convert, merge, blame, help\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);

@@ -1,0 +1,90 @@
+#include "apps/commands/merge_command.h"
+
+#include "apps/commands/limits.h"
+#include "apps/commands/parse_definitions.h"
+#include "apps/commands/print_rendering.h"
+#include "apps/files/rendering_files.h"
+#include "apps/files/saved_render.h"
+#include "core/base/error.h"
+#include "core/base/stopwatch.h"
+#include "core/reader/read_scene.h"
+#include "operators/methods/merge.h"
+#include "operators/methods/render.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace neumann {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> values_of(const Json& options, const char* name) {
+    return options.contains(name) ? options.at(name).get<std::vector<std::string>>() : std::vector<std::string>();
+}
+
+NamedState read(const std::string& folder) {
+    const std::filesystem::path file = std::filesystem::path(folder) / samples_file;
+    if (!std::filesystem::is_directory(folder)) throw InputError(folder + ": is not a folder; expected that of a finished render");
+    if (std::filesystem::exists(std::filesystem::path(folder) / unfinished_render_file))
+        throw InputError(
+            fmt::format("{0}: holds a render that was not finished; neumann render --resume {0} goes on with it", folder));
+    if (!std::filesystem::exists(file))
+        throw InputError(
+            fmt::format("{}: holds no {}; renders that are to be merged keep it with --part, or with a --checkpoint shorter "
+                        "than they take",
+                        folder, samples_file));
+    return {folder, read_saved_render(file)};
+}
+
+}  // namespace
+
+int merge_command(const MergeRequest& request) {
+    const Stopwatch clock;
+    for (const std::string& folder : request.folders)
+        if (std::error_code missing; std::filesystem::equivalent(folder, request.output, missing))
+            throw InputError(fmt::format("-o {}: is one of those that are merged; expected another folder", request.output));
+    std::vector<NamedState> renders;
+    std::vector<RequestOnDisk> asked;
+    for (const std::string& folder : request.folders) {
+        renders.push_back(read(folder));
+        asked.push_back(request_in(folder));
+        if (asked.back().scene_hash != asked.front().scene_hash)
+            throw InputError(
+                fmt::format("{} and {} cannot be merged: their scenes are not the same", request.folders.front(), folder));
+    }
+    RenderState merged = merge(std::move(renders));
+
+    const ThreadLimit threads(request.threads);
+    Json options = asked.front().options;
+    for (const char* name : {"--part", "--seed", "-o", "--spp"}) options.erase(name);
+    if (merged.series.merged.empty()) {
+        options["--spp"] = {std::to_string(merged.series.samples)};
+        if (merged.render.seed != 0) options["--seed"] = {std::to_string(merged.render.seed)};
+    }
+    const std::string file = request.scene.empty() ? options.at("SCENE").at(0).get<std::string>() : request.scene;
+    options["SCENE"] = {file};
+    const auto definitions = parse_definitions(values_of(options, "-D"));
+    const auto scene = std::make_shared<const Scene>(read_scene(file, definitions, {.lenient = options.contains("--lenient")}));
+    if (scene->hash != asked.front().scene_hash)
+        throw InputError(fmt::format("{}: is not the scene that was rendered, or has changed since", file));
+
+    OutputFolder folder(request.output, "render");
+    const RequestOnDisk together{options, scene->hash};
+    save_render(folder, together, merged.render, merged.choice, merged.series);
+    Goal goal;
+    goal.samples = merged.series.samples;
+    const Method method = merged.render.method;
+    Saving saving;
+    saving.from = std::move(merged);
+    BounceSeries series = render(*scene, method, goal, {}, std::move(saving));
+    const Rendering rendering{file,  request.command_line, options,         definitions,
+                              scene, std::move(series),    clock.seconds(), choose_files(request.files)};
+    const auto [warnings, json] = write_rendering(rendering, folder);
+    if (!request.quiet) print_rendering(rendering, warnings, request.output);
+    return 0;
+}
+
+}  // namespace neumann

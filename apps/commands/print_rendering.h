@@ -1,0 +1,17 @@
+// A finished render on the terminal.
+#pragma once
+
+#include "apps/files/rendering_files.h"
+
+#include <string>
+
+namespace neumann {
+
+// The table of bounces, sum and rest, and how the render ended.
+void print_summary(const BounceSeries& series, const std::string& folder);
+// Warnings and complaints, on stderr.
+void print_problems(const Rendering& rendering, const Warnings& warnings, const std::string& folder);
+// All of it.
+void print_rendering(const Rendering& rendering, const Warnings& warnings, const std::string& folder);
+
+}  // namespace neumann

@@ -1,0 +1,119 @@
+// Renders that are put together: parts of one, and others of other seeds.
+#include "tests/commands/render_output.h"
+
+namespace neumann::merge_command_test {
+
+class MergeCommand : public RenderTest {
+protected:
+    MergeCommand() { write("scene.xml", plates()); }
+
+    void part(const std::string& output, std::vector<std::string> options) const {
+        options.insert(options.end(), {"-n", "2", "--quiet"});
+        EXPECT_EQ(render("scene.xml", output, options).err, "");
+    }
+    void merge(std::vector<std::string> folders, const std::string& output) const {
+        folders.insert(folders.begin(), "merge");
+        folders.insert(folders.end(), {"-o", output, "--quiet"});
+        const Finished done = run(folders);
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+    }
+};
+
+TEST_F(MergeCommand, PartsAreTheWhole) {
+    for (const std::string method : {"walk", "bidirectional", "corrected"}) {
+        SCOPED_TRACE(method);
+        part("whole", {"--spp", "512", "--method", method});
+        for (const std::string k : {"1", "2", "3"}) part(k, {"--spp", "512", "--method", method, "--part", k + "/3"});
+        merge({"3", "1", "2"}, "all");
+        std::filesystem::remove(path("all/render.samples"));
+        expect_same_pictures("whole", "all");
+        for (const char* what : {"bounces", "rest", "sum", "health", "samples", "options"})
+            EXPECT_EQ(run_json("all").at(what), run_json("whole").at(what)) << what;
+        EXPECT_EQ(Table(path("all/convergence.csv")).last("relative_stderr_sum"),
+                  Table(path("whole/convergence.csv")).last("relative_stderr_sum"));
+    }
+    EXPECT_EQ(run_json("2").at("samples").at("first_replicate"), 5);
+    EXPECT_EQ(run_json("2").at("samples").at("replicates"), 5);
+}
+
+// The replicates of all count the same: means and variances are those of the set of all (Chan, Golub and LeVeque 1983).
+TEST_F(MergeCommand, SeedsAreOneSetOfReplicates) {
+    part("a", {"--spp", "128", "--method", "walk", "--checkpoint", "0.0001"});
+    part("b", {"--spp", "384", "--method", "walk", "--checkpoint", "0.0001", "--seed", "7"});
+    merge({"b", "a"}, "c");
+    const double m = 4.0, n = 12.0;
+    for (const char* name : {"bounce_001.exr", "bounce_002.exr", "sum_002.exr", "rest.exr"}) {
+        const Estimate a = picture("a", name), b = picture("b", name), c = picture("c", name);
+        for (std::size_t p = 0; p < c.mean.pixels.size(); ++p) {
+            const double x = a.mean.pixels[p].g, y = b.mean.pixels[p].g;
+            const double mean = (m * x + n * y) / (m + n);
+            EXPECT_NEAR(c.mean.pixels[p].g, mean, 1e-6 * mean) << name;
+        }
+    }
+    EXPECT_EQ(run_json("c").at("samples").at("per_pixel"), 512);
+    EXPECT_EQ(run_json("c").at("samples").at("degrees_of_freedom"), m + n - 1.0);
+    EXPECT_EQ(run_json("c").at("samples").at("merged"),
+              nlohmann::json::parse(R"([{"seed": 0, "first_replicate": 0, "replicates": 4},
+                                        {"seed": 7, "first_replicate": 0, "replicates": 12}])"));
+    const auto squares = [&](const std::string& folder, double count) {
+        const double error = run_json(folder).at("bounces").at(2).at("stderr");
+        return error * error * count * (count - 1.0);
+    };
+    // Means over the picture of a walk are of independent pixels: their squared errors add up like those of one.
+    EXPECT_GT(squares("c", m + n), squares("a", m));
+    // A sample that the health names is found again in the render that it is from.
+    for (const nlohmann::json& sample : run_json("c").at("health").at("samples")) {
+        const Finished found = run({"replay", "c", sample.at("number").dump(), "--json"});
+        ASSERT_EQ(found.exit_code, 0) << found.err;
+        const nlohmann::json terms = nlohmann::json::parse(found.out).at("terms");
+        for (const nlohmann::json& largest : run_json("c").at("health").at("largest_samples")) {
+            if (largest.at("number") != sample.at("number")) continue;
+            const nlohmann::json& term = terms.at(largest.at("bounce").get<std::size_t>());
+            const double value = std::max({term.at(0).get<double>(), term.at(1).get<double>(), term.at(2).get<double>()});
+            EXPECT_NEAR(value, largest.at("value").get<double>(), 1e-12 * value);
+        }
+    }
+    // Merged again.
+    part("d", {"--spp", "128", "--method", "walk", "--checkpoint", "0.0001", "--seed", "8"});
+    merge({"c", "d"}, "e");
+    EXPECT_EQ(run_json("e").at("samples").at("per_pixel"), 640);
+    EXPECT_EQ(refused({"merge", "e", "a", "-o", "f"}),
+              "e and a have the same samples, of seed 0; merged, these would count twice\n");
+    EXPECT_EQ(refused({"render", "--resume", "e", "--spp", "1280"}),
+              "--resume e: was merged of several seeds; render another seed and merge that, too\n");
+}
+
+TEST_F(MergeCommand, WhatDoesNotGoTogether) {
+    part("a", {"--spp", "128", "--part", "1/2"});
+    part("light", {"--spp", "128", "--method", "light", "--checkpoint", "0.0001", "--seed", "1"});
+    part("few", {"--spp", "16", "--checkpoint", "0.0001", "--seed", "1"});
+    part("low", {"--spp", "128", "--part", "1/2", "--seed", "1", "-D", "height=4"});
+    part("none", {"--spp", "16"});
+    const auto before = contents("a");
+    EXPECT_EQ(refused({"merge", "a", "a", "-o", "b"}),
+              "a and a have the same samples, of seed 0; merged, these would count twice\n");
+    EXPECT_EQ(refused({"merge", "a", "light", "-o", "b"}),
+              "a and light cannot be merged: one is by walk, and the other by light\n");
+    EXPECT_EQ(
+        refused({"merge", "a", "few", "-o", "b"}),
+        "a and few cannot be merged: one has replicates of 32 samples a pixel, and the other of 4, because of its fewer or more "
+        "samples\n");
+    EXPECT_EQ(refused({"merge", "a", "low", "-o", "b"}), "a and low cannot be merged: one has 164×5 pixels, and the other 164×4\n");
+    EXPECT_EQ(
+        refused({"merge", "a", "none", "-o", "b"}),
+        "none: holds no render.samples; renders that are to be merged keep it with --part, or with a --checkpoint shorter than "
+        "they take\n");
+    EXPECT_EQ(refused({"merge", "a", "light", "-o", "a"}), "-o a: is one of those that are merged; expected another folder\n");
+    EXPECT_EQ(refused({"merge", "a", "nothing", "-o", "b"}), "nothing: is not a folder; expected that of a finished render\n");
+    EXPECT_FALSE(std::filesystem::exists(path("b")));
+    EXPECT_EQ(contents("a"), before);
+    expect_refused({"--part", "1/2"}, "--part needs --spp, the samples of all parts");
+    expect_refused({"--part", "1/2", "--spp", "64", "--method", "matrix"},
+                   "--part: --method matrix has no samples that could be put together");
+    expect_refused({"--part", "3/8", "--spp", "64"},
+                   "--part 3/8: 64 samples a pixel are 4 replicates of 16, which is fewer than one for each part");
+    expect_refused({"--part", "17/16", "--spp", "64"},
+                   "--part: '17/16' is not K/N with K from 1 to N, such as 3/16\nRun with --help for more information.");
+}
+
+}  // namespace neumann::merge_command_test
