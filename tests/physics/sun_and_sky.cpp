@@ -220,9 +220,9 @@ TEST(SunSky, TheDensityFollowsTheLuminance) {
         for (const double elevation : {0.5 * degree, 10.0 * degree, 0.8, 0.5 * pi}) {
             const SunSky sky = sun_and_sky(elevation, 1.0, usual, Rgb(0.0), turbidity);
             const double total = 4.0 * pi * sky.brightness();
-            for (int i = 0; i <= 900; ++i)
-                for (int j = 0; j <= 360; ++j) {
-                    const double theta = 0.5 * pi * i / 900, phi = pi * j / 360;
+            for (int i = 0; i <= 450; ++i)
+                for (int j = 0; j <= 180; ++j) {
+                    const double theta = 0.5 * pi * i / 450, phi = pi * j / 180;
                     const Vec3 w(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::max(std::cos(theta), 0.0));
                     const double Y = luminance(sky.radiance(w));
                     EXPECT_LE(Y, 3.0 * sky.pdf(w) * total) << turbidity << ", " << elevation << ", " << theta << ", " << phi;
