@@ -138,9 +138,10 @@ TEST_F(PbrtGrammar, UnknownNames) {
         "'radius'?");
     EXPECT_EQ(pbrt_error("Attribute \"lihgt\" \"float scale\" 1"),
               "scene.pbrt:3:1: Attribute 'lihgt'; allowed: light, material, medium, shape, texture; did you mean 'light'?");
-    EXPECT_EQ(pbrt_error("LightSource \"distand\""),
-              "scene.pbrt:3:1: light type 'distand' is not supported; allowed: distant, goniometric, infinite, point, spot; did you mean "
-              "'distant'?");
+    EXPECT_EQ(
+        pbrt_error("LightSource \"distand\""),
+        "scene.pbrt:3:1: light type 'distand' is not supported; allowed: distant, goniometric, infinite, point, spot; did you mean "
+        "'distant'?");
     EXPECT_EQ(pbrt_file_error("Film \"rbg\" WorldBegin"),
               "scene.pbrt:1:1: film type 'rbg' is not supported; allowed: gbuffer, rgb; did you mean 'rgb'?");
     EXPECT_EQ(

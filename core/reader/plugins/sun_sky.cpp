@@ -110,7 +110,8 @@ Environment read_sunsky(Properties& p, const Context& context) {
         const Rgb found = spectrum_to_rgb(sun_spectrum(turbidity, elevation), Illuminant::equal_energy);
         sun = glm::max(found, Rgb(0.0)) * (sun_scale * solid_angle(sun_angle) / solid_angle(aperture));
         context.warnings.add("sunsky: the sun is that of Preetham, Shirley and Smits (1999) in place of Mitsuba's tables");
-        if (std::min({found.r, found.g, found.b}) < 0.0) context.warnings.add("sunsky: the sun is redder than the colours of sRGB, cut to them");
+        if (std::min({found.r, found.g, found.b}) < 0.0)
+            context.warnings.add("sunsky: the sun is redder than the colours of sRGB, cut to them");
     }
     const SkyModel sky(turbidity, albedo, elevation);
     if (sun == Rgb(0.0) && sky_scale == 0.0) return ConstantEnvironment(Rgb(0.0));
