@@ -44,6 +44,15 @@ glm::dmat3 rgb_from_xyz() {
     return glm::transpose(glm::dmat3(3.240479, -1.537150, -0.498535, -0.969256, 1.875991, 0.041556, 0.055648, -0.204043, 1.057311));
 }
 
+Rgb radiance_to_rgb(const Vec3& xyz) {
+    static const glm::dmat3 scaled = [] {
+        double y = 0.0;  // the trapezoidal rule; ȳ at both ends is below 1e-5
+        for (const auto& curves : cie::observer_1931) y += curves[1] * cie::step;
+        return rgb_from_xyz() / y;
+    }();
+    return scaled * xyz;
+}
+
 Rgb spectrum_to_rgb(const SpectrumTable& s, Illuminant illuminant) {
     std::vector<double> knots = s.wavelengths;
     for (int i = 0; i < cie::count; ++i) knots.push_back(cie::first_wavelength + i * cie::step);

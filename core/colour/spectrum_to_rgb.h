@@ -21,6 +21,9 @@ enum class Illuminant {
 // Linear sRGB of XYZ: Rec. 709 primaries, D65 white, without adaptation; the digits are those of ITU-R BT.709 as Mitsuba has them.
 glm::dmat3 rgb_from_xyz();
 
+// Linear sRGB of a radiance of which ∫ L x̄ȳz̄ dλ is given: divided by ∫ ȳ dλ, as Illuminant::equal_energy does.
+Rgb radiance_to_rgb(const Vec3& xyz);
+
 // Colours outside sRGB have negative components.
 Rgb spectrum_to_rgb(const SpectrumTable& s, Illuminant illuminant);
 

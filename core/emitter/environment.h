@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/emitter/environment_map.h"
+#include "core/emitter/sun_sky.h"
 #include "core/sampling/warp.h"
 
 #include <variant>
@@ -24,7 +25,7 @@ private:
     Rgb radiance_;
 };
 
-using Environment = std::variant<ConstantEnvironment, EnvironmentMap>;
+using Environment = std::variant<ConstantEnvironment, EnvironmentMap, SunSky>;
 
 // The radiance that arrives from direction w.
 inline Rgb radiance(const Environment& e, const Vec3& w) {

@@ -26,8 +26,7 @@ Beam SpotLight::beam(const Vec3& at, const Surroundings&) const {
 
 // The transform may scale. The angles are those in the light's own space, so the direction is sampled there and then transformed.
 Vec3 SpotLight::sample_direction(const Vec2& u) const {
-    const double z = 1.0 - u.x * (1.0 - std::cos(cutoff_));
-    return glm::normalize(glm::inverse(to_local_) * Vec3(direction_on_circle(u.y) * std::sqrt((1.0 - z) * (1.0 + z)), z));
+    return glm::normalize(glm::inverse(to_local_) * uniform_cone(u, std::cos(cutoff_)));
 }
 
 // dω_local / dω = |det M| / |M ω|³ for local = M ω.

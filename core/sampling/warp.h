@@ -66,6 +66,12 @@ inline Vec3 cosine_hemisphere(const Vec2& u) {
 // pdf 1/(2π) per solid angle, about +z: Archimedes' z, uniform.
 inline Vec3 uniform_hemisphere(const Vec2& u) { return Vec3(direction_on_circle(u.y) * std::sqrt(u.x * (2.0 - u.x)), 1.0 - u.x); }
 
+// pdf 1/(2π (1 − cosα)) per solid angle, within the angle α of +z.
+inline Vec3 uniform_cone(const Vec2& u, double cos_alpha) {
+    const double z = 1.0 - u.x * (1.0 - cos_alpha);
+    return Vec3(direction_on_circle(u.y) * std::sqrt((1.0 - z) * (1.0 + z)), z);
+}
+
 // pdf 1/(4π) per solid angle.
 inline Vec3 uniform_sphere(const Vec2& u) {
     return Vec3(direction_on_circle(u.y) * (2.0 * std::sqrt(u.x * (1.0 - u.x))), 1.0 - 2.0 * u.x);

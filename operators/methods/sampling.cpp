@@ -32,7 +32,7 @@ void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters
         throw InputError(fmt::format("--direct {} cannot find {}, of which the scene has some; take --direct mis or light",
                                      name_of(direct),
                                      emitters.has_delta_lights() ? "lights without extent (directional, point, projector, spot)"
-                                                                 : "light from infinitely far away (constant, envmap)"));
+                                                                 : "light from infinitely far away (constant, envmap, sunsky)"));
 }
 
 template <MakesPaths M>

@@ -73,7 +73,7 @@ PlanPart smooth(const Look& at) {
 }
 PlanPart environment(const Look& at) {
     if (!at.has.has_environment) return left_out("environment", "nothing shines from infinitely far away", nothing_more);
-    return needed("environment", at.has.has_constant_environment ? "the same from everywhere" : "a picture of all directions");
+    return needed("environment", at.has.has_constant_environment ? "the same from everywhere" : "not the same from all directions");
 }
 PlanPart delta_lights(const Look& at) {
     if (at.has.has_delta_lights) return needed("lights without extent", "some light is a point, a beam or a slide");

@@ -78,7 +78,7 @@ TEST_F(RenderLights, WhatCannotFindALightIsRefused) {
               "spot), of which the scene has some; take --method walk, matrix or gather\n");
     write_floor("<emitter type='constant'/>");
     EXPECT_EQ(refusal("surfaces"),
-              "--direct surfaces cannot find light from infinitely far away (constant, envmap), of which the scene "
+              "--direct surfaces cannot find light from infinitely far away (constant, envmap, sunsky), of which the scene "
               "has some; take --direct mis or light\n");
 }
 

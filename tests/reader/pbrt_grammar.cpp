@@ -138,9 +138,10 @@ TEST_F(PbrtGrammar, UnknownNames) {
         "'radius'?");
     EXPECT_EQ(pbrt_error("Attribute \"lihgt\" \"float scale\" 1"),
               "scene.pbrt:3:1: Attribute 'lihgt'; allowed: light, material, medium, shape, texture; did you mean 'light'?");
-    EXPECT_EQ(pbrt_error("LightSource \"distand\""),
-              "scene.pbrt:3:1: light type 'distand' is not supported; allowed: distant, infinite, point, spot; did you mean "
-              "'distant'?");
+    EXPECT_EQ(
+        pbrt_error("LightSource \"distand\""),
+        "scene.pbrt:3:1: light type 'distand' is not supported; allowed: distant, goniometric, infinite, point, spot; did you mean "
+        "'distant'?");
     EXPECT_EQ(pbrt_file_error("Film \"rbg\" WorldBegin"),
               "scene.pbrt:1:1: film type 'rbg' is not supported; allowed: gbuffer, rgb; did you mean 'rgb'?");
     EXPECT_EQ(
@@ -177,8 +178,8 @@ TEST_F(PbrtGrammar, UnknownNames) {
     EXPECT_EQ(pbrt_error("ObjectInstance \"x\""), "scene.pbrt:3:1: there is no object 'x'");
     EXPECT_EQ(pbrt_error("CoordSysTransform \"x\""), "scene.pbrt:3:1: there is no coordinate system 'x'");
     EXPECT_EQ(pbrt_error("Include \"none.pbrt\""), "scene.pbrt:3:1: there is no file 'none.pbrt'; looked in: .");
-    EXPECT_EQ(pbrt_error("LightSource \"goniometric\""),
-              "scene.pbrt:3:1: light type 'goniometric' is not supported; allowed: distant, infinite, point, spot");
+    EXPECT_EQ(pbrt_error("LightSource \"projection\""),
+              "scene.pbrt:3:1: light type 'projection' is not supported; allowed: distant, goniometric, infinite, point, spot");
     EXPECT_EQ(pbrt_file_error("Camera \"spherical\" WorldBegin"),
               "scene.pbrt:1:1: camera type 'spherical' is not supported; allowed: orthographic, perspective");
     EXPECT_EQ(pbrt_file_error("Film \"spectral\" WorldBegin"),

@@ -200,4 +200,52 @@ TEST_F(PbrtLights, OctahedralPictures) {
               "scene.pbrt:3:24: portal of light 'infinite' is not supported: pbrt has no light from beside it");
 }
 
+// Six projectors, of which each direction gets light from one. In pbrt the picture's middle is +y, and its y axis is +z.
+TEST_F(PbrtLights, Goniometric) {
+    write("lamp.ppm", "P3 2 2 255\n255 255 255  0 0 0  255 255 0  51 102 153\n");  // means 1, 0, 2/3, 0.4
+    const SceneParts parts =
+        read_pbrt("Translate 1 2 3 LightSource \"goniometric\" \"string filename\" \"lamp.ppm\" \"rgb I\" [2 4 6]");
+    ASSERT_EQ(parts.lights.delta.size(), 6u);
+    EXPECT_EQ(warning(parts), "goniometric light: six projectors, to whose pixels its picture is resampled");
+    const Surroundings around{Vec3(0.0), 10.0};
+    const Vec3 position(1, 2, 3);
+    const auto intensity = [&](const SceneParts& of, const Vec3& w) {
+        Rgb sum(0.0);
+        for (const DeltaLight& light : of.lights.delta) sum += beam(light, position + w * 2.0, around).irradiance;
+        return sum * 4.0 * glm::dot(w, w);
+    };
+    const double mean_byte = std::pow((102.0 / 255.0 + 0.055) / 1.055, 2.4),
+                 dark =
+                     (std::pow((51.0 / 255.0 + 0.055) / 1.055, 2.4) + mean_byte + std::pow((153.0 / 255.0 + 0.055) / 1.055, 2.4)) /
+                     3.0;
+    for (const double y : {0.2, -0.3, 2.0, -2.0})
+        for (const double x : {0.5, 1.0}) {
+            const auto w = [&](double sx, double sz) { return glm::normalize(Vec3(sx * x, y, sz * 0.7)); };
+            expect_near(intensity(parts, w(-1, -1)), Rgb(2, 4, 6), 2e-4, "−x −z");
+            expect_near(intensity(parts, w(1, -1)), Rgb(0.0), 1e-9, "+x −z");
+            expect_near(intensity(parts, w(-1, 1)), Rgb(2, 4, 6) * (2.0 / 3.0), 2e-4, "−x +z");
+            expect_near(intensity(parts, w(1, 1)), Rgb(2, 4, 6) * dark, 2e-4, "+x +z");
+        }
+    // π times the brightness, the mean of the channels; with a power of 5 the luminance of I is 5 / (4π mean) of that.
+    const auto power = [&](const SceneParts& of) {
+        double sum = 0.0;
+        for (const DeltaLight& light : of.lights.delta) sum += pi * brightness(light, around);
+        return sum;
+    };
+    const double mean = (1.0 + 2.0 / 3.0 + dark) / 4.0;
+    EXPECT_NEAR(power(parts), 4.0 * 4.0 * pi * mean, 1e-3 * 16.0 * pi * mean);
+    const SceneParts given = read_pbrt(
+        "LightSource \"goniometric\" \"string filename\" \"lamp.ppm\" \"rgb I\" [1 1 1] \"float power\" 5 \"float scale\" 1");
+    EXPECT_NEAR(power(given), 5.0, 5e-3);
+
+    EXPECT_EQ(pbrt_error("LightSource \"goniometric\""),
+              "scene.pbrt:3:1: light 'goniometric' has no filename, expected a picture of its directions");
+    write("wide.ppm", "P3 2 1 255\n0 0 0 1 1 1\n");
+    EXPECT_EQ(pbrt_error("LightSource \"goniometric\" \"string filename\" \"wide.ppm\"").substr(0, 60),
+              "scene.pbrt:3:27: 'wide.ppm' is 2×1 pixels, expected a squar");
+    write("black.ppm", "P3 1 1 255\n0 0 0\n");
+    EXPECT_EQ(pbrt_error("LightSource \"goniometric\" \"string filename\" \"black.ppm\" \"float power\" 5"),
+              "scene.pbrt:3:27: 'black.ppm' has no light");
+}
+
 }  // namespace neumann::pbrt_lights_test

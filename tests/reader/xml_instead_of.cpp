@@ -18,12 +18,14 @@ TEST_F(XmlInsteadOf, Materials) {
 }
 
 TEST_F(XmlInsteadOf, Lights) {
-    for (const std::string type : {"sunsky", "sky", "timed_sunsky"})
-        EXPECT_EQ(error("<emitter type='" + type + "'/>"),
-                  "scene.xml:2:10: emitter type '" + type +
-                      "' is not supported: a picture of the sky can stand for it, written as OpenEXR and read by emitter 'envmap'");
+    for (const std::string type : {"avg_sunsky", "timed_sunsky"})
+        EXPECT_EQ(
+            error("<emitter type='" + type + "'/>"),
+            "scene.xml:2:10: emitter type '" + type + "' is not supported: 'sunsky' is the sky and the sun of one time of day");
     EXPECT_EQ(error("<emitter type='sun'/>"),
-              "scene.xml:2:10: emitter type 'sun' is not supported: a 'directional' light can stand for it");
+              "scene.xml:2:10: emitter type 'sun' is not supported: 'sunsky' with sky_scale 0 is the sun alone");
+    EXPECT_EQ(error("<emitter type='sky'/>"),
+              "scene.xml:2:10: emitter type 'sky' is not supported: 'sunsky' with sun_scale 0 is the sky alone");
     EXPECT_EQ(
         error("<shape type='disk'>\n<emitter type='directionalarea'/></shape>"),
         "scene.xml:3:10: emitter type 'directionalarea' is not supported: its light leaves in one direction from each point, so no "

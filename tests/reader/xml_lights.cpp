@@ -1,5 +1,8 @@
 // Lights that stand on no shape: what the reader makes of them, and what it refuses.
+#include "core/emitter/sun_position.h"
+#include "core/emitter/sun_radiance.h"
 #include "core/image/image_io.h"
+#include "core/reader/convert_scene.h"
 #include "core/sampling/warp.h"
 #include "tests/reader/xml_scene_files.h"
 
@@ -160,6 +163,104 @@ TEST_F(XmlLights, EnvironmentMap) {
               "scene.xml:3:25: pixel (1, 1) of 'negative.exr' is (-4, -4, -4), expected numbers that are not negative");
     EXPECT_EQ(light_error("envmap", file + "<transform name='to_world'><scale value='2'/></transform>"),
               "scene.xml:3:40: to_world of emitter 'envmap' scales or shears, expected rotations and translations");
+}
+
+// Above +z, or where to_world turns it.
+TEST_F(XmlLights, SunSky) {
+    const auto around = [&](const std::string& inside) { return light("sunsky", inside).lights.environment.value(); };
+    const auto warnings = [&](const std::string& inside) { return light("sunsky", inside).warnings.counts(); };
+    const std::string preetham = "sunsky: the sun is that of Preetham, Shirley and Smits (1999) in place of Mitsuba's tables",
+                      upwards = "<vector name='sun_direction' x='0' y='3' z='4'/>", no_sun = "<float name='sun_scale' value='0'/>";
+    const Vec3 sun(0.0, 0.6, 0.8), elsewhere = glm::normalize(Vec3(1, 2, 3));
+    const double elevation = std::asin(0.8);
+
+    const SkyModel sky(3.0, Rgb(0.3), elevation);
+    const auto expect_near = [](const Rgb& a, const Rgb& b) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-9 * (1.0 + b[c]));
+    };
+    expect_near(surrounds("sunsky", upwards, elsewhere), sky.radiance(elsewhere.z, glm::dot(elsewhere, sun)));
+    expect_near(surrounds("sunsky", upwards + no_sun, sun), sky.radiance(0.8, 1.0));
+    const Rgb disc = spectrum_to_rgb(sun_spectrum(3.0, elevation), Illuminant::equal_energy);
+    expect_near(surrounds("sunsky", upwards, sun), disc + sky.radiance(0.8, 1.0));
+    EXPECT_EQ(surrounds("sunsky", upwards, {0, 0, -1}), Rgb(0.0));
+    // The same power from a larger disc, and the scales.
+    const double wider = (1.0 - std::cos(0.5 * glm::radians(sun_angle))) / (1.0 - std::cos(glm::radians(5.0)));
+    expect_near(
+        surrounds("sunsky",
+                  upwards +
+                      "<float name='sun_aperture' value='10'/><float name='sun_scale' value='3'/>"
+                      "<float name='sky_scale' value='2'/><float name='turbidity' value='5'/><rgb name='albedo' value='0.1'/>",
+                  sun),
+        spectrum_to_rgb(sun_spectrum(5.0, elevation), Illuminant::equal_energy) * (3.0 * wider) +
+            SkyModel(5.0, Rgb(0.1), elevation).radiance(0.8, 1.0) * 2.0);
+    // Upright in a space where +y is up; the sun's direction is the world's.
+    const std::string y_up = "<transform name='to_world'><rotate x='1' angle='-90'/></transform>";
+    expect_near(surrounds("sunsky", y_up + "<vector name='sun_direction' x='0' y='4' z='-3'/>" + no_sun, {0, 1, 0}),
+                sky.radiance(1.0, 0.8));
+
+    // Tokyo on an afternoon, if nothing is said; north is −x and east −y.
+    const SunPosition tokyo = sun_position({35.6894, 139.6917, 9.0, std::chrono::year(2010) / 7 / 10, 15.0, 0.0, 0.0});
+    const Vec3 there(-std::sin(tokyo.zenith_angle) * std::cos(tokyo.azimuth),
+                     -std::sin(tokyo.zenith_angle) * std::sin(tokyo.azimuth), std::cos(tokyo.zenith_angle));
+    EXPECT_GT(radiance(around(""), there).r, 1e4);
+    EXPECT_LT(radiance(around(""), glm::normalize(there + Vec3(0, 0, 0.01))).r, 1e2);
+    EXPECT_GT(there.x, 0.0);
+    EXPECT_GT(there.y, 0.0);
+    const std::string elsewhen =
+        "<float name='latitude' value='-33.9'/><float name='longitude' value='18.4'/><float name='timezone' value='2'/>"
+        "<integer name='year' value='2012'/><integer name='month' value='2'/><integer name='day' value='29'/>"
+        "<integer name='hour' value='9'/><float name='minute' value='30'/><float name='second' value='15'/>";
+    const SunPosition cape = sun_position({-33.9, 18.4, 2.0, std::chrono::year(2012) / 2 / 29, 9.0, 30.0, 15.0});
+    EXPECT_GT(radiance(around(elsewhen), {-std::sin(cape.zenith_angle) * std::cos(cape.azimuth),
+                                          -std::sin(cape.zenith_angle) * std::sin(cape.azimuth), std::cos(cape.zenith_angle)})
+                  .r,
+              1e4);
+
+    EXPECT_EQ(warnings(upwards), (Warnings::Counts{{preetham, 1}}));
+    EXPECT_EQ(warnings(upwards + no_sun), (Warnings::Counts{}));
+    EXPECT_EQ(warnings("<vector name='sun_direction' x='1' y='0' z='0'/>"),
+              (Warnings::Counts{{preetham, 1}, {"sunsky: the sun is redder than the colours of sRGB, cut to them", 1}}));
+    const std::string at_night = "<vector name='sun_direction' x='1' y='0' z='-0.1'/>";
+    EXPECT_EQ(
+        warnings(at_night),
+        (Warnings::Counts{{"sunsky: the sun is below the horizon, and there is no light from the sky either, as in Mitsuba", 1}}));
+    EXPECT_EQ(largest(around(at_night)), Rgb(0.0));
+    EXPECT_EQ(largest(around(upwards + no_sun + "<float name='sky_scale' value='0'/>")), Rgb(0.0));
+}
+
+TEST_F(XmlLights, ASunSkyIsConvertedAsItCame) {
+    write("scene.xml",
+          scene("<emitter type='sunsky'><float name='turbidity' value='4'/><integer name='hour' value='9'/></emitter>"));
+    const std::string xml = convert_scene(path("scene.xml")).xml;
+    EXPECT_NE(xml.find("<emitter type=\"sunsky\">"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<float name=\"turbidity\" value=\"4\" />"), std::string::npos) << xml;
+    EXPECT_NE(xml.find("<integer name=\"hour\" value=\"9\" />"), std::string::npos) << xml;
+}
+
+TEST_F(XmlLights, MistakesInSunSky) {
+    EXPECT_EQ(light_error("sunsky", "<float name='turbidity' value='0.5'/>"),
+              "scene.xml:3:25: turbidity is 0.5, expected at least 1 and at most 10");
+    EXPECT_EQ(light_error("sunsky", "<rgb name='albedo' value='0.5, 1.5, 0'/>"),
+              "scene.xml:3:20: albedo is (0.5, 1.5, 0), expected at most 1 in each channel");
+    EXPECT_EQ(light_error("sunsky", "<vector name='sun_direction' value='0 0 1'/><float name='hour' value='9'/>"),
+              "scene.xml:3:30: both sun_direction and hour are given, expected the sun's direction, or a time and a place");
+    EXPECT_EQ(light_error("sunsky", "<vector name='sun_direction' value='0'/>"), "scene.xml:3:30: the direction is zero");
+    EXPECT_EQ(light_error("sunsky", "<float name='sun_scale' value='-1'/>"),
+              "scene.xml:3:25: sun_scale is -1, expected at least 0");
+    EXPECT_EQ(light_error("sunsky", "<float name='sky_scale' value='-1'/>"),
+              "scene.xml:3:25: sky_scale is -1, expected at least 0");
+    EXPECT_EQ(light_error("sunsky", "<float name='sun_aperture' value='0'/>"),
+              "scene.xml:3:28: sun_aperture is 0, expected more than 0 and less than 180 degrees");
+    EXPECT_EQ(light_error("sunsky", "<boolean name='complex_sun' value='true'/>"),
+              "scene.xml:3:29: complex_sun is true, expected false: the sun's disc has the same radiance everywhere");
+    EXPECT_EQ(light_error("sunsky", "<float name='latitude' value='91'/>"),
+              "scene.xml:3:24: latitude is 91, expected degrees from -90 to 90");
+    EXPECT_EQ(light_error("sunsky", "<integer name='month' value='2'/><integer name='day' value='30'/>"),
+              "scene.xml:3:54: there is no day 30 of month 2 of year 2010");
+    EXPECT_EQ(light_error("sunsky", "<integer name='month' value='13'/>"),
+              "scene.xml:2:1: there is no day 10 of month 13 of year 2010");
+    EXPECT_EQ(light_error("sunsky", "<transform name='to_world'><scale value='2'/></transform>"),
+              "scene.xml:3:1: to_world of emitter 'sunsky' scales or shears, expected rotations and translations");
 }
 
 // Bytes are decoded as sRGB unless they are raw; alpha does not count.

@@ -210,4 +210,46 @@ TEST_F(XmlUpgrade, ColoursOfVertices) {
     EXPECT_EQ(parts.warnings.counts(), (Warnings::Counts{{"old scene file: texture 'vertexcolors' taken as 'mesh_attribute'", 1}}));
 }
 
+// Mitsuba 0.6 has the sky's +y up, the north at −z and the east at +x.
+TEST_F(XmlUpgrade, SkyAndSun) {
+    const std::string sensor = "<sensor type='perspective'><float name='fov' value='40'/></sensor>";
+    const auto surroundings = [&](const std::string& version, const std::string& type, const std::string& inside) {
+        return read_version(version, sensor + "<emitter type='" + type + "'>" + inside + "</emitter>").lights.environment.value();
+    };
+    const auto expect_near = [](const Rgb& a, const Rgb& b) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-9 * (1.0 + b[c]));
+    };
+    const Vec3 sun(0.0, 0.8, 0.6), elsewhere = glm::normalize(Vec3(1, 3, 2));
+    const SkyModel sky(3.0, Rgb(0.2), std::asin(0.8));
+    const std::string direction = "<vector name='sunDirection' x='0' y='0.8' z='0.6'/>";
+    const Rgb there = sky.radiance(elsewhere.y, glm::dot(elsewhere, sun));
+    expect_near(radiance(surroundings("0.6.0", "sunsky", direction), elsewhere), there);
+    expect_near(radiance(surroundings("0.6.0", "sunsky", direction + "<float name='skyScale' value='3'/>"), elsewhere),
+                there * 3.0);
+    const Environment alone = surroundings("0.5.0", "sky",
+                                           direction + "<float name='scale' value='2'/><integer name='resolution' value='9'/>"),
+                      other = surroundings("0.5.0", "sun", direction + "<float name='sunRadiusScale' value='10'/>");
+    expect_near(radiance(alone, sun), sky.radiance(0.8, 1.0) * 2.0);
+    EXPECT_EQ(radiance(other, elsewhere), Rgb(0.0));
+    EXPECT_GT(radiance(other, glm::normalize(sun + Vec3(0.03, 0, 0))).r, 50.0);
+    EXPECT_EQ(radiance(other, glm::normalize(sun + Vec3(0.05, 0, 0))), Rgb(0.0));
+
+    // A June morning at 45° north: the sun is in the east, at +x, and somewhat in the north, at −z.
+    const Environment morning =
+        surroundings("0.6.0", "sunsky",
+                     "<float name='latitude' value='45'/><float name='longitude' value='0'/><float name='timezone' value='0'/>"
+                     "<integer name='month' value='6'/><integer name='day' value='21'/><float name='hour' value='6'/>");
+    const Vec3 dir(std::cos(0.27) * std::cos(0.3), std::sin(0.27), -std::cos(0.27) * std::sin(0.3));
+    EXPECT_GT(radiance(morning, dir).g, 2.0 * radiance(morning, {-dir.x, dir.y, dir.z}).g);
+    EXPECT_GT(radiance(morning, dir).g, radiance(morning, {dir.x, dir.y, -dir.z}).g);
+
+    const SceneParts parts = read_version("0.6.0", sensor + "<emitter type='sky'/>");
+    EXPECT_EQ(parts.warnings.counts(), (Warnings::Counts{{"old scene file: emitter 'sky' taken as 'sunsky'", 1},
+                                                         {"old scene file: emitter 'sunsky' turned, for its +y was up", 1}}));
+    EXPECT_EQ(version_error("0.6.0", sensor + "<emitter type='sun'>\n<float name='sunRadiusScale' value='0'/></emitter>"),
+              "scene.xml:3:30: sunRadiusScale of emitter 'sun' is 0, expected more than 0");
+    EXPECT_EQ(version_error("0.6.0", sensor + "<emitter type='sky'>\n<float name='stretch' value='2'/></emitter>").substr(0, 62),
+              "scene.xml:3:8: unknown parameter 'stretch' of emitter 'sunsky'");
+}
+
 }  // namespace neumann::xml_upgrade_test

@@ -28,7 +28,7 @@ TEST_F(XmlValueErrors, UnknownTypes) {
               "roughdielectric, roughplastic, thindielectric, twosided, ward");
     EXPECT_EQ(error("<emitter type=\"glow\"/>"),
               "scene.xml:2:10: emitter type 'glow' is not supported; allowed: area, constant, directional, envmap, point, "
-              "projector, spot");
+              "projector, spot, sunsky");
     EXPECT_EQ(error("<integrator type=\"gather\"/>"),
               "scene.xml:2:13: integrator type 'gather' is not supported; allowed: aov, direct, moment, path, ptracer, volpath, "
               "volpathmis");

@@ -25,6 +25,15 @@ double read_radius_of(Parameters& p) {
     return 1.0;
 }
 
+constexpr double turn = 2.0 * std::numbers::pi, almost_all = 1.0 - 1e-6;
+
+// In radians.
+double read_phi_max(Parameters& p) {
+    const double degrees = p.number("phimax", 360.0);
+    if (!(degrees > 0.0)) p.complain("phimax", fmt::format("phimax of {} is {}, expected more than 0", p.title(), degrees));
+    return std::min(degrees, 360.0) / 360.0 * turn;
+}
+
 void add_to_world(Element& e, const Mat4& m, const Location& place) {
     if (m != Mat4(1.0)) add_matrix(e, "to_world", m, place);
 }
@@ -40,21 +49,30 @@ Shapes::Form Shapes::make_form(ShapeEntity& s) {
                   "; " + allowed_instead(s.type, shape_types), "left out");
 }
 
-// Parts of round shapes are refused.
-void Shapes::check_full(Parameters& p, const std::string& name, double value) {
-    const double given = p.number(name, value);
-    const bool is_full = name == "zmin" ? given <= value : given >= value;
-    if (std::abs(given - value) > 1e-6 * std::abs(value) && !is_full)
-        p.refuse(name, fmt::format("{} of {} is {}", name, p.title(), given),
-                 fmt::format(", expected {}: only whole ones are supported", value));
+Shapes::Form Shapes::make_part(ShapeEntity& s, MadeMesh mesh, double area) {
+    importer_.warnings.add("a part of a round shape: a mesh, cut 256 times around");
+    Form form{make_object("shape", "ply", s.place())};
+    form.mesh = std::move(mesh);
+    add_to_world(form.element, s.to_world, s.place());
+    form.area = area;
+    return form;
 }
 
 Shapes::Form Shapes::make_sphere(ShapeEntity& s) {
     Parameters& p = s.parameters;
-    const double radius = read_radius_of(p);
-    check_full(p, "zmin", -radius);
-    check_full(p, "zmax", radius);
-    check_full(p, "phimax", 360.0);
+    const double radius = read_radius_of(p), a = p.number("zmin", -radius), b = p.number("zmax", radius), phi_max = read_phi_max(p);
+    const double low = std::clamp(std::min(a, b), -radius, radius), high = std::clamp(std::max(a, b), -radius, radius);
+    if (low == high) p.complain("zmax", fmt::format("between zmin and zmax of {}, {} and {}, nothing is left", p.title(), a, b));
+    if (low > -radius * almost_all || high < radius * almost_all || phi_max < turn * almost_all) {
+        const double from = std::acos(low / radius), to = std::acos(high / radius);  // angles from +z
+        const auto profile = [&](double v) {
+            const double theta = v == 1.0 ? to : from + v * (to - from);
+            // Exactly on the axis at the poles.
+            const Vec2 n(theta == 0.0 || theta == std::numbers::pi ? 0.0 : std::sin(theta), std::cos(theta));
+            return Profile{n * radius, n};
+        };
+        return make_part(s, make_surface_of_revolution(profile, cuts_of(from - to), phi_max), phi_max * radius * (high - low));
+    }
     Form form{make_object("shape", "sphere", s.place()), Coordinates::sphere};
     add_float(form.element, "radius", radius, p.place("radius"));
     add_to_world(form.element, s.to_world, s.place());
@@ -65,11 +83,15 @@ Shapes::Form Shapes::make_sphere(ShapeEntity& s) {
 
 Shapes::Form Shapes::make_disk(ShapeEntity& s) {
     Parameters& p = s.parameters;
-    const double radius = read_radius_of(p), height = p.number("height", 0.0);
-    if (const double inner = p.number("innerradius", 0.0); inner != 0.0)
-        p.refuse("innerradius", fmt::format("innerradius of {} is {}", p.title(), inner),
-                 ", expected 0: only whole ones are supported");
-    check_full(p, "phimax", 360.0);
+    const double radius = read_radius_of(p), height = p.number("height", 0.0), inner = p.number("innerradius", 0.0),
+                 phi_max = read_phi_max(p);
+    if (!(inner >= 0.0 && inner < radius))
+        p.complain("innerradius",
+                   fmt::format("innerradius of {} is {}, expected at least 0 and less than radius, {}", p.title(), inner, radius));
+    if (inner > 0.0 || phi_max < turn * almost_all) {
+        const auto profile = [&](double v) { return Profile{{radius + v * (inner - radius), height}, {0.0, 1.0}}; };
+        return make_part(s, make_surface_of_revolution(profile, 1, phi_max), 0.5 * phi_max * (radius * radius - inner * inner));
+    }
     Form form{make_object("shape", "disk", s.place()), Coordinates::disk};
     const Mat4 own = glm::scale(glm::translate(Mat4(1.0), Vec3(0.0, 0.0, height)), Vec3(radius, radius, 1.0));
     add_to_world(form.element, s.to_world * own, s.place());
@@ -81,15 +103,19 @@ Shapes::Form Shapes::make_disk(ShapeEntity& s) {
 
 Shapes::Form Shapes::make_cylinder(ShapeEntity& s) {
     Parameters& p = s.parameters;
-    const double radius = read_radius_of(p), a = p.number("zmin", -1.0), b = p.number("zmax", 1.0);
+    const double radius = read_radius_of(p), a = p.number("zmin", -1.0), b = p.number("zmax", 1.0), phi_max = read_phi_max(p);
     if (a == b) p.complain("zmax", fmt::format("zmin and zmax of {} are both {}", p.title(), a));
-    check_full(p, "phimax", 360.0);
+    const double low = std::min(a, b), high = std::max(a, b);
+    if (phi_max < turn * almost_all) {
+        const auto profile = [&](double v) { return Profile{{radius, low + v * (high - low)}, {1.0, 0.0}}; };
+        return make_part(s, make_surface_of_revolution(profile, 1, phi_max), phi_max * radius * (high - low));
+    }
     Form form{make_object("shape", "cylinder", s.place())};
-    add_point(form.element, "p0", {0.0, 0.0, std::min(a, b)}, p.place("zmin"));
-    add_point(form.element, "p1", {0.0, 0.0, std::max(a, b)}, p.place("zmax"));
+    add_point(form.element, "p0", {0.0, 0.0, low}, p.place("zmin"));
+    add_point(form.element, "p1", {0.0, 0.0, high}, p.place("zmax"));
     add_float(form.element, "radius", radius, p.place("radius"));
     add_to_world(form.element, s.to_world, s.place());
-    form.area = 2.0 * std::numbers::pi * radius * std::abs(b - a);
+    form.area = turn * radius * (high - low);
     return form;
 }
 

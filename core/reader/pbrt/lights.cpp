@@ -5,6 +5,7 @@
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
 #include "core/reader/pbrt/find_file.h"
+#include "core/reader/pbrt/goniometric.h"
 #include "core/reader/pbrt/light_scale.h"
 #include "core/reader/pbrt/octahedral.h"
 #include "core/reader/pbrt/rigid.h"
@@ -22,7 +23,7 @@ namespace {
 
 using std::numbers::pi;
 
-const std::vector<std::string> light_types = {"distant", "infinite", "point", "spot"};
+const std::vector<std::string> light_types = {"distant", "goniometric", "infinite", "point", "spot"};
 
 Vec3 to_world_point(const Entity& e, const Vec3& p) { return Vec3(e.to_world * glm::dvec4(p, 1.0)); }
 Vec3 to_world_vector(const Entity& e, const Vec3& v) { return Vec3(e.to_world * glm::dvec4(v, 0.0)); }
@@ -96,7 +97,8 @@ Element make_spot(Entity& e, Importer& importer) {
     return light;
 }
 
-Element make_picture_light(Entity& e, const std::string& filename, double scale, double illuminance, Importer& importer) {
+// Of all directions, in pbrt's octahedral mapping.
+Picture read_square(const Entity& e, const std::string& filename, Importer& importer) {
     const Picture picture = find_picture(filename, e.parameters.place("filename"), importer);
     const std::shared_ptr<const Texels> texels = importer.read_picture(picture.path);
     if (texels->width != texels->height)
@@ -109,6 +111,11 @@ Element make_picture_light(Entity& e, const std::string& filename, double scale,
     if (texels->width > max_size)
         throw InputError(e.parameters.place("filename"),
                          fmt::format("'{}' is {} pixels wide, expected at most {}", printable(filename), texels->width, max_size));
+    return picture;
+}
+
+Element make_picture_light(Entity& e, const std::string& filename, double scale, double illuminance, Importer& importer) {
+    const Picture picture = read_square(e, filename, importer);
     if (illuminance > 0.0) {
         const double own = illuminance_of(picture, importer);
         if (!(own > 0.0))
@@ -139,11 +146,33 @@ Element make_infinite(Entity& e, Importer& importer) {
     return light;
 }
 
-Element make_light(Entity& e, Importer& importer) {
-    if (e.type == "point") return make_point(e, importer);
-    if (e.type == "distant") return make_distant(e, importer);
-    if (e.type == "spot") return make_spot(e, importer);
-    if (e.type == "infinite") return make_infinite(e, importer);
+std::vector<Element> make_goniometric(Entity& e, Importer& importer) {
+    Parameters& p = e.parameters;
+    Rgb intensity = read_colour(p, "I", importer);
+    const double power = read_positive(p, "power");
+    const std::optional<std::string> filename = p.text("filename");
+    if (!filename) p.complain("filename", fmt::format("{} has no filename, expected a picture of its directions", p.title()));
+    finish(p);
+    const Picture picture = read_square(e, *filename, importer);
+    if (power > 0.0) {
+        double sum = 0.0;
+        const std::size_t count = for_each_texel(picture, importer, [&](const Rgb& c) { sum += (c.r + c.g + c.b) / 3.0; });
+        if (!(sum > 0.0)) throw InputError(p.place("filename"), fmt::format("'{}' has no light", printable(*filename)));
+        intensity *= power / (4.0 * pi * sum / static_cast<double>(count));
+    }
+    importer.warnings.add("goniometric light: six projectors, to whose pixels its picture is resampled");
+    // The picture's +y is up, as pbrt has it.
+    Mat4 swap_y_and_z(1.0);
+    std::swap(swap_y_and_z[1], swap_y_and_z[2]);
+    return make_projectors(picture, intensity, without_scale(e.to_world * swap_y_and_z).matrix, e.place(), importer);
+}
+
+std::vector<Element> make_light(Entity& e, Importer& importer) {
+    if (e.type == "point") return {make_point(e, importer)};
+    if (e.type == "distant") return {make_distant(e, importer)};
+    if (e.type == "spot") return {make_spot(e, importer)};
+    if (e.type == "infinite") return {make_infinite(e, importer)};
+    if (e.type == "goniometric") return make_goniometric(e, importer);
     throw Unknown(e.place(), fmt::format("light type '{}' is not supported", printable(e.type)),
                   "; " + allowed_instead(e.type, light_types), "left out");
 }
@@ -152,7 +181,10 @@ Element make_light(Entity& e, Importer& importer) {
 
 std::vector<Element> make_lights(PbrtScene& scene, Importer& importer) {
     std::vector<Element> lights;
-    for (Entity& e : scene.lights) importer.problems.attempt(e.place(), [&] { lights.push_back(make_light(e, importer)); });
+    for (Entity& e : scene.lights)
+        importer.problems.attempt(e.place(), [&] {
+            for (Element& light : make_light(e, importer)) lights.push_back(std::move(light));
+        });
     return lights;
 }
 

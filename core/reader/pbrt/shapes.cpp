@@ -101,7 +101,7 @@ void Shapes::add_lights(const ShapeEntity& s, const Form& form, const MadeMateri
         to.push_back(finished(s, part, own, emitter));
         if (light->two_sided) to.push_back(finished(s, behind(s, part), own, emitter, true));
     };
-    if (!form.mesh || !light->power) {
+    if (form.is_round() || !light->power) {
         add_sides(form, form.area);
         return;
     }
@@ -165,12 +165,15 @@ Shapes::Form Shapes::behind(const ShapeEntity& s, const Form& form) {
                              const Vec3 n = across(mesh, t);
                              return glm::dot(n, normal) >= (1.0 - 1e-6) * length_of(n) * length_of(normal);
                          });
-    if (!is_flat || !back.mesh->file.normals.empty())
+    if (!is_flat || (!back.mesh->file.normals.empty() && !form.is_round()))
         throw InputError(
             s.place(),
             "an area light that shines from both sides is on a mesh that is not flat or has normals, expected a flat shape "
             "or a sphere");
-    const Vec3 step = glm::normalize(normal) * (length_of(most - least) * thickness * (s.reversed ? 1.0 : -1.0));
+    const Vec3 step = glm::normalize(normal) * (length_of(most - least) * thickness *
+                                                (form.is_round() ? -front
+                                                 : s.reversed    ? 1.0
+                                                                 : -1.0));
     for (Vec3& v : mesh.vertices) v += step;
     return back;
 }
@@ -182,7 +185,7 @@ Element Shapes::finished(const ShapeEntity& s, const Form& form, const MadeMater
     if (form.mesh) {
         const MeshFile& file = form.mesh->file;
         const bool has_normals = !file.normals.empty();
-        if (has_normals) flipped = s.reversed;  // normals stay on their side
+        if (has_normals && !form.is_round()) flipped = s.reversed;  // normals stay on their side
         const bool lacks_coordinates = material.needs_coordinates && file.mesh.uv.empty();
         add_string(e, "filename", add_mesh(s, lacks_coordinates ? with_coordinates(file) : file), s.place());
         if (!has_normals) add_boolean(e, "face_normals", true, s.place());

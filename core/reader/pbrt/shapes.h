@@ -26,7 +26,8 @@ private:
         Element element;
         Coordinates coordinates = Coordinates::same;
         std::optional<MadeMesh> mesh = {};              // of those that are meshes; the element has no file name then
-        double area = 0.0, radius = 0.0, height = 0.0;  // of the others, in their own space
+        double area = 0.0, radius = 0.0, height = 0.0;  // of round shapes, in their own space
+        bool is_round() const { return area > 0.0; }
     };
 
     // Adds the elements of a shape: none for what cannot be seen, and several for some lights.
@@ -36,7 +37,8 @@ private:
     Form make_disk(ShapeEntity& s);
     Form make_cylinder(ShapeEntity& s);
     Form make_mesh(ShapeEntity& s);
-    void check_full(Parameters& p, const std::string& name, double value);
+    // Of a round shape, of this area in its own space.
+    Form make_part(ShapeEntity& s, MadeMesh mesh, double area);
     void add_lights(const ShapeEntity& s, const Form& form, const MadeMaterial& material, std::vector<Element>& to);
     // The form behind another one that shines to the other side.
     Form behind(const ShapeEntity& s, const Form& form);

@@ -3,6 +3,7 @@
 #include "core/reader/plugins/color.h"
 #include "core/reader/plugins/light_images.h"
 #include "core/reader/plugins/sensors.h"
+#include "core/reader/plugins/sun_sky.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +14,6 @@ namespace {
 Rgb read_light_color(Properties& p, const std::string& name, const Context& context) {
     const Element* e = p.find(name, color_types);
     return e ? parse_color(p, name, *e, Illuminant::equal_energy, context.warnings) : Rgb(1.0);
-}
-
-double read_scale(Properties& p) {
-    const double scale = p.number("scale").value_or(1.0);
-    if (scale < 0.0) p.complain("scale", fmt::format("scale is {}, expected at least 0", scale));
-    return scale;
 }
 
 void finish(Properties& p) {
@@ -43,7 +38,7 @@ ConstantEnvironment read_constant(Properties& p, const Context& context) {
 
 EnvironmentMap read_envmap(Properties& p, const Context& context) {
     const Attribute& filename = p.require("filename", {"string"}).attribute("value");
-    const double scale = read_scale(p);
+    const double scale = read_scale(p, "scale");
     const Mat4 to_world = read_rigid_transform(p);
     p.boolean("mis_compensation");  // how Mitsuba draws directions; changes noise only
     std::optional<Image> read = p.attempt("filename", [&] { return read_light_image(filename, context); });
@@ -97,7 +92,7 @@ ProjectorLight read_projector(Properties& p, const Context& context) {
         const Element& color = p.require("irradiance", color_types);
         slide.emplace(parse_color(p, "irradiance", color, Illuminant::equal_energy, context.warnings));
     }
-    const double scale = read_scale(p);
+    const double scale = read_scale(p, "scale");
     const FieldOfView field = read_field_of_view(p);
     const double half_width = tan_half_width(field.angle, field.axis, slide->aspect());
     const Mat4 to_world = read_rigid_transform(p);
@@ -107,6 +102,12 @@ ProjectorLight read_projector(Properties& p, const Context& context) {
 
 }  // namespace
 
+double read_scale(Properties& p, const std::string& name) {
+    const double scale = p.number(name).value_or(1.0);
+    if (scale < 0.0) p.complain(name, fmt::format("{} is {}, expected at least 0", name, scale));
+    return scale;
+}
+
 void SceneLights::add(const Element& e) {
     const std::string& type = e.attribute("type").value;
     if (type == "area") return;
@@ -115,6 +116,8 @@ void SceneLights::add(const Element& e) {
         set_environment(e, read_constant(p, context_));
     else if (type == "envmap")
         set_environment(e, read_envmap(p, context_));
+    else if (type == "sunsky")
+        set_environment(e, read_sunsky(p, context_));
     else if (type == "point")
         delta_.emplace_back(read_point(p, context_));
     else if (type == "directional")
@@ -124,7 +127,7 @@ void SceneLights::add(const Element& e) {
     else if (type == "projector")
         delta_.emplace_back(read_projector(p, context_));
     else
-        fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot"}, "left out");
+        fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot", "sunsky"}, "left out");
 }
 
 void SceneLights::set_environment(const Element& e, Environment environment) {

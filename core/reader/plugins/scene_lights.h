@@ -1,11 +1,15 @@
-// <emitter> of the kinds without a shape: `constant` and `envmap`, which surround the scene, and `directional`, `point`,
+// <emitter> of the kinds without a shape: `constant`, `envmap` and `sunsky`, which surround the scene, and `directional`, `point`,
 // `projector` and `spot`, which have no extent.
 #pragma once
 
 #include "core/emitter/emitters.h"
 #include "core/reader/plugins/context.h"
+#include "core/reader/xml/properties.h"
 
 namespace neumann::reader {
+
+// A factor of radiance; 1 if it is missing.
+double read_scale(Properties& p, const std::string& name);
 
 class SceneLights {
 public:

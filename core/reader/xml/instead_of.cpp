@@ -13,8 +13,7 @@ struct Plugin {
 
 constexpr std::string_view polarisation = "polarisation is not simulated; without it the picture needs no such plugin",
                            hair = "hair is not simulated", no_media = "media are not simulated, only surfaces",
-                           all_paths = "'path' has the same picture",
-                           sky = "a picture of the sky can stand for it, written as OpenEXR and read by emitter 'envmap'";
+                           all_paths = "'path' has the same picture", sky = "'sunsky' is the sky and the sun of one time of day";
 
 constexpr std::array plugins = {
     Plugin{"animation", "", "nothing moves while a picture is taken"},
@@ -37,9 +36,8 @@ constexpr std::array plugins = {
         "emitter", "directionalarea",
         "its light leaves in one direction from each point, so no camera sees it; a 'directional' light, or an 'area' light, can "
         "stand for it"},
-    Plugin{"emitter", "sky", sky},
-    Plugin{"emitter", "sun", "a 'directional' light can stand for it"},
-    Plugin{"emitter", "sunsky", sky},
+    Plugin{"emitter", "sky", "'sunsky' with sun_scale 0 is the sky alone"},
+    Plugin{"emitter", "sun", "'sunsky' with sky_scale 0 is the sun alone"},
     Plugin{"emitter", "timed_sunsky", sky},
     Plugin{"emitter", "volumelight", no_media},
     Plugin{"film", "specfilm", "pictures are linear RGB; 'hdrfilm' is allowed"},

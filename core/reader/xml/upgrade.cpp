@@ -1,5 +1,6 @@
 #include "core/reader/xml/upgrade.h"
 
+#include "core/emitter/sun_radiance.h"
 #include "core/reader/xml/numbers.h"
 
 #include <fmt/format.h>
@@ -171,6 +172,41 @@ void upgrade_vertex_colors(Element& e, Warnings& warnings) {
     e.children.push_back({"string", {{"name", "name", e.place}, {"value", "vertex_color", e.place}}, {}, e.place});
 }
 
+// The sky and the sun of 0.5 and 0.6 are those of `sunsky` above a darker ground. Their space has +y up, the north at −z and the
+// east at +x, where that of `sunsky` has +z, −x and −y.
+void upgrade_sky(Element& e, Warnings& warnings) {
+    const std::string type = type_or_nothing(e);
+    if (type != "sky" && type != "sun" && type != "sunsky") return;
+    const auto add = [&](const std::string& name, const std::string& value, const Location& place) {
+        if (!find(e, name)) e.children.push_back({"float", {{"name", name, place}, {"value", value, place}}, {}, place});
+    };
+    if (type != "sunsky") rename_type(e, "sunsky", warnings);
+    drop(e, {"resolution"});
+    if (const Element* scale = find(e, "scale"); scale && scale->find("value")) {
+        const Attribute value = scale->attribute("value");
+        drop(e, {"scale"});
+        if (type != "sun") add("sky_scale", value.value, value.place);
+        if (type != "sky") add("sun_scale", value.value, value.place);
+    }
+    if (type == "sky") add("sun_scale", "0", e.place);
+    if (type == "sun") add("sky_scale", "0", e.place);
+    add("albedo", "0.2", e.place);
+    if (const Element* radius = find(e, "sun_radius_scale"); radius && radius->find("value")) {
+        const Attribute value = radius->attribute("value");
+        const double factor = parse_number(value);
+        if (!(factor > 0.0))
+            throw InputError(value.place, fmt::format("sunRadiusScale of emitter '{}' is {}, expected more than 0", type, factor));
+        drop(e, {"sun_radius_scale"});
+        add("sun_aperture", fmt::format("{}", sun_angle * factor), value.place);
+    }
+    Element axes{"matrix", {{"value", "0 -1 0 0  0 0 1 0  1 0 0 0  0 0 0 1", e.place}}, {}, e.place};
+    if (!find(e, "to_world")) e.children.push_back({"transform", {{"name", "to_world", e.place}}, {}, e.place});
+    for (Element& child : e.children)
+        if (const Attribute* name = child.find("name"); name && name->value == "to_world" && child.tag == "transform")
+            child.children.insert(child.children.begin(), axes);
+    warnings.add("old scene file: emitter 'sunsky' turned, for its +y was up");
+}
+
 // `strictNormals` is dropped: Mitsuba 3 has no test for shading normals that disagree with the surface.
 void upgrade_integrator(Element& e, Warnings& warnings) {
     if (drop(e, {"strict_normals"})) warnings.add("old scene file: strictNormals of an integrator left out");
@@ -203,6 +239,7 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
     if (e.tag == "film") upgrade_film(e, warnings);
     if (e.tag == "sampler") upgrade_sampler(e, warnings);
     if (e.tag == "integrator") upgrade_integrator(e, warnings);
+    if (e.tag == "emitter") upgrade_sky(e, warnings);
     if (e.tag == "texture" && type_or_nothing(e) == "bitmap") upgrade_bitmap(e, warnings);
     if (e.tag == "texture" && type_or_nothing(e) == "vertexcolors") upgrade_vertex_colors(e, warnings);
     if (e.tag == "shape") drop(e, {"collapse"});  // several meshes of a file as one, as here
