@@ -1,5 +1,6 @@
 #include "core/reader/plugins/scene_lights.h"
 
+#include "core/reader/plugins/area_lights.h"
 #include "core/reader/plugins/color.h"
 #include "core/reader/plugins/light_images.h"
 #include "core/reader/plugins/sensors.h"
@@ -109,7 +110,7 @@ ProjectorLight read_projector(Properties& p, const Context& context) {
 
 void SceneLights::add(const Element& e) {
     const std::string& type = e.attribute("type").value;
-    if (type == "area") return;
+    if (is_of_shapes(e)) return;
     Properties p(e, context_.objects);
     if (type == "constant")
         set_environment(e, read_constant(p, context_));
@@ -124,7 +125,7 @@ void SceneLights::add(const Element& e) {
     else if (type == "projector")
         delta_.emplace_back(read_projector(p, context_));
     else
-        fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot"}, "left out");
+        fail_type(e, {"area", "constant", "directional", "directionalarea", "envmap", "point", "projector", "spot"}, "left out");
 }
 
 void SceneLights::set_environment(const Element& e, Environment environment) {
