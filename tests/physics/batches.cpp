@@ -27,8 +27,9 @@ SensorOptions camera(Kind kind, const Vec3& from, const Vec3& to) {
 }
 SensorOptions meter(std::uint32_t shape) { return {.kind = Kind::irradiance_meter, .shape = shape}; }
 
+constexpr std::uint32_t ball = 7;  // touches nothing, so that the variance of light joined to it is finite
 constexpr int width = 5, height = 4;
-const std::vector<SensorOptions> sensors = {camera(Kind::perspective, {-0.8, -0.8, 1.5}, {0.3, 0.2, 0.4}), meter(floor),
+const std::vector<SensorOptions> sensors = {camera(Kind::perspective, {-0.8, -0.8, 1.5}, {0.3, 0.2, 0.4}), meter(ball),
                                             camera(Kind::thin_lens, {0.7, -0.8, 0.5}, {0, 0.5, 0.4}),
                                             camera(Kind::orthographic, {-0.7, 0, 1}, {0, 0.1, 0.5})};
 

@@ -133,11 +133,11 @@ TEST(DirectionalAreas, AreFlat) {
     EXPECT_FALSE(is_flat(smooth));
 }
 
-// A beam onto a ball in a room with another lamp.
+// A beam onto the floor of a room and a ball.
 SceneMaker lit_room() {
     SceneMaker maker;
     maker.add(room({-1, -1, 0}, {1, 1, 2}), matte(0.6));
-    maker.add(parallelogram({-0.5, -0.25, 1.9}, {0, 0.5, 0}, {1, 0, 0}), beam_of(M));
+    maker.add(parallelogram({-0.8, -0.6, 1.9}, {0, 1.2, 0}, {1.6, 0, 0}), beam_of(M));
     maker.add(Sphere{{0.3, 0.2, 0.4}, 0.3}, matte(0.8));
     return maker;
 }
@@ -164,7 +164,8 @@ TEST(DirectionalAreasSlow, ByAllDirectStrategies) {
 }
 
 // The mean over the floor is ρ M A / (π · its area), A the lamp's: all of the beam falls on it. Light that was scattered more than
-// once as all methods say, of a floor with a ball in the beam. 5 methods.
+// once as all methods say, on a ball in the beam, which touches nothing: beside a wall, light joined to the meter would have an
+// infinite variance. 5 methods of 1 bounce and 4 of 3.
 TEST(DirectionalAreasSlow, ByAllMethods) {
     SceneMaker open;
     open.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(rho));
@@ -177,18 +178,18 @@ TEST(DirectionalAreasSlow, ByAllMethods) {
     expect_measured(open.make(), methods, std::vector{0.0, rho * M * 0.5 / (4.0 * pi), 0.0}, 1 << 15, 0.02, 0.01);
 
     SceneMaker closed = lit_room();
-    closed.parts.camera = {.kind = SensorOptions::Kind::irradiance_meter, .shape = right};
+    closed.parts.camera = {.kind = SensorOptions::Kind::irradiance_meter, .shape = 7};
     closed.parts.film = one_pixel();
     const Scene scene = closed.make();
-    const BounceSeries walked = measure(scene, method::Walk(), 3, 1 << 15);
+    const BounceSeries walked = measure(scene, method::Walk(), 3, 1 << 16);
     for (const Method& method : std::span(methods).subspan(1)) {
-        const BounceSeries found = measure(scene, method, 3, 1 << 15);
+        const BounceSeries found = measure(scene, method, 3, 1 << 16);
         for (std::size_t i = 1; i <= 3; ++i) {
             const MeanWithError &a = walked.report.bounces[i].mean, &b = found.report.bounces[i].mean;
             const double error = std::hypot(a.standard_error, b.standard_error);
             EXPECT_LE(std::abs(a.mean - b.mean), 4.5 * error + (has_fields(method) ? 0.01 * a.mean : 0.0))
                 << name_of(method) << ", bounce " << i << ": " << a.mean << " and " << b.mean << " ± " << error;
-            EXPECT_LE(error, 0.02 * a.mean) << name_of(method) << ", bounce " << i;
+            EXPECT_LE(error, 0.05 * a.mean) << name_of(method) << ", bounce " << i;
         }
     }
 }
