@@ -1,4 +1,5 @@
 // What takes the picture: sensors, films, filters, samplers, integrators.
+#include "core/reader/convert_scene.h"
 #include "core/sensor/sensor.h"
 #include "tests/reader/xml_scene_files.h"
 
@@ -282,6 +283,26 @@ TEST_F(XmlSensors, Batches) {
     EXPECT_EQ(parts.camera.sensors[1].shape, 1u);
     EXPECT_EQ(parts.film.width, 12);
     EXPECT_EQ(parts.sampler, SamplerKind::independent);
+}
+
+// Written as Mitsuba's XML and read again.
+TEST_F(XmlSensors, AreConverted) {
+    const SceneParts first = read_file(
+        "<scene version='3.0.0'><default name='half' value='6'/><shape type='disk' id='disk'><sensor type='irradiancemeter'/>"
+        "<emitter type='directionalarea'/></shape><sensor type='batch'><ref id='disk'/><sensor type='distant'>"
+        "<shape type='sphere' name='target'/><vector name='direction' x='0' y='1' z='0'/></sensor><film type='hdrfilm'>"
+        "<integer name='width' value='$half'/><rfilter type='box'/></film></sensor></scene>");
+    write("again.xml", convert_scene(path("scene.xml"), {}, false).xml);
+    const SceneParts again = read_scene_parts(path("again.xml"));
+    for (const SceneParts* parts : {&first, &again}) {
+        ASSERT_EQ(parts->camera.sensors.size(), 2u);
+        EXPECT_EQ(parts->camera.sensors[0].kind, SensorOptions::Kind::irradiance_meter);
+        EXPECT_EQ(Vec3(parts->camera.sensors[1].to_world[2]), Vec3(0, 1, 0));
+        EXPECT_EQ(parts->camera.sensors[1].target.index(), 2u);
+        EXPECT_EQ(parts->film.width, 6);
+        ASSERT_EQ(parts->lights.area.size(), 1u);
+        EXPECT_TRUE(parts->lights.area[0].along_normal);
+    }
 }
 
 TEST_F(XmlSensors, MessagesOfBatches) {
