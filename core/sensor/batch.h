@@ -11,7 +11,8 @@ class Sensor;
 
 class Batch {
 public:
-    // The film's width is a multiple of their number.
+    // Where the film's width is no multiple of their number, as that of small trial pictures may be, pictures are stretched a
+    // little.
     Batch(const SensorOptions& options, const Film& film, const Geometry* geometry);
 
     CameraRay ray(const Vec2& position, const Vec2& lens) const;
@@ -23,10 +24,11 @@ public:
 
 private:
     std::size_t at(const Vec2& position) const;
-    Vec2 corner(std::size_t sensor) const { return {static_cast<double>(sensor) * width_, 0.0}; }
+    // The position on the sensor's own film.
+    Vec2 own(std::size_t sensor, const Vec2& position) const;
 
     std::shared_ptr<const std::vector<Sensor>> sensors_;
-    double width_;  // of each part, pixels
+    double width_, stretch_;  // of each part, pixels; the sensor's own width over that
 };
 
 }  // namespace neumann

@@ -88,6 +88,33 @@ TEST(BatchesSlow, ShowThePicturesOfTheirSensors) {
     }
 }
 
+// On a film of 10 columns for 3 sensors, each has a third of it: see() undoes ray(), and counts pixels as it should.
+TEST(Batches, TakeFilmsOfAnyWidth) {
+    SceneMaker maker = lit_room();
+    maker.parts.camera = {.kind = Kind::batch, .sensors = {sensors[0], sensors[2], sensors[3]}};
+    maker.parts.film = {10, height, 0, 0, 10, height, BoxFilter()};
+    const Scene scene = maker.make();
+    for (std::size_t i = 0; i < 3; ++i)
+        for (const double part : {0.1, 0.5, 0.9}) {
+            const Vec2 at((static_cast<double>(i) + part) * 10.0 / 3.0, 1.5), lens(0.3, 0.8);
+            const CameraRay ray = scene.camera.ray(at, lens);
+            const Vec3 p = ray.origin + ray.direction * 0.7;
+            const auto seen = scene.camera.see(p, {(static_cast<double>(i) + lens.x) / 3.0, lens.y});
+            ASSERT_TRUE(seen);
+            EXPECT_NEAR(glm::distance(seen->position, at), 0.0, 1e-9);
+            EXPECT_NEAR(scene.camera.pixels_per_area(ray, p) / seen->pixels_per_area, 1.0, 1e-9);
+            // The area between neighbouring rays, across the middle one.
+            constexpr double h = 1e-4;
+            const auto across = [&](const Vec2& step) {
+                const auto meet = [&](const CameraRay& r) {
+                    return r.origin + r.direction * (glm::dot(p - r.origin, ray.direction) / glm::dot(r.direction, ray.direction));
+                };
+                return (meet(scene.camera.ray(at + step, lens)) - meet(scene.camera.ray(at - step, lens))) / (2.0 * h);
+            };
+            EXPECT_NEAR(seen->pixels_per_area * glm::length(glm::cross(across({h, 0}), across({0, h}))), 1.0, 1e-6);
+        }
+}
+
 // Light is joined to one of the sensors, which is chosen at random, and only where it lies in that one's part of the film.
 TEST(Batches, SeeThroughEachOfTheirSensors) {
     SceneMaker maker = lit_room();
