@@ -1,4 +1,5 @@
-// Le of one shape: constant (Mitsuba's `area`), or any function of point and direction. Light leaves the front side only.
+// Le of one shape: constant (Mitsuba's `area`), or any function of point and direction. Light leaves the front side only, and
+// either in all directions or along the normal alone.
 #pragma once
 
 #include "core/geometry/shading_point.h"
@@ -15,6 +16,7 @@ struct AreaLight {
 
     Rgb largest;
     std::function<Rgb(const ShadingPoint&, const Vec3& w)> function;
+    bool along_normal = false;  // the values are the radiant exitance, W·m⁻²; see directional_area.h
 };
 
 }  // namespace neumann

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/emitter/beam.h"
+#include "core/emitter/directional_area.h"
 #include "core/emitter/projector_light.h"
 #include "core/emitter/spot_light.h"
 #include "core/sampling/warp.h"
@@ -52,7 +53,7 @@ private:
     Rgb irradiance_;
 };
 
-using DeltaLight = std::variant<PointLight, DirectionalLight, SpotLight, ProjectorLight>;
+using DeltaLight = std::variant<PointLight, DirectionalLight, SpotLight, ProjectorLight, DirectionalArea>;
 
 inline Beam beam(const DeltaLight& light, const Vec3& at, const Surroundings& scene) {
     return std::visit([&](const auto& x) { return x.beam(at, scene); }, light);

@@ -12,6 +12,7 @@ Emitters::Emitters(const Geometry& geometry, Lights lights)
       shapes_(geometry.shared_shapes()),
       surroundings_{geometry.center(), geometry.radius()},
       powers_(lights_.of_shape.size(), 0.0) {
+    divide_lights(geometry);
     for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
         if (lights_.of_shape[shape] == none) continue;
         const double area = geometry.area(shape);
@@ -29,6 +30,16 @@ Emitters::Emitters(const Geometry& geometry, Lights lights)
         powers_.push_back(brightness(light, surroundings_));
         if (powers_.back() > 0.0) largest_radiance_ = Rgb(std::numeric_limits<double>::infinity());
     }
+}
+
+void Emitters::divide_lights(const Geometry& geometry) {
+    for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
+        if (lights_.of_shape[shape] == none) continue;
+        const AreaLight& light = lights_.area[static_cast<std::size_t>(lights_.of_shape[shape])];
+        if (light.along_normal && geometry.area(shape) > 0.0) lights_.delta.emplace_back(DirectionalArea(geometry, shape, light));
+    }
+    for (AreaLight& light : lights_.area)
+        if (light.along_normal) light = Rgb(0.0);
 }
 
 bool Emitters::empty() const {
@@ -74,6 +85,11 @@ DistantEmission Emitters::send_distant(std::size_t index, const Vec2& place, con
                 sent.from = from_afar(sent.w);
                 sent.pdf = 1.0 / (pi * radius * radius);
                 sent.light = light.beam(sent.from, surroundings_).irradiance / sent.pdf;
+            } else if constexpr (requires { light.start(place); }) {
+                sent.w = light.normal();
+                sent.from = light.start(place);
+                sent.pdf = light.density();
+                sent.light = light.exitance(sent.from) / sent.pdf;
             } else {
                 sent.is_point = true;
                 sent.from = light.position();
@@ -95,6 +111,8 @@ double Emitters::distant_density(std::size_t index, const Vec3& x, const Vec3& w
         [&](const auto& light) {
             if constexpr (requires { light.direction(); }) {
                 return 1.0 / disk;
+            } else if constexpr (requires { light.density(); }) {
+                return light.lights(x) ? light.density() : 0.0;
             } else {
                 const Vec3 d = x - light.position();
                 return light.direction_pdf(w) / glm::dot(d, d);

@@ -1,4 +1,4 @@
-// All lights: Le(p, ω) of surfaces and from infinitely far away, and lights without extent.
+// All lights: Le(p, ω) of surfaces and from infinitely far away, and lights without extent, in space or in directions.
 #pragma once
 
 #include "core/emitter/area_light.h"
@@ -17,7 +17,7 @@ struct Lights {
     std::vector<AreaLight> area = {};
     std::vector<int> of_shape = {};  // for each shape an index into `area`, or Emitters::none
     std::optional<Environment> environment = {};
-    std::vector<DeltaLight> delta = {};
+    std::vector<DeltaLight> delta = {};  // without those of shapes that shine along their normal
 };
 
 // A sample of a distant light, that is, of the environment or of a light without extent.
@@ -42,6 +42,8 @@ class Emitters {
 public:
     static constexpr int none = -1;
 
+    // A shape that shines along its normal becomes a light without extent, and is black itself. Throws InputError if it is not
+    // flat.
     Emitters(const Geometry& geometry, Lights lights);
 
     // Le(p, ω), leaving p along ω (world space); p may be infinitely far away.
@@ -89,6 +91,7 @@ public:
     std::size_t without_area() const { return without_area_; }
 
 private:
+    void divide_lights(const Geometry& geometry);
     // `index`: of a distant light.
     const DeltaLight& delta_light(std::size_t index) const { return lights_.delta[index - (lights_.environment ? 1 : 0)]; }
 

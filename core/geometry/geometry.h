@@ -50,13 +50,13 @@ public:
 
     // The same for up to RayCaster::packet_size rays or pairs; bit i of the result is for the i-th. `from(i)` returns references to
     // the start and the direction, `pair(i)` to the two points, and `hit(i)` to the variable for the hit.
-    template <class HitAt>
-    std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
+    template <class AnyRay, class HitAt>
+    std::uint32_t first_hits(std::span<const AnyRay> rays, const HitAt& hit) const {
         if (!giants_.empty())
             return one_by_one(rays.size(),
                               [&](std::size_t i) { return first_hit(rays[i].origin, rays[i].direction, rays[i].length, hit(i)); });
         RayCaster::Packet packet(*caster_);
-        for (const Ray& ray : rays) packet.add(ray.origin, ray.direction, ray.length);
+        for (const AnyRay& ray : rays) packet.add(ray.origin, ray.direction, ray.length);
         RayCaster::Hit hits[RayCaster::packet_size];
         std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::alike);
         for (std::size_t i = 0; i < rays.size(); ++i)

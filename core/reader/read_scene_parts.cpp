@@ -13,6 +13,7 @@
 #include "core/reader/xml/properties.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace neumann {
 
@@ -35,12 +36,30 @@ const Element* only(const Element& root, const std::string& tag, Problems& probl
     return first;
 }
 
-const Element& only_sensor(const Element& root, Problems& problems) {
-    if (const Element* e = only(root, "sensor", problems)) return *e;
-    // An element that could not be read may have been the one.
-    for (const Element& e : root.children)
-        if (e.broken && !is_object(e.tag)) throw Told();
-    throw InputError(root.place, "the scene has no <sensor>, expected one");
+bool has_sensor(const Element& e) {
+    return std::ranges::any_of(e.children, [](const Element& child) { return child.tag == "sensor" || has_sensor(child); });
+}
+
+// The sensor of the scene, or else that of one of its shapes.
+ReadSensor read_only_sensor(const Element& root, const Context& context, const std::vector<ReadShape>& shapes) {
+    Problems& problems = context.problems();
+    const Element* sensor = only(root, "sensor", problems);
+    for (const ReadShape& shape : shapes)
+        if (!sensor && shape.sensor) sensor = shape.sensor;
+    if (!sensor) {
+        // An element that could not be read may have been the one.
+        for (const Element& e : root.children)
+            if (e.broken && !is_object(e.tag)) throw Told();
+        if (has_sensor(root) && problems.any()) throw Told();
+        throw InputError(root.place, "the scene has no <sensor>, expected one");
+    }
+    ReadSensor read = read_sensor(*sensor, context, shapes);
+    for (const ReadShape& shape : shapes)
+        if (shape.sensor && shape.sensor != sensor && !read.meters.contains(shape.sensor))
+            problems.add(InputError(shape.sensor->place, fmt::format("a second <sensor>, expected only one; the first is at {}",
+                                                                     to_string(sensor->place))),
+                         shape.sensor->place);
+    return read;
 }
 
 Origin origin(const Element& shape, const Element* bsdf) {
@@ -69,7 +88,7 @@ private:
     void read(const Element& e, const Element& parent) {
         const bool is_on_shape = parent.tag == "shape";
         if (e.tag == "bsdf" && !bsdfs_.has(e)) other_bsdfs_.sides(e);
-        if (e.tag == "emitter" && (is_on_shape || e.attribute("type").value == "area") && !lights_.has(e)) other_lights_.index(e);
+        if (e.tag == "emitter" && (is_on_shape || is_of_shapes(e)) && !lights_.has(e)) other_lights_.index(e);
         if (e.tag == "texture" && !aside_.textures.known.count(&e)) read_texture(e, Illuminant::d65, aside_);
         if (e.tag == "film") read_film(e, aside_);
         if (e.tag == "rfilter") read_filter(e, aside_);
@@ -107,12 +126,6 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
             parts.bounces = integrator.bounces;
             parts.hide_emitters = integrator.hide_emitters;
         });
-    problems.attempt(document.root.place, [&] {
-        const ReadSensor s = read_sensor(only_sensor(document.root, problems), context);
-        parts.camera = s.camera;
-        parts.film = s.film;
-        parts.sampler = s.sampler;
-    });
 
     Bsdfs bsdfs(context);
     AreaLights lights(context);
@@ -122,9 +135,15 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     // All shapes are read before their materials, because textures may use attributes of meshes.
     std::vector<ReadShape> shapes;
     read_shapes(document.root, context, [&](ReadShape shape) { shapes.push_back(std::move(shape)); });
+    problems.attempt(document.root.place, [&] {
+        ReadSensor s = read_only_sensor(document.root, context, shapes);
+        parts.camera = std::move(s.camera);
+        parts.film = s.film;
+        parts.sampler = s.sampler;
+    });
     for (ReadShape& shape : shapes) {
         parts.sides_of_shape.push_back(shape.bsdf ? bsdfs.sides(*shape.bsdf) : bsdfs.default_sides(shape.emitter));
-        parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter) : Emitters::none);
+        parts.lights.of_shape.push_back(shape.emitter ? lights.index(*shape.emitter, shape.shape) : Emitters::none);
         parts.shapes.push_back(std::move(shape.shape));
     }
     Unused(context, bsdfs, lights).check(document.root);

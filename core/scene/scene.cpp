@@ -67,6 +67,8 @@ void expect_visible(const Geometry& geometry, const std::vector<Origin>& origins
 }
 
 void expect_near(const Geometry& geometry, const SensorOptions& camera, const std::vector<Origin>& origins) {
+    for (const SensorOptions& sensor : camera.sensors) expect_near(geometry, sensor, origins);
+    if (camera.is_even() || camera.kind == SensorOptions::Kind::batch) return;  // these are as near as they need to be
     const double away = glm::length(geometry.caster().to_embree(Vec3(camera.to_world[3]))),
                  clip = camera.near_clip * geometry.caster().scale();
     if (geometry.radius() == 0.0 || std::max(away, clip) <= farthest_camera) return;
@@ -121,6 +123,14 @@ void warn_of_laws(const MeasuredLaws& laws, const std::vector<Origin>& origins, 
                     where(origins, laws.brightest), laws.reciprocity_defect, where(origins, laws.least_reciprocal)));
 }
 
+// No ray meets such lights, and a meter asks for none.
+void warn_of_missed_light(const SensorOptions& camera, const Emitters& emitters, Warnings& warnings) {
+    if (!emitters.has_delta_lights() || !camera.has(SensorOptions::Kind::irradiance_meter)) return;
+    warnings.add(
+        "sensor 'irradiancemeter' does not measure what comes straight from lights without extent (directional, directionalarea, "
+        "point, projector, spot): bounce 0 is without it");
+}
+
 void warn_of_coincidence(const CoincidentSurfaces& found, const std::vector<Origin>& origins, Warnings& warnings) {
     warnings.add(
         "part of a light lies in the same place as another shape: which one is seen is chance, and its light may count twice",
@@ -136,7 +146,8 @@ void warn_of_coincidence(const CoincidentSurfaces& found, const std::vector<Orig
 }  // namespace
 
 Scene make_scene(SceneParts parts) {
-    Geometry geometry(std::move(parts.shapes));
+    const auto shared_geometry = std::make_shared<const Geometry>(std::move(parts.shapes));
+    const Geometry& geometry = *shared_geometry;
     expect_size(geometry, parts.origins);
     expect_visible(geometry, parts.origins, parts.warnings);
     expect_near(geometry, parts.camera, parts.origins);
@@ -150,15 +161,17 @@ Scene make_scene(SceneParts parts) {
     if (emitters.empty()) warnings.add("the scene has no light");
     warn_of_gain(geometry, materials, parts.origins, warnings);
     warn_of_laws(measure_laws(geometry, materials), parts.origins, warnings);
-    const Sensor camera(parts.camera, parts.film);
+    warn_of_missed_light(parts.camera, emitters, warnings);
+    const Film film = film_of(parts.camera, parts.film);
+    const Sensor camera(parts.camera, film, &geometry);
     SceneNotes notes = std::move(parts);
     notes.warnings = std::move(warnings);
-    return Scene(std::move(geometry), std::move(materials), std::move(emitters), camera, parts.film, std::move(notes));
+    return Scene(shared_geometry, std::move(materials), std::move(emitters), camera, film, std::move(notes));
 }
 
-Scene::Scene(Geometry g, Materials m, Emitters e, const Sensor& sensor, const Film& f, SceneNotes notes)
+Scene::Scene(std::shared_ptr<const Geometry> g, Materials m, Emitters e, const Sensor& sensor, const Film& f, SceneNotes notes)
     : SceneNotes(std::move(notes)),
-      shared_geometry_(std::make_shared<const Geometry>(std::move(g))),
+      shared_geometry_(std::move(g)),
       shared_emitters_(std::make_shared<const Emitters>(std::move(e))),
       geometry(*shared_geometry_),
       materials(std::move(m)),
@@ -174,8 +187,8 @@ Scene Scene::with(Materials other) const {
 
 Scene Scene::with(const Film& other) const {
     Scene scene = *this;
-    scene.camera = Sensor(camera.options(), other);
-    scene.film = other;
+    scene.film = film_of(camera.options(), other);
+    scene.camera = Sensor(camera.options(), scene.film, &geometry);
     return scene;
 }
 

@@ -43,7 +43,8 @@ class Scene : public SceneNotes {
     std::shared_ptr<const Emitters> shared_emitters_;
 
 public:
-    Scene(Geometry geometry, Materials materials, Emitters emitters, const Sensor& camera, const Film& film, SceneNotes notes);
+    Scene(std::shared_ptr<const Geometry> geometry, Materials materials, Emitters emitters, const Sensor& camera, const Film& film,
+          SceneNotes notes);
     // The same scene with other materials.
     Scene with(Materials materials) const;
     // The same scene, seen on another film.
@@ -67,7 +68,7 @@ struct SceneParts : SceneNotes {
 };
 
 // Builds the acceleration structures, and warns of odd but accepted input: degenerate triangles, lights without area, no surfaces,
-// no light, albedo above 1. Throws InputError as Geometry does.
+// no light, albedo above 1, light that a meter misses. Throws InputError as Geometry and Sensor do.
 Scene make_scene(SceneParts parts);
 
 }  // namespace neumann

@@ -23,7 +23,8 @@ std::optional<FilmPoint> Orthographic::see(const Vec3& p, const Vec2&) const {
     const double cosine = glm::dot(direction_, plane_.normal()), depth = glm::dot(p - plane_.corner(), plane_.normal()) / cosine;
     if (!(depth > 0.0 && depth < length_)) return std::nullopt;
     const Vec3 start = p - direction_ * depth;
-    return FilmPoint{plane_.position(start), start, -direction_, 1.0 / (plane_.area() * std::abs(cosine))};
+    return FilmPoint{
+        plane_.position(start), {.position = start, .normal = -direction_}, -direction_, 1.0 / (plane_.area() * std::abs(cosine))};
 }
 
 }  // namespace neumann

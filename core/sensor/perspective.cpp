@@ -62,7 +62,9 @@ std::optional<FilmPoint> see_through(const Vec3& pinhole, const FilmPlane& plane
     if (!(depth > near && depth < far)) return std::nullopt;
     const Vec3 direction = d / std::sqrt(distance2);
     const Vec3 on_plane = d * (glm::dot(plane.corner(), plane.normal()) / glm::dot(d, plane.normal()));
-    return FilmPoint{plane.position(on_plane), pinhole + d * (near / depth), -direction,
+    return FilmPoint{plane.position(on_plane),
+                     {.position = pinhole + d * (near / depth), .normal = -direction},
+                     -direction,
                      plane.pixels_per_solid_angle(direction) / distance2};
 }
 

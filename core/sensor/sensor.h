@@ -1,6 +1,10 @@
-// The sensors: Mitsuba's `perspective`, `thinlens` and `orthographic`. A closed set, like materials and lights.
+// The sensors: Mitsuba's `perspective`, `thinlens`, `orthographic`, `irradiancemeter`, `distant` and `batch`. A closed set, like
+// materials and lights.
 #pragma once
 
+#include "core/sensor/batch.h"
+#include "core/sensor/distant.h"
+#include "core/sensor/irradiance_meter.h"
 #include "core/sensor/orthographic.h"
 #include "core/sensor/perspective.h"
 #include "core/sensor/thin_lens.h"
@@ -11,7 +15,8 @@ namespace neumann {
 
 class Sensor {
 public:
-    Sensor(const SensorOptions& options, const Film& film);
+    // `geometry`: the scene's, which irradiance meters and distant sensors need; it must outlive the sensor.
+    Sensor(const SensorOptions& options, const Film& film, const Geometry* geometry = nullptr);
 
     // `position`: pixels from the upper left corner of the film; `lens`: point on the lens in [0, 1)², if there is a lens.
     CameraRay ray(const Vec2& position, const Vec2& lens = Vec2(0.5)) const {
@@ -20,7 +25,7 @@ public:
     // Samples the point on the lens; uses no random numbers if there is no lens.
     template <class Sampler>
     CameraRay sample_ray(const Vec2& position, Sampler& sampler) const {
-        return std::holds_alternative<ThinLens>(sensor_) ? ray(position, sampler.next2()) : ray(position);
+        return has_lens_ ? ray(position, sampler.next2()) : ray(position);
     }
 
     // How a point is seen from a point on the lens; nothing if it is not between the near and the far plane. The position may be
@@ -28,18 +33,26 @@ public:
     std::optional<FilmPoint> see(const Vec3& p, const Vec2& lens) const {
         return std::visit([&](const auto& sensor) { return sensor.see(p, lens); }, sensor_);
     }
-    // FilmPoint::pixels_per_area of a point p that this ray has hit.
+    // FilmPoint::pixels_per_area of a point p that this ray has hit; infinite if see() finds no points.
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const {
         return std::visit([&](const auto& sensor) { return sensor.pixels_per_area(ray, p); }, sensor_);
     }
+    // What is measured at a position where all rays bring the radiance 1: that is 1 for cameras, and π for an irradiance.
+    double response(const Vec2& position) const;
+    double largest_response() const;
+
     const SensorOptions& options() const { return options_; }
-    bool has_lens() const { return std::holds_alternative<ThinLens>(sensor_); }
+    // Whether `lens` makes a difference.
+    bool has_lens() const { return has_lens_; }
+    // Whether see() finds all points that rays of the sensor hit.
+    bool can_be_joined() const;
 
 private:
-    using Variant = std::variant<Perspective, ThinLens, Orthographic>;
-    static Variant make(const SensorOptions& options, const Film& film);
+    using Variant = std::variant<Perspective, ThinLens, Orthographic, IrradianceMeter, DistantSensor, Batch>;
+    static Variant make(const SensorOptions& options, const Film& film, const Geometry* geometry);
     Variant sensor_;
     SensorOptions options_;
+    bool has_lens_;
 };
 
 }  // namespace neumann

@@ -2,10 +2,17 @@
 #pragma once
 
 #include "core/geometry/ray.h"
+#include "core/geometry/shape.h"
+#include "core/geometry/surface_point.h"
 #include "core/sensor/pixel_filter.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <variant>
+#include <vector>
 
 namespace neumann {
 
@@ -34,14 +41,18 @@ private:
 };
 
 // A ray from the camera into the scene; it ends at the far plane.
-using CameraRay = Ray;
+struct CameraRay : Ray {
+    double cosine = 1.0;       // of its angle with the normal of the surface where it starts, if there is one
+    std::uint32_t sensor = 0;  // of those of a batch
+};
 
 // How the camera sees a point: the reversed camera ray through it.
 struct FilmPoint {
     Vec2 position;           // position on the film, pixels from the upper left corner
-    Vec3 start;              // origin of the camera ray
+    SurfacePoint start;      // origin of the camera ray
     Vec3 w;                  // from the point to the camera, unit length
     double pixels_per_area;  // film area in pixels per area at the point that faces the camera
+    double weight = 1.0;     // the sensor's response, over the probability of choosing it among several
 };
 
 // A plane with coordinates: a corner and two spanning vectors.
@@ -80,7 +91,7 @@ enum class FovAxis { x, y, diagonal, smaller, larger };
 double tan_half_width(double fov, FovAxis axis, double aspect);
 
 struct SensorOptions {
-    enum class Kind { perspective, thin_lens, orthographic };
+    enum class Kind { perspective, thin_lens, orthographic, irradiance_meter, distant, batch };
 
     Mat4 to_world{1.0};  // camera looks along its +z, +y up, +x left (Mitsuba's convention)
     double fov = 0.0;    // full angle, radians; not used by `orthographic`
@@ -89,6 +100,23 @@ struct SensorOptions {
     double near_clip = 1e-2, far_clip = 1e4;  // scene units
     Kind kind = Kind::perspective;
     double aperture_radius = 0.0, focus_distance = 0.0;  // scene units; for `thin_lens`
+    std::uint32_t shape = 0;                             // of the scene, on which an `irradiance_meter` lies
+    // Where `distant` looks: at all of the scene, at a point, or at a shape, which need not be in the scene.
+    std::variant<std::monostate, Vec3, std::shared_ptr<const Shape>> target = {};
+    std::vector<SensorOptions> sensors = {};  // of a `batch`, from left to right
+
+    // Whether all pixels measure the same.
+    bool is_even() const { return kind == Kind::irradiance_meter || kind == Kind::distant; }
+    bool has(Kind wanted) const {
+        return kind == wanted || std::any_of(sensors.begin(), sensors.end(), [&](const auto& s) { return s.has(wanted); });
+    }
 };
+
+// The film as the sensor needs it: one whose pixels all measure the same has the box filter, for it takes the places of samples
+// within their pixels as random numbers.
+inline Film film_of(const SensorOptions& options, Film film) {
+    if (options.is_even()) film.filter = BoxFilter();
+    return film;
+}
 
 }  // namespace neumann

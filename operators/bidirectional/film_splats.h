@@ -11,11 +11,11 @@ namespace neumann {
 // The connection of a vertex to the lens, before its visibility is known.
 struct CameraEdge {
     std::uint32_t walker = 0;
-    Rgb value{0.0};     // radiance times number of pixels; black if there is no edge
+    Rgb value{0.0};     // what the sensor measures, times the number of pixels; black if there is no edge
     Vec2 position;      // on the film
-    SurfacePoint lens;  // the point on the lens, facing along w
+    SurfacePoint lens;  // the point on the lens, facing back along w, or on the surface on which the sensor lies
     Vec3 w;             // from the vertex to that point
-    double pixels_per_area = 0.0;
+    double pixels_per_area = 0.0, weight = 1.0;  // of FilmPoint
 };
 
 template <class Sampler>
@@ -30,9 +30,10 @@ inline std::optional<CameraEdge> edge_to_lens(const Scene& scene, std::uint32_t 
     CameraEdge edge;
     edge.walker = walker;
     edge.position = seen->position;
-    edge.lens.position = seen->start;
-    edge.lens.normal = edge.w = seen->w;
+    edge.lens = seen->start;
+    edge.w = seen->w;
     edge.pixels_per_area = seen->pixels_per_area;
+    edge.weight = seen->weight;
     return edge;
 }
 
@@ -63,7 +64,8 @@ CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalk
     if (!edge) return {};
     const SurfaceSide side = scene.materials.side(v.x, edge->w);
     if (!side.bsdf) return {};
-    edge->value = v.beta * geometric_bsdf(side, edge->w, v.wi) * (std::abs(glm::dot(v.x.normal, edge->w)) * edge->pixels_per_area);
+    edge->value = v.beta * geometric_bsdf(side, edge->w, v.wi) *
+                  (std::abs(glm::dot(v.x.normal, edge->w)) * edge->pixels_per_area * edge->weight);
     return *edge;
 }
 
@@ -76,7 +78,7 @@ CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emissio
     if (!edge) return {};
     // The density of the point alone is e.density times π.
     edge->value = scene.emitters.emitted(e.from, edge->w) *
-                  (std::abs(glm::dot(e.from.normal, edge->w)) * edge->pixels_per_area / (e.density * pi));
+                  (std::abs(glm::dot(e.from.normal, edge->w)) * edge->pixels_per_area * edge->weight / (e.density * pi));
     return *edge;
 }
 

@@ -29,10 +29,10 @@ PathGenerator kind() {
 
 void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters) {
     if (misses_light(direct.direct, emitters))
-        throw InputError(fmt::format("--direct {} cannot find {}, of which the scene has some; take --direct mis or light",
-                                     name_of(direct),
-                                     emitters.has_delta_lights() ? "lights without extent (directional, point, projector, spot)"
-                                                                 : "light from infinitely far away (constant, envmap, sunsky)"));
+        throw InputError(
+            fmt::format("--direct {} cannot find {}, of which the scene has some; take --direct mis or light", name_of(direct),
+                        emitters.has_delta_lights() ? "lights without extent (directional, directionalarea, point, projector, spot)"
+                                                    : "light from infinitely far away (constant, envmap, sunsky)"));
 }
 
 template <MakesPaths M>
@@ -41,11 +41,16 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
     settings.generator = kind<M>();
     if (settings.generator == PathGenerator::pointwise && scene.emitters.has_delta_lights())
         throw InputError(
-            "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
-            "spot), of which the scene has some; take --method walk, matrix or gather");
+            "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
+            "point, projector, spot), of which the scene has some; take --method walk, matrix or gather");
     if (scene.hide_emitters && splats(settings.generator))
         throw InputError(
             fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk", M::name));
+    if (settings.generator == PathGenerator::light && !scene.camera.can_be_joined())
+        throw InputError(
+            "--method light joins its paths to the sensor, and none meets the single ray of a 'distant' one with a point as "
+            "target; "
+            "take --method walk");
     if constexpr (requires { m.direct; }) {
         expect_in_reach(m.direct, scene.emitters);
         settings.walk.direct = m.direct;

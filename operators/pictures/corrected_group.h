@@ -36,7 +36,7 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first,
     for (std::uint32_t i = 0; i < samples; ++i) {
         const std::uint32_t number = (first + i) / size;
         const Pixel pixel = pixel_of(scene_->film, number);
-        if ((first + i) % size == 0) {
+        if (i == 0 || (first + i) % size == 0) {
             work.camera.push_back(Sampler(settings_.sampler, camera_net_, settings_.seed, number));
             work.directions.push_back(Sampler(settings_.sampler, direction_net_, settings_.seed ^ direction_stream, number));
         } else {

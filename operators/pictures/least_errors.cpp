@@ -27,9 +27,10 @@ Rgb times(const Rgb& a, const Rgb& b) {
     return product;
 }
 
-// Upper bounds of ‖K^i Le‖∞ for each bounce, and of the rest, per channel.
+// Upper bounds of what is measured of K^i Le, for each bounce, and of the rest, per channel.
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
-    const Rgb albedo = scene.materials.largest_albedo(), emitted = scene.emitters.largest_radiance();
+    const Rgb albedo = scene.materials.largest_albedo(),
+              emitted = times(scene.emitters.largest_radiance(), Rgb(scene.camera.largest_response()));
     const LeftOut& left_out = settings.walk.left_out;
     const bool ends =
         left_out.rays_from_surfaces || (settings.generator == PathGenerator::classic && !has_specular(scene.materials));

@@ -72,8 +72,8 @@ private:
             if (!edge) return;
             const SurfaceSide side = scene_.materials.side(a.x, edge->w);
             if (!is_diffuse(side)) return;
-            const Rgb value =
-                a.power * geometric_bsdf(side, edge->w, a.wi) * (std::abs(glm::dot(a.x.normal, edge->w)) * edge->pixels_per_area);
+            const Rgb value = a.power * geometric_bsdf(side, edge->w, a.wi) *
+                              (std::abs(glm::dot(a.x.normal, edge->w)) * edge->pixels_per_area * edge->weight);
             if (is_black(value)) return;
             ++to_lens;
             if (!scene_.geometry.visible(a.x, edge->lens)) return;
@@ -95,7 +95,7 @@ private:
 
 }  // namespace
 
-bool shows_links(const Scene& scene) { return !scene.hide_emitters; }
+bool shows_links(const Scene& scene) { return !scene.hide_emitters && scene.camera.can_be_joined(); }
 
 LinkPictures picture_links(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces,
                            const Watch& watch) {

@@ -13,7 +13,7 @@
 
 namespace neumann {
 
-// Whether the paths can be seen: not by a camera that looks through lights.
+// Whether the paths can be seen: not by a camera that looks through lights, nor by a single ray.
 bool shows_links(const Scene& scene);
 
 struct LinkPictures {

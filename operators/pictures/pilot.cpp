@@ -58,6 +58,7 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
         std::vector<Batch> round(together);
         oneapi::tbb::parallel_for(std::uint64_t{0}, together, [&](std::uint64_t b) {
             std::vector<CameraRay> camera_rays;
+            std::vector<double> responses;
             std::vector<Sampler> samplers;
             const Film& film = scene.film;
             for (std::uint64_t i = 0; i < batch; ++i) {
@@ -65,15 +66,17 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
                     samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
                 sampler.start(0);
                 const Vec2 u = sampler.next2();
-                camera_rays.push_back(
-                    scene.camera.sample_ray({film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height}, sampler));
+                const Vec2 position(film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height);
+                camera_rays.push_back(scene.camera.sample_ray(position, sampler));
+                responses.push_back(scene.camera.response(position));
             }
             std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
             TermSamples result{sampled, round[b].rays};
             Walkers walkers;
             walk(scene, direct_light, settings, camera_rays, samplers, walkers, result, MaterialContinuation());
             for (std::uint64_t i = 0; i < batch; ++i) {
-                const Rgb* terms = sampled.data() + i * quantities;
+                Rgb* terms = sampled.data() + i * quantities;
+                for (std::size_t q = 0; q < quantities; ++q) terms[q] *= responses[i];
                 double sum = 0.0;
                 for (std::size_t q = quantities; q-- > 1;) {
                     sum += mean_component(terms[q]);

@@ -57,11 +57,12 @@ Image seen_lights(const Scene& scene, std::uint64_t seed) {
         if (light.is_infinite()) continue;
         const auto point = scene.camera.see(light.position, lens);
         if (!point || !film.holds(point->position)) continue;
-        const Rgb radiance = scene.emitters.emitted(light, point->w);
-        SurfacePoint camera;
-        camera.position = point->start;
-        camera.normal = point->w;
-        if (is_black(radiance) || !scene.geometry.visible(light, camera)) continue;
+        const Rgb measured = scene.emitters.emitted(light, point->w) * scene.camera.response(point->position);
+        if (is_black(measured) || !scene.geometry.visible(light, point->start)) continue;
+        if (scene.camera.options().is_even()) {
+            for (Rgb& pixel : seen.pixels) pixel = glm::max(pixel, measured);
+            continue;
+        }
         const int left = std::max(static_cast<int>(std::floor(point->position.x - radius)), film.crop_x),
                   right = std::min(static_cast<int>(std::floor(point->position.x + radius)), film.crop_x + film.crop_width - 1),
                   top = std::max(static_cast<int>(std::floor(point->position.y - radius)), film.crop_y),
@@ -70,7 +71,7 @@ Image seen_lights(const Scene& scene, std::uint64_t seed) {
             for (int x = left; x <= right; ++x) {
                 if (film.weight_across(point->position.x, x) * film.weight_down(point->position.y, y) == 0.0) continue;
                 Rgb& pixel = seen.at(x - film.crop_x, y - film.crop_y);
-                pixel = glm::max(pixel, radiance);
+                pixel = glm::max(pixel, measured);
             }
     }
     return seen;

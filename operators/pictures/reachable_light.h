@@ -13,8 +13,8 @@ namespace neumann {
 // any number of threads.
 Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed);
 
-// For each pixel, the largest radiance of sampled points on lights that the camera sees there. This finds lights that are too small
-// for camera rays to hit.
+// For each pixel, the largest measured value of sampled points on lights that the camera sees there. This finds lights that are too
+// small for camera rays to hit.
 Image seen_lights(const Scene& scene, std::uint64_t seed);
 
 }  // namespace neumann

@@ -21,6 +21,16 @@ double SeriesReport::tail_fraction() const {
     return tail == 0.0 ? 0.0 : tail / sum.mean;
 }
 
+namespace {
+
+// Of what the sensor measures.
+double bound_beyond(const Scene& scene, std::size_t i) {
+    return scene.camera.largest_response() *
+           tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
+}
+
+}  // namespace
+
 SeriesReport report_series(const Scene& scene, const RenderedSeries& series, RestVerdict rest_verdict) {
     SeriesReport report;
     report.rest_verdict = rest_verdict;
@@ -32,7 +42,7 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
         BounceReport bounce;
         bounce.mean = result.mean_of_term(i);
         if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
-        bounce.bound = tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
+        bounce.bound = bound_beyond(scene, i);
         bounce.tail = tail_index(series.tally.largest[i]);
         const bool heavy = bounce.tail && bounce.tail->variance_is_infinite();
         bounce.infinite_variance = heavy && !series.samples_are_bounded;
@@ -62,9 +72,7 @@ SeriesReport report_series(const Scene& scene, const FieldPictures& series,
         BounceReport bounce;
         bounce.mean = series.mean_of_term(i);
         if (i > 0 && report.bounces[i - 1].mean.mean != 0.0) bounce.ratio = bounce.mean.mean / report.bounces[i - 1].mean.mean;
-        bounce.bound = series.importance
-                           ? std::numeric_limits<double>::infinity()
-                           : tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));
+        bounce.bound = series.importance ? std::numeric_limits<double>::infinity() : bound_beyond(scene, i);
         bounce.rays = series.rays[i];
         bounce.seconds = seconds * static_cast<double>(bounce.rays) / all_rays;
         bounce.discretisation = discretisation[i];

@@ -53,7 +53,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     for (std::uint32_t i = 0; i < samples; ++i) {
         const std::uint32_t number = (first + i) / size;
         const Pixel pixel = pixel_of(film, number);
-        camera.push_back((first + i) % size == 0 ? sampler_of(camera_points_, number) : camera.back());
+        camera.push_back(i == 0 || (first + i) % size == 0 ? sampler_of(camera_points_, number) : camera.back());
         camera.back().start(replicate * size + (first + i) % size);
         const CameraSample sample = sample_camera(*scene_, pixel.x, pixel.y, camera[i]);
         group.rays[i] = sample.ray;

@@ -32,8 +32,8 @@ class RecordingTransport {
 public:
     explicit RecordingTransport(const Geometry& geometry) : geometry_(geometry) {}
 
-    template <class HitAt>
-    std::uint32_t first_hits(std::span<const Ray> rays, const HitAt& hit) const {
+    template <class AnyRay, class HitAt>
+    std::uint32_t first_hits(std::span<const AnyRay> rays, const HitAt& hit) const {
         start(GeometryPacket::Kind::camera, RayCaster::Rays::alike, rays.size());
         for (const Ray& ray : rays) record_hit(ray.origin, {.from = {}, .to = {}, .ray = ray});
         return geometry_.first_hits(rays, hit);

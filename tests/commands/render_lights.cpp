@@ -69,12 +69,14 @@ TEST_F(RenderLights, WhatCannotFindALightIsRefused) {
     const auto refusal = [&](const std::string& how) { return run({"render", "floor.xml", "--spp", "1", "--direct", how}).err; };
     write_floor("<emitter type='point'><point name='position' x='0' y='0' z='1'/></emitter>");
     for (const char* how : {"hemisphere", "cosine", "bsdf", "surfaces"})
-        EXPECT_EQ(refusal(how),
-                  fmt::format("--direct {} cannot find lights without extent (directional, point, projector, spot), of "
-                              "which the scene has some; take --direct mis or light\n",
-                              how));
+        EXPECT_EQ(
+            refusal(how),
+            fmt::format("--direct {} cannot find lights without extent (directional, directionalarea, point, projector, spot), of "
+                        "which the scene has some; take --direct mis or light\n",
+                        how));
     EXPECT_EQ(run({"render", "floor.xml", "--spp", "1", "--method", "pointwise"}).err,
-              "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, point, projector, "
+              "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
+              "point, projector, "
               "spot), of which the scene has some; take --method walk, matrix or gather\n");
     write_floor("<emitter type='constant'/>");
     EXPECT_EQ(refusal("surfaces"),

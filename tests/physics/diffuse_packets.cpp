@@ -53,7 +53,7 @@ Samples walked(const Scene& scene, const WalkSettings& settings, SamplerKind kin
         for (std::uint32_t i = 0; i < paths; ++i) {
             samplers[i].start(i);
             const Vec2 u = samplers[i].next2();
-            rays.push_back({{0, -3, 0}, glm::normalize(Vec3(2.0 * u.x - 1.0, 3.0, 2.0 * u.y - 1.0))});
+            rays.push_back({{{0, -3, 0}, glm::normalize(Vec3(2.0 * u.x - 1.0, 3.0, 2.0 * u.y - 1.0))}});
         }
         std::vector<Rgb> quantities(paths * found.rays.size(), Rgb(0.0));
         TermSamples out{quantities, found.rays};

@@ -70,11 +70,11 @@ TEST_F(Lenient, MaterialsBecomeGreyAndDiffuse) {
 TEST_F(Lenient, LightsAreLeftOut) {
     const std::string body =
         "<emitter type='avg_sunsky'/>\n<emitter type='laser'><float name='power' value='1'/></emitter>\n"
-        "<shape type='disk'><emitter type='directionalarea'/></shape>\n<emitter type='constant'/>";
+        "<shape type='disk'><emitter type='lantern'/></shape>\n<emitter type='constant'/>";
     EXPECT_TRUE(is_all_unknown(body));
     EXPECT_EQ(replaced_of(body), (Texts{"scene.xml:2:10: emitter type 'avg_sunsky' is not supported; left out",
                                         "scene.xml:3:10: emitter type 'laser' is not supported; left out",
-                                        "scene.xml:4:29: emitter type 'directionalarea' is not supported; left out"}));
+                                        "scene.xml:4:29: emitter type 'lantern' is not supported; left out"}));
     const SceneParts parts = read_leniently(body);
     EXPECT_TRUE(parts.lights.area.empty());
     EXPECT_EQ(parts.lights.of_shape, (std::vector<int>{Emitters::none}));

@@ -292,10 +292,37 @@ TEST_F(XmlLights, SeveralAndOneThatSurrounds) {
     EXPECT_EQ(error("<emitter type='constant'/>\n<emitter type='constant'/>"),
               "scene.xml:3:1: a second light that surrounds the scene, expected only one; the first is at scene.xml:2:1");
     EXPECT_EQ(error("<shape type='cube'>\n<emitter type='point'/></shape>"),
-              "scene.xml:3:10: emitter type 'point' is not supported; allowed: area");
+              "scene.xml:3:10: emitter type 'point' is not supported; allowed: area, directionalarea");
     EXPECT_EQ(
         light_error("point", "<float name='radius' value='1'/>"),
         "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity, sampling_weight");
+}
+
+// On a shape, or referred to by several; what shines is the shape, so the element alone is no light.
+TEST_F(XmlLights, DirectionalArea) {
+    const std::string red = "<emitter type='directionalarea' id='red'><rgb name='radiance' value='3, 2, 1'/></emitter>";
+    const SceneParts parts = read(red +
+                                  "<shape type='disk'><ref id='red'/></shape><shape type='rectangle'><ref id='red'/></shape>"
+                                  "<shape type='disk'><emitter type='directionalarea'/></shape>");
+    ASSERT_EQ(parts.lights.of_shape.size(), 3u);
+    EXPECT_EQ(parts.lights.of_shape[0], parts.lights.of_shape[1]);
+    const auto light = [&](std::size_t shape) {
+        return parts.lights.area.at(static_cast<std::size_t>(parts.lights.of_shape[shape]));
+    };
+    EXPECT_TRUE(light(0).along_normal);
+    EXPECT_EQ(light(0).largest, Rgb(3, 2, 1));
+    EXPECT_EQ(light(2).largest, Rgb(1.0));
+    EXPECT_EQ(parts.sides_of_shape[0].front, Materials::absorbing);
+    const Scene scene = make_scene(read("<shape type='disk'>" + red + "</shape>"));
+    EXPECT_EQ(scene.emitters.sample_distant(0, {0.3, 0.2, 5}, {}).light, Rgb(3, 2, 1));
+    EXPECT_EQ(scene.emitters.sample_distant(0, {0.9, 0.9, 5}, {}).light, Rgb(0.0));
+    for (const std::string shape : {"sphere", "cube", "cylinder"})
+        EXPECT_EQ(
+            error("<shape type='" + shape + "'>\n<emitter type='directionalarea'/></shape>"),
+            "scene.xml:3:1: emitter 'directionalarea' on a shape that is not flat; expected a rectangle, a disk or a mesh in one "
+            "plane");
+    EXPECT_EQ(error("<shape type='disk'>\n<emitter type='directionalarea'><transform name='to_world'/></emitter></shape>"),
+              "scene.xml:3:44: unknown parameter 'to_world' of emitter 'directionalarea'; allowed: radiance, sampling_weight");
 }
 
 }  // namespace neumann::xml_lights_test

@@ -27,8 +27,8 @@ TEST_F(XmlValueErrors, UnknownTypes) {
               "mixturebsdf, normalmap, null, phong, plastic, principled, principledthin, retroreflector, roughconductor, "
               "roughdielectric, roughplastic, thindielectric, twosided, ward");
     EXPECT_EQ(error("<emitter type=\"glow\"/>"),
-              "scene.xml:2:10: emitter type 'glow' is not supported; allowed: area, constant, directional, envmap, point, "
-              "projector, spot, sunsky");
+              "scene.xml:2:10: emitter type 'glow' is not supported; allowed: area, constant, directional, "
+              "directionalarea, envmap, point, projector, spot, sunsky");
     EXPECT_EQ(error("<integrator type=\"gather\"/>"),
               "scene.xml:2:13: integrator type 'gather' is not supported; allowed: aov, direct, moment, path, ptracer, volpath, "
               "volpathmis");
@@ -42,9 +42,9 @@ TEST_F(XmlValueErrors, UnknownTypes) {
     EXPECT_EQ(error("<film type=\"roll\"/>"), "scene.xml:2:7: film type 'roll' is not supported; allowed: hdrfilm");
     EXPECT_EQ(error("<rfilter type=\"sinc\"/>"),
               "scene.xml:2:10: rfilter type 'sinc' is not supported; allowed: box, catmullrom, gaussian, lanczos, mitchell, tent");
-    EXPECT_EQ(
-        file_error("<scene version=\"3.0.0\"><sensor type=\"fisheye\"/></scene>"),
-        "scene.xml:1:32: sensor type 'fisheye' is not supported; allowed: orthographic, perspective, radiancemeter, thinlens");
+    EXPECT_EQ(file_error("<scene version=\"3.0.0\"><sensor type=\"fisheye\"/></scene>"),
+              "scene.xml:1:32: sensor type 'fisheye' is not supported; allowed: batch, distant, irradiancemeter, orthographic, "
+              "perspective, radiancemeter, thinlens");
 }
 
 TEST_F(XmlValueErrors, UnknownParameters) {
@@ -67,7 +67,7 @@ TEST_F(XmlValueErrors, UnknownParameters) {
 
 TEST_F(XmlValueErrors, NestedWhereItDoesNotBelong) {
     EXPECT_EQ(error("<shape type=\"sphere\"><film type=\"hdrfilm\"/></shape>"),
-              "scene.xml:2:22: unexpected <film> in shape 'sphere'; allowed: bsdf, emitter");
+              "scene.xml:2:22: unexpected <film> in shape 'sphere'; allowed: bsdf, emitter, sensor");
     EXPECT_EQ(error("<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"a\"/></bsdf>"),
               "scene.xml:3:22: unexpected reference to a <bsdf> in bsdf 'diffuse'; nothing is nested in it");
     EXPECT_EQ(error("<shape type=\"sphere\"><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></shape>"),

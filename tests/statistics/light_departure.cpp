@@ -33,7 +33,7 @@ TEST(Cameras, SeePointsWhereTheirRaysPass) {
             ASSERT_TRUE(seen) << name;
             EXPECT_NEAR(seen->position.x, at.x, 1e-9);
             EXPECT_NEAR(seen->position.y, at.y, 1e-9);
-            EXPECT_NEAR(glm::distance(seen->start, ray.origin), 0.0, 1e-9);
+            EXPECT_NEAR(glm::distance(seen->start.position, ray.origin), 0.0, 1e-9);
             EXPECT_NEAR(glm::distance(seen->w, -ray.direction), 0.0, 1e-12);
             // The area between three neighbouring rays, across the middle one: it is flat to h².
             constexpr double h = 1e-4;

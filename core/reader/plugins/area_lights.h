@@ -1,4 +1,4 @@
-// <emitter type="area">, on its own or on a shape.
+// <emitter type="area"> and "directionalarea", on its own or on a shape.
 #pragma once
 
 #include "core/emitter/emitters.h"
@@ -6,12 +6,20 @@
 
 namespace neumann::reader {
 
+// Whether an <emitter> is one that only shapes have.
+inline bool is_of_shapes(const Element& e) {
+    const std::string& type = e.attribute("type").value;
+    return type == "area" || type == "directionalarea";
+}
+
 class AreaLights {
 public:
     explicit AreaLights(const Context& context) : context_(context) {}
 
     // Index of the light; each element is stored once. None for a light with an error.
     int index(const Element& e);
+    // The same for a shape that has it.
+    int index(const Element& e, const Shape& shape);
 
     bool has(const Element& e) const { return index_.count(&e) > 0; }
     std::vector<AreaLight> take() { return std::move(lights_); }

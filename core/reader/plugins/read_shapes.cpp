@@ -167,6 +167,8 @@ private:
         reading.shape = read_shape(*reading.element, own);
         if (reading.in_group && reading.shape.emitter)
             throw InputError(reading.shape.emitter->place, "emitter in a shapegroup: what emits cannot be instanced");
+        if (reading.in_group && reading.shape.sensor)
+            throw InputError(reading.shape.sensor->place, "sensor in a shapegroup: what measures cannot be instanced");
         release_spare(reading.shape.shape);
     }
 
@@ -210,7 +212,7 @@ private:
                                              type_of(*reading->element), to_string(reading->element->place)));
             if (!has_finite_vertices(*placed))
                 throw InputError(item.place_of_to_world, "to_world of shape 'instance' moves a shape out of the range of numbers");
-            take({std::move(*placed), shape.bsdf, nullptr, shape.element});
+            take({std::move(*placed), shape.bsdf, nullptr, nullptr, shape.element});
         }
     }
 

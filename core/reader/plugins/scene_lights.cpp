@@ -1,5 +1,6 @@
 #include "core/reader/plugins/scene_lights.h"
 
+#include "core/reader/plugins/area_lights.h"
 #include "core/reader/plugins/color.h"
 #include "core/reader/plugins/light_images.h"
 #include "core/reader/plugins/sensors.h"
@@ -110,7 +111,7 @@ double read_scale(Properties& p, const std::string& name) {
 
 void SceneLights::add(const Element& e) {
     const std::string& type = e.attribute("type").value;
-    if (type == "area") return;
+    if (is_of_shapes(e)) return;
     Properties p(e, context_.objects);
     if (type == "constant")
         set_environment(e, read_constant(p, context_));
@@ -127,7 +128,8 @@ void SceneLights::add(const Element& e) {
     else if (type == "projector")
         delta_.emplace_back(read_projector(p, context_));
     else
-        fail_type(e, {"area", "constant", "directional", "envmap", "point", "projector", "spot", "sunsky"}, "left out");
+        fail_type(e, {"area", "constant", "directional", "directionalarea", "envmap", "point", "projector", "spot", "sunsky"},
+                  "left out");
 }
 
 void SceneLights::set_environment(const Element& e, Environment environment) {

@@ -12,6 +12,12 @@ namespace neumann::reader {
 
 namespace {
 
+const std::vector<std::string>& sensor_types() {
+    static const std::vector<std::string> types = {"batch",       "distant",       "irradiancemeter", "orthographic",
+                                                   "perspective", "radiancemeter", "thinlens"};
+    return types;
+}
+
 // "50mm" or "50".
 double parse_focal_length(Properties& p, std::string text) {
     const std::string whole = text;
@@ -67,36 +73,153 @@ SensorOptions read_orthographic(Properties& p) {
     return camera;
 }
 
+// `direction` or +z of `to_world`, unit length. `beside`: what may already have a problem with them.
+Vec3 read_direction(Properties& p, const std::vector<std::string>& beside = {}) {
+    const Element* to_world = p.find("to_world", {"transform"});
+    const std::optional<Vec3> direction = p.point("direction");
+    if (to_world && direction) p.complain("direction", "both direction and to_world are given, expected one of them", beside);
+    const Vec3 along = direction.value_or(Vec3(p.transform("to_world")[2]));
+    const double largest = max_component(glm::abs(along));
+    if (largest == 0.0) p.complain("direction", "the direction is zero");
+    return largest > 0.0 ? glm::normalize(along / largest) : Vec3(0.0, 0.0, 1.0);
+}
+
 // The limit of a pinhole camera as its field of view tends to 0: of a millionth of a radian, so that the ray is spread over a
 // millionth of the distance.
 SensorOptions read_radiance_meter(Properties& p) {
-    const Element* to_world = p.find("to_world", {"transform"});
+    p.find("to_world", {"transform"});
     const std::optional<Vec3> origin = p.point("origin"), direction = p.point("direction");
     if (origin.has_value() != direction.has_value())
         p.complain(origin ? "origin" : "direction",
                    fmt::format("{} is given without {}, expected both, or to_world", origin ? "origin" : "direction",
                                origin ? "direction" : "origin"),
                    {"origin", "direction"});
-    if (to_world && direction) p.complain("direction", "both direction and to_world are given, expected one of them", {"origin"});
-    const Mat4 m = p.transform("to_world");
-    const Vec3 along = direction.value_or(Vec3(m[2]));
-    const double largest = max_component(glm::abs(along));
-    if (largest == 0.0) p.complain("direction", "the direction is zero");
+    const Frame frame(read_direction(p, {"origin"}));
     SensorOptions camera;
-    const Frame frame(largest > 0.0 ? glm::normalize(along / largest) : Vec3(0.0, 0.0, 1.0));
     camera.to_world = Mat4(glm::dvec4(frame.s, 0.0), glm::dvec4(frame.t, 0.0), glm::dvec4(frame.n, 0.0),
-                           glm::dvec4(origin.value_or(Vec3(m[3])), 1.0));
+                           glm::dvec4(origin.value_or(Vec3(p.transform("to_world")[3])), 1.0));
     camera.fov = 1e-6;
     camera.near_clip = 1e-6;
     camera.far_clip = 1e12;
     return camera;
 }
 
-// A meter measures one number.
-void check_film_of_meter(const Film& film, const Element& e) {
-    if (film.width == 1 && film.height == 1) return;
-    throw InputError(e.place,
-                     fmt::format("the film of sensor 'radiancemeter' has {}×{} pixels, expected 1×1", film.width, film.height));
+// What a distant sensor aims at, if that is not all of the scene.
+void read_target(Properties& p, SensorOptions& camera, const Context& context) {
+    if (const Element* shape = p.object("target", "shape")) {
+        const std::string& type = shape->attribute("type").value;
+        if (type == "instance" || type == "merge" || type == "shapegroup") {
+            p.complain("target", fmt::format("the target is a shape '{}', expected a single shape or a point", type));
+            return;
+        }
+        if (std::optional<ReadShape> read = p.attempt("target", [&] { return read_shape(*shape, context); }))
+            camera.target = std::make_shared<const Shape>(std::move(read->shape));
+    } else if (const std::optional<Vec3> point = p.point("target")) {
+        camera.target = *point;
+    }
+}
+
+SensorOptions read_distant(Properties& p, const Context& context) {
+    SensorOptions camera;
+    camera.kind = SensorOptions::Kind::distant;
+    camera.to_world[2] = glm::dvec4(read_direction(p), 0.0);
+    read_target(p, camera, context);
+    return camera;
+}
+
+// Reads a sensor without its film and sampler, and those of a batch.
+class SensorReader {
+public:
+    SensorReader(const Context& context, const std::vector<ReadShape>& shapes) : context_(context), shapes_(shapes) {}
+
+    SensorOptions read(const Element& e, const std::string& type, Properties& p) {
+        if (type == "irradiancemeter") return read_irradiance_meter(e);
+        if (is_on_shape(e))
+            throw InputError(e.place, fmt::format("sensor '{}' stands in a shape, expected 'irradiancemeter' there", type));
+        if (type == "batch") return read_batch(p);
+        if (type == "distant") return read_distant(p, context_);
+        if (type == "orthographic") return read_orthographic(p);
+        return type == "radiancemeter" ? read_radiance_meter(p) : read_perspective(p, type);
+    }
+    std::string type(const Element& e) const {
+        return type_of(e, sensor_types(), is_on_shape(e) ? "irradiancemeter" : "perspective", context_.problems());
+    }
+    std::set<const Element*> take_meters() { return std::move(meters_); }
+
+private:
+    bool is_on_shape(const Element& sensor) const {
+        return std::ranges::any_of(shapes_, [&](const ReadShape& shape) { return shape.sensor == &sensor; });
+    }
+
+    SensorOptions read_irradiance_meter(const Element& e) {
+        std::vector<std::uint32_t> on;
+        for (std::uint32_t i = 0; i < shapes_.size(); ++i)
+            if (shapes_[i].sensor == &e) on.push_back(i);
+        if (on.size() != 1)
+            throw InputError(e.place,
+                             fmt::format("sensor 'irradiancemeter' stands in {} of the scene, expected the one on which it "
+                                         "measures",
+                                         on.empty() ? "no shape" : "several shapes"));
+        meters_.insert(&e);
+        SensorOptions meter;
+        meter.kind = SensorOptions::Kind::irradiance_meter;
+        meter.shape = on.front();
+        return meter;
+    }
+
+    // Films and samplers of the sensors inside are those of the batch, whatever they say.
+    SensorOptions read_batch(Properties& p) {
+        SensorOptions batch;
+        batch.kind = SensorOptions::Kind::batch;
+        const std::vector<const Element*> inside = p.all_nested({"sensor", "shape"});
+        if (inside.empty()) p.fail_empty("sensor 'batch' has no <sensor> inside, expected at least one");
+        for (const Element* e : inside)
+            if (auto sensor = p.attempt("sensor", [&] { return read_part(*e, p); })) batch.sensors.push_back(std::move(*sensor));
+        if (batch.sensors.size() < inside.size()) batch.sensors.clear();
+        return batch;
+    }
+    SensorOptions read_part(const Element& e, const Properties& batch) {
+        const Element& sensor = e.tag == "shape" ? sensor_of(e, batch) : e;
+        const std::string kind = type(sensor);
+        if (kind == "batch") throw InputError(sensor.place, "sensor 'batch' stands inside another one");
+        Properties p(sensor, context_.objects);
+        SensorOptions options = read(sensor, kind, p);
+        for (const Element* film : p.nested("film")) read_film(*film, context_);
+        for (const Element* sampler : p.nested("sampler")) read_sampler(*sampler, context_);
+        p.finish();
+        return options;
+    }
+    const Element& sensor_of(const Element& shape, const Properties& batch) const {
+        for (const ReadShape& s : shapes_)
+            if (s.element == &shape && s.sensor) return *s.sensor;
+        if (context_.problems().any()) throw Told();
+        throw InputError(batch.element().place,
+                         fmt::format("the shape at {} in sensor 'batch' has no sensor or is not in the scene, expected a reference "
+                                     "to one with an 'irradiancemeter'",
+                                     to_string(shape.place)));
+    }
+
+    const Context& context_;
+    const std::vector<ReadShape>& shapes_;
+    std::set<const Element*> meters_;
+};
+
+void check_film(const Film& film, const SensorOptions& camera, const std::string& type, const Element& e) {
+    if ((type == "radiancemeter" || type == "distant") && (film.width != 1 || film.height != 1))
+        throw InputError(e.place,
+                         fmt::format("the film of sensor '{}' has {}×{} pixels, expected 1×1", type, film.width, film.height));
+    if (type != "batch" || camera.sensors.empty()) return;
+    const std::size_t count = camera.sensors.size();
+    if (static_cast<std::size_t>(film.width) % count != 0)
+        throw InputError(e.place,
+                         fmt::format("the film of sensor 'batch' is {} pixels wide, expected a multiple of {}, the number of "
+                                     "its sensors",
+                                     film.width, count));
+    const bool some_even = std::ranges::any_of(camera.sensors, &SensorOptions::is_even);
+    if (some_even && !std::holds_alternative<BoxFilter>(film.filter))
+        throw InputError(e.place,
+                         "the film of a sensor 'batch' with an 'irradiancemeter' or 'distant' inside has another filter than "
+                         "'box', expected that");
 }
 
 }  // namespace
@@ -131,19 +254,19 @@ Mat4 read_rigid_transform(Properties& p) {
     return m;
 }
 
-ReadSensor read_sensor(const Element& e, const Context& context) {
-    const std::string type =
-        type_of(e, {"orthographic", "perspective", "radiancemeter", "thinlens"}, "perspective", context.problems());
-    const bool is_meter = type == "radiancemeter";
+ReadSensor read_sensor(const Element& e, const Context& context, const std::vector<ReadShape>& shapes) {
+    SensorReader reader(context, shapes);
+    const std::string type = reader.type(e);
     Properties p(e, context.objects);
     ReadSensor s;
-    s.camera = type == "orthographic" ? read_orthographic(p) : is_meter ? read_radiance_meter(p) : read_perspective(p, type);
+    s.camera = reader.read(e, type, p);
+    s.meters = reader.take_meters();
     const std::vector<const Element*> films = p.nested("film"), samplers = p.nested("sampler");
     p.refuse_rest();
     Problems& problems = context.problems();
     const auto film = [&] {
         const Film read = films.empty() ? Film() : read_film(*films.front(), context);
-        if (is_meter) check_film_of_meter(read, films.empty() ? e : *films.front());
+        check_film(read, s.camera, type, films.empty() ? e : *films.front());
         return read;
     };
     s.film = problems.attempt(e.place, film).value_or(Film());

@@ -1,9 +1,12 @@
-// <sensor type="perspective">, "thinlens", "orthographic" and "radiancemeter", with its film and sampler.
+// <sensor>, with its film and sampler.
 #pragma once
 
 #include "core/reader/plugins/context.h"
+#include "core/reader/plugins/shape_plugins.h"
 #include "core/reader/xml/properties.h"
 #include "core/scene/scene.h"
+
+#include <set>
 
 namespace neumann::reader {
 
@@ -11,6 +14,7 @@ struct ReadSensor {
     SensorOptions camera;
     Film film;
     std::optional<SamplerKind> sampler;
+    std::set<const Element*> meters;  // those of shapes that are part of it
 };
 
 // `fov` with its axis or `focal_length`, as an angle; Mitsuba's default is a lens of 50 mm.
@@ -22,7 +26,8 @@ FieldOfView read_field_of_view(Properties& p);
 // Rotations, reflections and translations only.
 Mat4 read_rigid_transform(Properties& p);
 
-ReadSensor read_sensor(const Element& e, const Context& context);
+// `shapes`: of the scene.
+ReadSensor read_sensor(const Element& e, const Context& context, const std::vector<ReadShape>& shapes);
 Film read_film(const Element& e, const Context& context);
 PixelFilter read_filter(const Element& e, const Context& context);
 SamplerKind read_sampler(const Element& e, const Context& context);

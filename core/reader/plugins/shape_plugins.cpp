@@ -88,9 +88,10 @@ ReadShape read_shape(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     ReadShape result;
     result.element = &e;
-    const std::vector<const Element*> bsdfs = p.nested("bsdf"), emitters = p.nested("emitter");
+    const std::vector<const Element*> bsdfs = p.nested("bsdf"), emitters = p.nested("emitter"), sensors = p.nested("sensor");
     if (!bsdfs.empty()) result.bsdf = bsdfs.front();
     if (!emitters.empty()) result.emitter = emitters.front();
+    if (!sensors.empty()) result.sensor = sensors.front();
     result.shape = read_geometry(p, context);
     p.finish();
     check_attributes(p, result.shape, context);

@@ -11,6 +11,7 @@ struct ReadShape {
     Shape shape;
     const Element* bsdf = nullptr;     // null: not named
     const Element* emitter = nullptr;  // null: it does not emit
+    const Element* sensor = nullptr;   // null: nothing measures on it
     const Element* element = nullptr;  // from which it was read
 };
 

@@ -32,10 +32,6 @@ constexpr std::array plugins = {
     Plugin{"bsdf", "sssbrdf", no_media},
     Plugin{"emitter", "avg_sunsky", sky},
     Plugin{"emitter", "collimated", "a 'spot' of a narrow cone, or a 'directional' light, can stand for it"},
-    Plugin{
-        "emitter", "directionalarea",
-        "its light leaves in one direction from each point, so no camera sees it; a 'directional' light, or an 'area' light, can "
-        "stand for it"},
     Plugin{"emitter", "sky", "'sunsky' with sun_scale 0 is the sky alone"},
     Plugin{"emitter", "sun", "'sunsky' with sky_scale 0 is the sun alone"},
     Plugin{"emitter", "timed_sunsky", sky},
@@ -60,10 +56,7 @@ constexpr std::array plugins = {
     Plugin{"integrator", "vpl", all_paths},
     Plugin{"medium", "", no_media},
     Plugin{"phase", "", no_media},
-    Plugin{"sensor", "batch", "one sensor a scene; each of them can be rendered from a scene file of its own"},
-    Plugin{"sensor", "distant", "'orthographic' has the same parallel rays, on a film of any size"},
-    Plugin{"sensor", "hdistant", "'orthographic' has parallel rays, one direction a scene"},
-    Plugin{"sensor", "irradiancemeter", "a white 'diffuse' patch in its place, seen by a camera, has the radiance E/π"},
+    Plugin{"sensor", "hdistant", "'distant' is the same for one direction; several of them can stand in a 'batch'"},
     Plugin{"shape", "ellipsoids", "splats are not read; a mesh, written as ply, can stand for them"},
     Plugin{"shape", "ellipsoidsmesh", "splats are not read; a mesh, written as ply, can stand for them"},
     Plugin{"shape", "hair", hair},

@@ -187,6 +187,20 @@ std::vector<const Element*> Properties::nested(const std::string& tag, std::size
     return found;
 }
 
+std::vector<const Element*> Properties::all_nested(const std::vector<std::string>& tags) {
+    for (const std::string& tag : tags)
+        if (!contains(asked_tags_, tag)) asked_tags_.push_back(tag);
+    std::vector<const Element*> found;
+    for (const Element& e : element_.children) {
+        if (is_parameter(e.tag)) continue;
+        const Element* object = resolve(e);
+        if (!object || !contains(tags, object->tag)) continue;
+        read_.insert(&e);
+        found.push_back(object);
+    }
+    return found;
+}
+
 Location Properties::place_of(const std::string& name) const {
     const Element* e = parameter(name);
     const Attribute* value = e ? e->find("value") : nullptr;

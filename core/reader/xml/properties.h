@@ -40,6 +40,8 @@ public:
     const Element* object(const std::string& name, const std::string& tag);
     // Nested objects of one kind, references resolved. At most `limit`.
     std::vector<const Element*> nested(const std::string& tag, std::size_t limit = 1);
+    // All nested objects of several kinds, in the order of the file.
+    std::vector<const Element*> all_nested(const std::vector<std::string>& tags);
 
     // Calls f and returns its result, or nothing if it throws InputError, which is then a problem of the parameter.
     template <class F>
