@@ -160,7 +160,7 @@ TEST_F(Manual, ReadmeLeadsToTheTextOfEveryCommand) {
 
 // An option in README.md or anywhere in the manual is one of a command, or of ./test and CMake.
 TEST_F(Manual, OptionsThatAreNamedExist) {
-    Options known{"--help", "--quick", "--build", "--install", "--prefix"};
+    Options known{"--help", "--quick", "--build", "--install", "--prefix", "--array"};
     for (const std::string& command : commands()) known.merge(options(command));
     std::vector<std::filesystem::path> files = manual();
     files.push_back(repository / "README.md");

@@ -116,4 +116,26 @@ TEST_F(MergeCommand, WhatDoesNotGoTogether) {
                    "--part: '17/16' is not K/N with K from 1 to N, such as 3/16\nRun with --help for more information.");
 }
 
+// The script for Slurm, with what Slurm tells a job: a job that is sent again does nothing.
+TEST_F(MergeCommand, AJobArray) {
+    const auto job = [&](const std::string& k) {
+        const std::string programs = std::filesystem::path(NEUMANN).parent_path().string();
+        const Finished done =
+            run_program({"/usr/bin/env", "PATH=" + programs + ":/usr/bin:/bin", "SLURM_ARRAY_TASK_ID=" + k,
+                         "SLURM_ARRAY_TASK_COUNT=2", "SLURM_CPUS_PER_TASK=1", "bash", SCENES "/../apps/manual/job_array.slurm",
+                         "scene.xml", "out", "--spp", "128", "-n", "2"});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_EQ(done.err, "");
+    };
+    job("1");
+    job("2");
+    const auto before = contents("out/part-0001");
+    job("1");
+    EXPECT_EQ(contents("out/part-0001"), before);
+    merge({"out/part-0001", "out/part-0002"}, "all");
+    part("whole", {"--spp", "128"});
+    std::filesystem::remove(path("all/render.samples"));
+    expect_same_pictures("whole", "all");
+}
+
 }  // namespace neumann::merge_command_test
