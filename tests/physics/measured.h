@@ -17,9 +17,11 @@ namespace neumann::physics {
 inline Film one_pixel() { return {1, 1, 0, 0, 1, 1, GaussianFilter()}; }
 
 // Of paths each replicate has 32 samples, as in renders by the commands: in a single pixel larger nets have few ways to combine
-// paths from both ends, and 64 of them are too few for their errors. Of fields there are 64.
+// paths from both ends, and 64 of them are too few for their errors. Where each replicate has fields or points of its own there
+// are 64.
 inline BounceSeries measure(const Scene& scene, const Method& method, std::size_t bounces, std::uint64_t samples) {
-    const auto replicates = static_cast<std::uint32_t>(has_fields(method) ? 64 : std::max<std::uint64_t>(samples / 32, 4));
+    const bool prepares = has_fields(method) || std::holds_alternative<method::Corrected>(method);
+    const auto replicates = static_cast<std::uint32_t>(prepares ? 64 : std::max<std::uint64_t>(samples / 32, 4));
     return render(scene, method,
                   {.bounces = static_cast<int>(bounces), .samples = samples, .replicates = replicates, .seed = fixed_seed});
 }
