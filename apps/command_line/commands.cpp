@@ -39,7 +39,9 @@ Command render_as_given(CLI::App& app, const std::string& line) {
     const CLI::App* render = add_render(app, *request);
     return {render, [request, render] {
                 request->options = given_options(*render);
-                return render_command(request->resume.empty() ? *request : resumed(*request));
+                if (!request->resume.empty()) return render_command(resumed(*request));
+                request->options = lasting(std::move(request->options));
+                return render_command(*request);
             }};
 }
 

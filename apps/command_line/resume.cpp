@@ -58,10 +58,14 @@ Json given_options(const CLI::App& command) {
     return options;
 }
 
+Json lasting(Json options) {
+    for (const char* name : {"-o", "-t", "--quiet", "--json", "--resume"}) options.erase(name);
+    return options;
+}
+
 RenderRequest resumed(const RenderRequest& now) {
     RequestOnDisk begun = request_in(now.resume);
     Json& options = begun.options;
-    for (const char* name : {"--quiet", "--json"}) options.erase(name);
     if (std::ranges::any_of(limits, [&](std::string_view name) { return now.options.contains(std::string(name)); }))
         for (const std::string_view name : limits) options.erase(std::string(name));
     for (const auto& [name, values] : now.options.items()) {
@@ -72,11 +76,10 @@ RenderRequest resumed(const RenderRequest& now) {
                                  : fmt::format("--resume: {} {} is given, and was not", name, words(values)));
         options[name] = values;
     }
-    options.erase("-o");
     options.erase("--resume");
     RenderRequest request;
     read_arguments([&](CLI::App& app) { add_render(app, request); }, as_arguments(options));
-    request.options = options;
+    request.options = lasting(options);
     request.command_line = now.command_line;
     request.resume = request.output = now.resume;
     request.scene_hash = begun.scene_hash;

@@ -59,7 +59,7 @@ int merge_command(const MergeRequest& request) {
 
     const ThreadLimit threads(request.threads);
     Json options = asked.front().options;
-    for (const char* name : {"--part", "--seed", "-o", "--spp"}) options.erase(name);
+    for (const char* name : {"--part", "--seed", "--spp"}) options.erase(name);
     if (merged.series.merged.empty()) {
         options["--spp"] = {std::to_string(merged.series.samples)};
         if (merged.render.seed != 0) options["--seed"] = {std::to_string(merged.render.seed)};

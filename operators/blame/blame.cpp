@@ -276,7 +276,8 @@ private:
             for (const PictureNoise& p : w.terms) rescaled.push_back(scaled(p, factor));
             add(name_of(w.mistake), describe(w.mistake), rescaled, 1, false);
         }
-        for (const WrongPictures& w : without_techniques(scene_, ranges, paths_a_pixel(), settings_.seed + 2, watch_))
+        // A bidirectional path takes several times as long.
+        for (const WrongPictures& w : without_techniques(scene_, ranges, paths_a_pixel() / 4, settings_.seed + 2, watch_))
             add(w.name, w.words, w.terms, 0, false);
         std::stable_sort(result_.suspects.begin(), result_.suspects.end(),
                          [](const Suspect& a, const Suspect& b) { return a.misfit < b.misfit; });
