@@ -67,6 +67,17 @@ TEST_F(Lenient, MaterialsBecomeGreyAndDiffuse) {
     EXPECT_EQ(reflectance_of(parts, 2), Rgb(0.1));
 }
 
+// As if the parameter were missing.
+TEST_F(Lenient, WordsAreIgnored) {
+    const std::string body =
+        "<shape type='sphere'><bsdf type='conductor'>\n<string name='material' value='unobtainium'/></bsdf></shape>\n"
+        "<shape type='cube'><bsdf type='roughconductor'>\n<string name='distribution' value='gaussian'/></bsdf></shape>";
+    EXPECT_TRUE(is_all_unknown(body));
+    EXPECT_EQ(replaced_of(body), (Texts{"scene.xml:3:25: material 'unobtainium' of bsdf 'conductor' is unknown; ignored",
+                                        "scene.xml:5:29: distribution is 'gaussian'; ignored"}));
+    EXPECT_EQ(read_leniently(body).shapes.size(), 2u);
+}
+
 TEST_F(Lenient, LightsAreLeftOut) {
     const std::string body =
         "<emitter type='avg_sunsky'/>\n<emitter type='laser'><float name='power' value='1'/></emitter>\n"

@@ -42,8 +42,8 @@ ConductorFresnel read_fresnel(Properties& p, const Context& context) {
         if (metal.name == material) return {metal.eta, metal.k};
         names.emplace_back(metal.name);
     }
-    p.complain("material",
-               fmt::format("material '{}' of {} is unknown; {}", material, p.title(), allowed_instead(material, names)));
+    p.refuse_word("material", fmt::format("material '{}' of {} is unknown", material, p.title()),
+                  fmt::format("; {}", allowed_instead(material, names)));
     return {Rgb(0.0), Rgb(1.0)};
 }
 

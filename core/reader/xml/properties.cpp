@@ -124,7 +124,7 @@ std::optional<std::string> Properties::text(const std::string& name) {
 std::string Properties::choice(const std::string& name, const std::vector<std::string>& allowed, const std::string& missing) {
     const std::string value = text(name).value_or(missing);
     if (contains(allowed, value)) return value;
-    complain(name, fmt::format("{} is '{}'; {}", name, value, allowed_instead(value, allowed)));
+    refuse_word(name, fmt::format("{} is '{}'", name, value), fmt::format("; {}", allowed_instead(value, allowed)));
     return missing;
 }
 
@@ -220,6 +220,12 @@ void Properties::fail(const std::string& name, const std::string& what) const {
 void Properties::fail_empty(const std::string& what) const {
     if (incomplete_) throw Told();
     throw InputError(element_.place, what);
+}
+
+void Properties::refuse_word(const std::string& name, const std::string& what, const std::string& expected) {
+    if (spoilt_.count(name)) return;
+    if (!problems().lenient()) spoilt_.insert(name);
+    refuse(place_of(name), what, expected);
 }
 
 void Properties::refuse_rest() {

@@ -59,6 +59,10 @@ public:
     // Fails with "… has no <bsdf> inside, expected …", unless a nested element that could not be read may have been one.
     [[noreturn]] void fail_empty(const std::string& what) const;
 
+    // Reports that the word of a parameter is not known; a lenient reader goes on as if the parameter were missing. `expected`: as
+    // in Unknown.
+    void refuse_word(const std::string& name, const std::string& what, const std::string& expected);
+
     // Reports everything that was not asked for. Call it after the last question.
     void refuse_rest();
     void finish();
