@@ -44,10 +44,9 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->check(whole_part());
     render
         ->add_option("--checkpoint", request.checkpoint,
-                     "Seconds after which what there is of the render is written to disk, again and again")
+                     "Seconds after which what there is of the render is written to disk, again and again; default 60")
         ->type_name("S")
-        ->check(above_zero())
-        ->capture_default_str();
+        ->check(above_zero());
     render
         ->add_option("--resume", request.resume,
                      "Go on with the render in this folder that was cut off, or add samples to one that is finished")

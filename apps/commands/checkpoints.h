@@ -5,23 +5,41 @@
 #include "apps/files/saved_render.h"
 #include "core/base/stopwatch.h"
 
+#include <functional>
+#include <optional>
+#include <string>
+
 namespace neumann {
+
+constexpr double default_checkpoint = 60.0;
 
 class Checkpoints {
 public:
-    // A state every so many seconds, and one in the end if the render took longer or was interrupted, or if it `keeps` its samples
-    // anyway: those of a part, and those that were added to.
-    Checkpoints(OutputFolder& folder, RequestOnDisk request, double seconds, bool keeps)
-        : folder_(folder), request_(std::move(request)), seconds_(seconds), keeps_(keeps) {}
+    // A state every so many seconds (default_checkpoint, if they are not given), and one in the end if the render took longer or
+    // was interrupted, or if it `keeps` its samples anyway: those of a part, and those that were added to. If nothing asks for a
+    // state, a large one is not written, which `tell` tells once.
+    Checkpoints(OutputFolder& folder, RequestOnDisk request, std::optional<double> seconds, bool keeps,
+                std::function<void(const std::string&)> tell)
+        : folder_(folder),
+          request_(std::move(request)),
+          seconds_(seconds.value_or(default_checkpoint)),
+          is_asked_(seconds || keeps),
+          keeps_(keeps),
+          tell_(std::move(tell)) {}
+
+    double seconds() const { return seconds_; }
 
     // As Saving::keep. Throws RunError, which tells what to do, if the state cannot be written.
     void keep(const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series, bool is_last);
 
 private:
+    bool is_wanted(const RenderedSeries& series);
+
     OutputFolder& folder_;
     RequestOnDisk request_;
     double seconds_;
-    bool keeps_;
+    bool is_asked_, keeps_, has_told_ = false;
+    std::function<void(const std::string&)> tell_;
     std::uint64_t samples_on_disk_ = 0;
     std::size_t rows_on_disk_ = 0;
     double writing_seconds_ = 0.0;  // of the last state

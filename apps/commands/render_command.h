@@ -8,8 +8,6 @@
 
 namespace neumann {
 
-constexpr double default_checkpoint = 60.0;
-
 struct RenderRequest {
     std::string scene;
     std::vector<std::string> definition_texts;       // -D name=value, as typed
@@ -24,11 +22,11 @@ struct RenderRequest {
     int threads = 0;                                 // 0: all
     bool quiet = false;
     bool json = false;
-    std::string resume;                      // the folder of a render that this one goes on with; the request is as that one began
-    std::string scene_hash;                  // of that one
-    double checkpoint = default_checkpoint;  // seconds between two states on disk
-    nlohmann::ordered_json options;          // as typed, by name, for a resumed render
-    std::string command_line;                // as typed, for run.json
+    std::string resume;                // the folder of a render that this one goes on with; the request is as that one began
+    std::string scene_hash;            // of that one
+    std::optional<double> checkpoint;  // seconds between two states on disk
+    nlohmann::ordered_json options;    // as typed, by name, for a resumed render
+    std::string command_line;          // as typed, for run.json
 };
 
 // Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
