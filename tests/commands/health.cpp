@@ -134,11 +134,13 @@ TEST_F(Health, Fireflies) {
     EXPECT_TRUE(any);
     // Asked for by points, the same lamp makes none in direct light.
     render("scene.xml", "b", {"-n", "2", "--spp", "64", "--quiet"});
-    for (const char* folder : {"a", "b"})
-        for (const nlohmann::json& largest : health(folder).at("largest_samples"))
+    for (const char* folder : {"a", "b"}) {
+        const nlohmann::json all = health(folder).at("largest_samples");
+        for (const nlohmann::json& largest : all)
             if (largest.at("bounce") == 1) {
                 EXPECT_EQ(largest.at("fireflies") > 0, std::string(folder) == "a");
             }
+    }
 }
 
 // A floor and a veil above it, nearer than floats can tell: no ray hits what it leaves.

@@ -62,11 +62,13 @@ TEST_F(MergeCommand, SeedsAreOneSetOfReplicates) {
     // Means over the picture of a walk are of independent pixels: their squared errors add up like those of one.
     EXPECT_GT(squares("c", m + n), squares("a", m));
     // A sample that the health names is found again in the render that it is from.
-    for (const nlohmann::json& sample : run_json("c").at("health").at("samples")) {
+    const nlohmann::json health = run_json("c").at("health");
+    EXPECT_GT(health.at("samples").size(), 2u);
+    for (const nlohmann::json& sample : health.at("samples")) {
         const Finished found = run({"replay", "c", sample.at("number").dump(), "--json"});
         ASSERT_EQ(found.exit_code, 0) << found.err;
         const nlohmann::json terms = nlohmann::json::parse(found.out).at("terms");
-        for (const nlohmann::json& largest : run_json("c").at("health").at("largest_samples")) {
+        for (const nlohmann::json& largest : health.at("largest_samples")) {
             if (largest.at("number") != sample.at("number")) continue;
             const nlohmann::json& term = terms.at(largest.at("bounce").get<std::size_t>());
             const double value = std::max({term.at(0).get<double>(), term.at(1).get<double>(), term.at(2).get<double>()});
