@@ -66,8 +66,14 @@ Json lasting(Json options) {
 RenderRequest resumed(const RenderRequest& now) {
     RequestOnDisk begun = request_in(now.resume);
     Json& options = begun.options;
-    if (std::ranges::any_of(limits, [&](std::string_view name) { return now.options.contains(std::string(name)); }))
+    if (std::ranges::any_of(limits, [&](std::string_view name) { return now.options.contains(std::string(name)); })) {
+        if (options.contains("--part"))
+            throw InputError(
+                fmt::format("--resume: --part {} is of the samples that it began with; for more, render them as parts of "
+                            "another seed and merge these, too",
+                            words(options.at("--part"))));
         for (const std::string_view name : limits) options.erase(std::string(name));
+    }
     for (const auto& [name, values] : now.options.items()) {
         if (name == "-o") throw InputError("-o: --resume writes into the folder of the render that it goes on with");
         if (!is_one_of(limits, name) && !is_one_of(changeable, name) && (!options.contains(name) || options.at(name) != values))

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 
 namespace neumann {
 
@@ -39,6 +40,18 @@ NamedState read(const std::string& folder) {
     return {folder, read_saved_render(file)};
 }
 
+// The samples a pixel that parts leave out, because one of them is not here or was cut short.
+std::uint64_t missing_samples(const Json& options, const RenderState& merged) {
+    if (!options.contains("--part")) return 0;
+    const std::uint64_t all = std::stoull(options.at("--spp").at(0).get<std::string>());
+    std::map<std::uint64_t, std::uint64_t> of_seed;
+    for (const SeedRange& range : merged.series.merged) of_seed[range.seed] += range.count * merged.render.replicate_size;
+    if (of_seed.empty()) of_seed[merged.render.seed] = merged.series.samples;
+    std::uint64_t missing = 0;
+    for (const auto& [seed, samples] : of_seed) missing += samples < all ? all - samples : 0;
+    return missing;
+}
+
 }  // namespace
 
 int merge_command(const MergeRequest& request) {
@@ -57,6 +70,7 @@ int merge_command(const MergeRequest& request) {
     }
     RenderState merged = merge(std::move(renders));
 
+    const std::uint64_t missing = missing_samples(asked.front().options, merged);
     const ThreadLimit threads(request.threads);
     Json options = asked.front().options;
     for (const char* name : {"--part", "--seed", "--spp"}) options.erase(name);
@@ -80,6 +94,9 @@ int merge_command(const MergeRequest& request) {
     Saving saving;
     saving.from = std::move(merged);
     BounceSeries series = render(*scene, method, goal, {}, std::move(saving));
+    if (missing > 0)
+        series.warnings.add(
+            fmt::format("{} samples a pixel of the whole are missing: a part is not here, or was cut short", missing));
     const Rendering rendering{file,  request.command_line, options,         definitions,
                               scene, std::move(series),    clock.seconds(), choose_files(request.files)};
     const auto [warnings, json] = write_rendering(rendering, folder);

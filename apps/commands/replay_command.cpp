@@ -25,9 +25,9 @@ struct RecordedRun {
     std::map<std::string, std::string> definitions;
     bool lenient = false;
     RecordedRender render;
-    std::uint64_t samples = 0;
-    std::vector<SeedRange> merged;  // where the samples are of several seeds
-    Json named;                     // the samples that the health report names
+    std::uint64_t first = 0, samples = 0;  // of a part, the first is above 0
+    std::vector<SeedRange> merged;         // where the samples are of several seeds
+    Json named;                            // the samples that the health report names
 };
 
 RecordedRun read_run(const std::string& folder) {
@@ -53,6 +53,7 @@ RecordedRun read_run(const std::string& folder) {
         render.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
         render.replicate_size = samples.at("replicate_size");
         run.samples = samples.at("per_pixel");
+        run.first = samples.value("first_replicate", std::uint64_t{0}) * render.replicate_size;
         if (samples.contains("merged"))
             for (const Json& range : samples.at("merged"))
                 run.merged.push_back({range.at("seed"), range.at("first_replicate"), range.at("replicates")});
@@ -79,9 +80,9 @@ std::uint32_t pixel_number(const Film& film, int x, int y) {
 
 Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
     if (!request.number) {
-        if (*request.sample >= run.samples)
-            throw InputError(
-                fmt::format("--sample {}: expected 0 to {}, as many as the render has a pixel", *request.sample, run.samples - 1));
+        if (*request.sample < run.first || *request.sample - run.first >= run.samples)
+            throw InputError(fmt::format("--sample {}: expected {} to {}, as many as the render has a pixel", *request.sample,
+                                         run.first, run.first + run.samples - 1));
         return {{pixel_number(film, request.pixel[0], request.pixel[1]), *request.sample}, ""};
     }
     for (const Json& sample : run.named) {

@@ -36,6 +36,25 @@ TEST_F(MergeCommand, PartsAreTheWhole) {
     EXPECT_EQ(run_json("2").at("samples").at("replicates"), 5);
 }
 
+// Two of three parts are a render, too; that one is missing is told, and so is what a part is not asked for.
+TEST_F(MergeCommand, APartIsMissing) {
+    for (const std::string k : {"1", "2", "3"}) part(k, {"--spp", "512", "--method", "walk", "--part", k + "/3"});
+    merge({"1", "3"}, "two");
+    EXPECT_EQ(run_json("two").at("samples").at("per_pixel"), 352);  // 5 and 6 of 16 replicates of 32
+    EXPECT_TRUE(warnings("two").contains("160 samples a pixel of the whole are missing: a part is not here, or was cut short"));
+    merge({"1", "2", "3"}, "all");
+    EXPECT_TRUE(warnings("all").empty());
+    EXPECT_EQ(refused({"render", "--resume", "2", "--spp", "1024"}),
+              "--resume: --part 2/3 is of the samples that it began with; for more, render them as parts of another seed and merge "
+              "these, too\n");
+    EXPECT_EQ(refused({"replay", "2", "--pixel", "3,3", "--sample", "7"}),
+              "--sample 7: expected 160 to 319, as many as the render has a pixel\n");
+    const Finished of_part = run({"replay", "2", "--pixel", "3,3", "--sample", "170", "--json"}),
+                   of_all = run({"replay", "all", "--pixel", "3,3", "--sample", "170", "--json"});
+    EXPECT_EQ(of_part.exit_code, 0) << of_part.err;
+    EXPECT_EQ(of_part.out, of_all.out);
+}
+
 // The replicates of all count the same: means and variances are those of the set of all (Chan, Golub and LeVeque 1983).
 TEST_F(MergeCommand, SeedsAreOneSetOfReplicates) {
     part("a", {"--spp", "128", "--method", "walk", "--checkpoint", "0.0001"});
