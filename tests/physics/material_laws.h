@@ -3,10 +3,10 @@
 
 #include "core/sampling/sampler.h"
 #include "operators/known/quadrature.h"
+#include "tests/physics/cell_counts.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include <algorithm>
 
@@ -55,41 +55,24 @@ inline double directions_p_value(const Bsdf& bsdf, const ShadingPoint& p, const 
         const int ring = std::clamp(static_cast<int>((s.wi.z + 1.0) * 0.5 * rings), 0, rings - 1);
         found[static_cast<std::size_t>(ring * sectors + std::clamp(static_cast<int>(turn * sectors), 0, sectors - 1))] += 1.0;
     }
-    double chi2 = 0.0, few_found = 0.0, few_expected = 0.0, all = 0.0;
-    int cells = 0;
-    const auto compare = [&](double n, double expected) {
-        chi2 += (n - expected) * (n - expected) / expected;
-        ++cells;
-    };
+    CellCounts counts;
     for (int ring = 0; ring < rings; ++ring)
         for (int sector = 0; sector < sectors; ++sector) {
             const auto turn = [](int i) { return 2.0 * pi * i / sectors - pi; };
             const auto z = [](int i) { return 2.0 * i / rings - 1.0; };
             const double expected = count * over_cell(z(ring), z(ring + 1), turn(sector), turn(sector + 1),
                                                       [&](const Vec3& wi) { return pdf(bsdf, p, wo, wi); });
-            const double n = found[static_cast<std::size_t>(ring * sectors + sector)];
-            all += expected;
-            if (expected >= 10.0) {
-                compare(n, expected);
-            } else {
-                few_found += n;
-                few_expected += expected;
-            }
+            counts.add(found[static_cast<std::size_t>(ring * sectors + sector)], expected);
         }
     if (others == 0.0) {
-        EXPECT_NEAR(all / count, 1.0, 4e-3);  // the quadrature's error where a grazing lobe is narrow
-    } else if (count - all >= 10.0) {
-        compare(others, count - all);
+        EXPECT_NEAR(counts.all_expected / count, 1.0, 4e-3);  // the quadrature's error where a grazing lobe is narrow
     } else {
-        few_found += others;
-        few_expected += std::max(count - all, 0.0);
+        counts.add(others, std::max(count - counts.all_expected, 0.0));
     }
-    if (few_expected >= 10.0) {
-        compare(few_found, few_expected);
-    } else {
-        EXPECT_LE(few_found, 40.0);
+    if (!counts.join_few()) {
+        EXPECT_LE(counts.few_found, 40.0);
     }
-    return cells > 1 ? cdf(complement(boost::math::chi_squared(cells - 1), chi2)) : 1.0;
+    return counts.cells > 1 ? counts.p() : 1.0;
 }
 
 // weight · pdf = fs |cosθ|, and pdf() is the density that sample() says.

@@ -6,12 +6,12 @@
 #include "core/sampling/warp.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/sides.h"
+#include "tests/physics/cell_counts.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 
 namespace neumann::physics::polygons_seen_test {
 
@@ -30,27 +30,16 @@ double chi_squared_test(const Vec3& corner, const Vec3& a, const Vec3& b, const 
                   t = static_cast<int>(cells * glm::dot(d, b) / glm::dot(b, b));
         ++found[static_cast<std::size_t>(std::clamp(s, 0, cells - 1) * cells + std::clamp(t, 0, cells - 1))];
     }
-    double chi2 = 0.0, rare_found = 0.0, rare = 0.0;
-    int terms = 0;
+    CellCounts counts;
     for (int s = 0; s < cells; ++s)
         for (int t = 0; t < cells; ++t) {
             const Vec3 part_a = a / double(cells), part_b = b / double(cells);
             const double wanted = drawn * expected(corner + double(s) * part_a + double(t) * part_b, part_a, part_b);
-            const double k = found[static_cast<std::size_t>(s * cells + t)];
-            if (wanted < 10.0) {
-                rare += wanted;
-                rare_found += k;
-            } else {
-                chi2 += (k - wanted) * (k - wanted) / wanted;
-                ++terms;
-            }
+            counts.add(found[static_cast<std::size_t>(s * cells + t)], wanted);
         }
-    if (rare > 10.0) {
-        chi2 += (rare_found - rare) * (rare_found - rare) / rare;
-        ++terms;
-    }
-    EXPECT_GT(terms, 3);
-    return boost::math::cdf(boost::math::complement(boost::math::chi_squared(terms - 1), chi2));
+    counts.join_few();
+    EXPECT_GT(counts.cells, 3);
+    return counts.p();
 }
 
 // Of a triangle, Girard's formula for an octant, and a small flat one.

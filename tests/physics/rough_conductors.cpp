@@ -1,10 +1,10 @@
 // Rough metals: the laws of a material, by quadrature and χ².
 #include "core/sampling/sampler.h"
 #include "operators/known/quadrature.h"
+#include "tests/physics/cell_counts.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include <algorithm>
 
@@ -82,8 +82,7 @@ TEST(RoughConductor, DirectionsAreDrawnWithTheirDensity) {
                 const int sector = std::min(static_cast<int>((turn < 0.0 ? turn + 1.0 : turn) * sectors), sectors - 1);
                 found[static_cast<std::size_t>(ring * sectors + sector)] += 1.0;
             }
-            double chi2 = 0.0, few_found = 0.0, few_expected = 0.0;
-            int cells = 0;
+            CellCounts cells;
             for (int ring = 0; ring < rings; ++ring)
                 for (int sector = 0; sector < sectors; ++sector) {
                     const double turn = 2.0 * pi / sectors;
@@ -92,23 +91,13 @@ TEST(RoughConductor, DirectionsAreDrawnWithTheirDensity) {
                             return integrate(turn * sector, turn * (sector + 1), 1e-6,
                                              [&](double phi) { return visible_density(bsdf, wo, facet(alpha, t, phi)); });
                         });
-                    const double n = found[static_cast<std::size_t>(ring * sectors + sector)];
-                    if (expected < 10.0) {
-                        few_found += n;
-                        few_expected += expected;
-                        continue;
-                    }
-                    chi2 += (n - expected) * (n - expected) / expected;
-                    ++cells;
+                    cells.add(found[static_cast<std::size_t>(ring * sectors + sector)], expected);
                 }
-            if (few_expected > 10.0) {
-                chi2 += (few_found - few_expected) * (few_found - few_expected) / few_expected;
-                ++cells;
-            } else {
-                EXPECT_LE(few_found, 40.0) << name << ", cosine " << mu;
+            if (!cells.join_few()) {
+                EXPECT_LE(cells.few_found, 40.0) << name << ", cosine " << mu;
             }
-            const double p = cdf(complement(boost::math::chi_squared(cells - 1), chi2));
-            EXPECT_GE(p, 6.8e-6) << name << ", cosine " << mu << ": χ² = " << chi2 << " in " << cells << " cells";
+            EXPECT_GE(cells.p(), 6.8e-6) << name << ", cosine " << mu << ": χ² = " << cells.chi2 << " in " << cells.cells
+                                         << " cells";
         }
 }
 

@@ -15,6 +15,11 @@ protected:
     static constexpr const char* camera =
         "Camera \"perspective\" \"float fov\" 40 Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n";
 
+    // Of a Mitsuba scene that says the same.
+    static constexpr const char* grey = "<bsdf type='twosided' id='grey'><bsdf type='diffuse'/></bsdf>";
+    static std::string with_grey(const std::string& shape) { return grey + shape; }
+    static std::string to_world(const std::string& inside) { return "<transform name='to_world'>" + inside + "</transform>"; }
+
     // `world` begins on line 3.
     static std::string pbrt(const std::string& world) { return camera + std::string("WorldBegin\n") + world; }
 
