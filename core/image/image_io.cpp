@@ -1,9 +1,7 @@
 #include "core/image/image_io.h"
 
-#include "core/base/error.h"
+#include "core/base/module.h"
 #include "core/image/module/picture_codec.h"
-
-#include <dlfcn.h>
 
 namespace neumann {
 
@@ -11,11 +9,8 @@ namespace {
 
 template <class Codec>
 const Codec& load(const char* file, const char* name) {
-    void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr)
-        throw RunError(std::string("pictures can be neither read nor written, because part of neumann is missing: ") + dlerror());
-    const auto offer = reinterpret_cast<const Codec* (*)()>(dlsym(library, name));
-    if (offer == nullptr) throw RunError(std::string("pictures can be neither read nor written: ") + dlerror());
+    const auto offer = reinterpret_cast<const Codec* (*)()>(
+        function_in_module(file, name, "pictures can be neither read nor written"));
     return *offer();
 }
 

@@ -1,0 +1,17 @@
+#include "core/base/module.h"
+
+#include "core/base/error.h"
+
+#include <dlfcn.h>
+
+namespace neumann {
+
+void* function_in_module(const char* file, const char* name, const std::string& without) {
+    void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) throw RunError(without + ", because part of neumann is missing: " + dlerror());
+    void* const function = dlsym(library, name);
+    if (function == nullptr) throw RunError(without + ": " + dlerror());
+    return function;
+}
+
+}  // namespace neumann

@@ -1,0 +1,11 @@
+// Parts of the program that are loaded when they are first needed, for the libraries that they bring along.
+#pragma once
+
+#include <string>
+
+namespace neumann {
+
+// A function in a module. Throws RunError, which begins with `without` ("pictures cannot be read"), if it is not there.
+void* function_in_module(const char* file, const char* name, const std::string& without);
+
+}  // namespace neumann

@@ -1,0 +1,47 @@
+// The processes that a launcher (mpirun, srun) has started together, each with a memory of its own, and messages between them.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct Message {
+    int from = 0;
+    std::string text;
+    std::vector<std::byte> numbers;  // as they were in the memory of the process that sent them
+};
+
+// Not for several threads at once. Where another process has died, the launcher ends all of them.
+class Processes {
+public:
+    virtual ~Processes() = default;
+
+    // The number of this process, from 0 on, and of all.
+    virtual int rank() const = 0;
+    virtual int size() const = 0;
+    // How many of them run on this machine.
+    virtual int on_this_machine() const = 0;
+    virtual std::string machine() const = 0;
+
+    // Returns when the message is on its way. Messages from one process to another arrive in the order in which they were sent.
+    virtual void send(int to, const std::string& text, std::initializer_list<std::span<const std::byte>> numbers = {}) = 0;
+    // A message that has arrived, if there is one.
+    virtual std::optional<Message> receive() = 0;
+
+    struct Traffic {
+        std::size_t messages = 0, bytes = 0;
+    };
+    // What this process has sent.
+    virtual Traffic sent() const = 0;
+};
+
+// Null if this process was started alone. Throws RunError if it was not, and this program was built without MPI.
+std::unique_ptr<Processes> launched_processes();
+
+}  // namespace neumann
