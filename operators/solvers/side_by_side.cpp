@@ -21,6 +21,7 @@ SolverRow run(const NamedSolver& solver, const Problem& problem) {
 
 void run_all(const Problem& problem, bool histories, SideBySide& all) {
     const SolverRow reference = run(*find_solver("lu"), problem);
+    const Agreement& agreement = problem.K->agreement();
     const bool known = reference.result.verdict == Verdict::converged;
     if (!known) all.no_reference = reference.result.why;
     for (const NamedSolver& solver : solvers()) {
@@ -30,7 +31,7 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
         }
         SolverRow row = run(solver, problem);
         const Vector& L = reference.result.x;
-        if (known && largest(L) > 0.0) row.error = largest(row.result.x - L) / largest(L);
+        if (known && agreement.size(L) > 0.0) row.error = agreement.size(row.result.x - L) / agreement.size(L);
         if (known && histories) {
             Problem judged = problem;
             judged.exact = &L;

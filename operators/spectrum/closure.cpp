@@ -12,9 +12,11 @@ template <class Other>
 double defect(const ChannelOperator& K, int pairs, const Other& other) {
     std::mt19937_64 bits(1);
     const auto fill = [&](Vector& x) {
+        bits.discard(K.first());
         for (double& value : x) value = static_cast<double>(bits() >> 11) * 0x1p-52 - 1.0;
+        bits.discard(K.unknowns() - K.first() - static_cast<std::size_t>(K.size()));
     };
-    const auto dot = [&](const Vector& f, const Vector& g) { return f.cwiseProduct(K.measure()).dot(g); };
+    const auto dot = [&](const Vector& f, const Vector& g) { return K.agreement().sum(f.cwiseProduct(K.measure()).dot(g)); };
     Vector f(K.size()), g(K.size()), Kf(K.size()), other_g(K.size());
     double largest = 0.0;
     for (int i = 0; i < pairs; ++i) {
@@ -36,7 +38,7 @@ Vector row_sums(const ChannelOperator& F) {
     return sums;
 }
 
-double closure_defect(const ChannelOperator& F) { return F.size() == 0 ? 0.0 : (row_sums(F).array() - 1.0).abs().maxCoeff(); }
+double closure_defect(const ChannelOperator& F) { return F.agreement().size(row_sums(F) - Vector::Ones(F.size())); }
 
 double reciprocity_defect(const ChannelOperator& F, int pairs) {
     return defect(F, pairs, [&](const Vector& g, Vector& y) { F.apply(g, y); });
