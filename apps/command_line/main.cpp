@@ -1,6 +1,7 @@
 // The command line.
 #include "apps/command_line/command_manual.h"
 #include "apps/command_line/commands.h"
+#include "apps/command_line/options.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -72,7 +73,9 @@ int main(int argc, char** argv) try {
 
     if (argc > 1 && argv[1][0] != '-') find(app, argv[1]);
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = neumann::joined_arguments(argc, argv);
+        std::ranges::reverse(arguments);  // as CLI11 wants them
+        app.parse(std::move(arguments));
     } catch (const CLI::ParseError& e) {
         const int code = app.exit(e);
         return code == 0 ? finish(0) : wrong_input;

@@ -4,6 +4,7 @@
 #include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
 #include "core/base/error.h"
+#include "operators/petsc/petsc_solver.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace neumann {
 
 namespace {
 
-bool is_reference(const SolverRow& row) { return std::string_view(row.solver->name) == "lu"; }
+bool is_reference(const SolverRow& row) { return row.name == "lu"; }
 
 std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : ""; }
 
@@ -57,7 +58,7 @@ void print_notes(const SideBySide& all) {
         for (std::size_t k = 0; k < all.rows.size(); ++k) {
             if (other(row, all.rows[k])) continue;
             said = said || k < i;
-            who += (who.empty() ? "" : "; ") + std::string(all.rows[k].solver->title);
+            who += (who.empty() ? "" : "; ") + all.rows[k].title;
         }
         if (!said) fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}.", who, name(row.result.verdict), row.result.why), 4));
     }
@@ -79,7 +80,7 @@ void print_table(const PatchScene& scene, const SolveRequest& request, const Cho
     fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>14}   {}\n", "solver", "applications", "seconds", "estimate", "error to LU",
                "verdict");
     for (const SolverRow& row : all.rows)
-        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>14}   {}\n", row.solver->title, applications_text(row.result.applications),
+        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>14}   {}\n", row.title, applications_text(row.result.applications),
                    row.seconds, short_number(row.estimate()),
                    is_reference(row) && all.no_reference.empty() ? "reference" : short_number(row.error), name(row.result.verdict));
     fmt::print(
@@ -94,14 +95,15 @@ void print_csv(const SideBySide& all) {
     const auto cell = [](double x) { return std::isnan(x) ? std::string() : fmt::format("{:.9g}", x); };
     for (const SolverRow& row : all.rows)
         for (const SolverStep& step : row.result.history)
-            fmt::print("{},{:.9g},{},{},{:.6f}\n", row.solver->name, step.applications, cell(step.estimate), cell(step.error),
+            fmt::print("{},{:.9g},{},{},{:.6f}\n", row.name, step.applications, cell(step.estimate), cell(step.error),
                        step.seconds);
 }
 
 }  // namespace
 
 nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved) {
-    const auto& [chosen, all] = solved;
+    const ChosenChannel& chosen = solved.chosen;
+    const SideBySide& all = solved.all;
     using Json = nlohmann::ordered_json;
     Json json = scene.json();
     json["channel"] = {{"name", scene.system().channel_name(chosen.channel)}, {"why", chosen.why}};
@@ -114,8 +116,8 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     json["interrupted"] = all.interrupted;
     json["solvers"] = Json::array();
     for (const SolverRow& row : all.rows) {
-        Json solver = {{"name", row.solver->name},
-                       {"title", row.solver->title},
+        Json solver = {{"name", row.name},
+                       {"title", row.title},
                        {"verdict", name(row.result.verdict)},
                        {"why", row.result.why},
                        {"applications", row.result.applications},
@@ -145,7 +147,12 @@ SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bo
     problem.most = request.most;
     if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
     problem.reflectance = &K.reflectance();
-    return {chosen, solve_side_by_side(problem, histories, {.stop = interrupted})};
+    SolvedScene solved{chosen, solve_side_by_side(problem, histories, {.stop = interrupted})};
+    if (!request.petsc) return solved;
+    const Vector exact = solved.all.exact() ? *solved.all.exact() : Vector();
+    solved.warnings =
+        add_petsc_rows(problem, petsc_options(*request.petsc), solved.all.exact() ? &exact : nullptr, histories, {.stop = interrupted}, solved.all);
+    return solved;
 }
 
 int solve_command(const SolveRequest& request) {
@@ -155,6 +162,7 @@ int solve_command(const SolveRequest& request) {
     const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json);
 
     print_warnings(scene.warnings(), request.patches.quiet);
+    print_warnings(solved.warnings, request.patches.quiet);
     if (request.patches.json)
         fmt::print("{}\n", solve_json(scene, request, solved).dump(2));
     else if (request.csv)

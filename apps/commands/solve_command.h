@@ -5,7 +5,9 @@
 #include "operators/matrix/channel_choice.h"
 #include "operators/solvers/side_by_side.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
@@ -15,11 +17,13 @@ struct SolveRequest {
     double tolerance = 1e-6;
     int most = 10000;  // largest number of applications of K
     bool csv = false;
+    std::optional<std::string> petsc;  // PETSc's options; empty: a few kinds
 };
 
 struct SolvedScene {
     ChosenChannel chosen;
     SideBySide all;
+    std::vector<std::string> warnings = {};
 };
 // `histories`: record true errors at each step. Throws InputError.
 SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories);

@@ -13,7 +13,8 @@ namespace neumann {
 SceneSpectrum spectrum_of(const PatchScene& scene, const SpectrumRequest& request,
                           const std::function<void(const std::function<std::string()>&)>& tell) {
     const Stopwatch clock;
-    SpectrumLimits limits{request.eigenvalues, request.seconds, static_cast<double>(request.most)};
+    SpectrumLimits limits{request.eigenvalues, request.seconds, static_cast<double>(request.most), {}};
+    limits.petsc = request.petsc;
     limits.look = [&](const std::string& what, const EigenStep& step) {
         tell([&] {
             return fmt::format("{}   {:.0f} applications of K   largest residual {:.1e}   {:.0f} s", what, step.applications,

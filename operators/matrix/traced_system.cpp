@@ -56,11 +56,6 @@ void TracedSystem::fill() {
     }
 }
 
-const char* TracedSystem::channel_name(int c) const {
-    constexpr const char* names[] = {"red", "green", "blue"};
-    return channels() == 1 ? "grey" : names[c];
-}
-
 std::size_t TracedSystem::rays_that_see_nothing() const {
     return static_cast<std::size_t>(std::count(table_.seen().begin(), table_.seen().end(), space_.nothing()));
 }

@@ -4,17 +4,15 @@
 #include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
 
-#include <string_view>
+#include <algorithm>
 
 namespace neumann {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 SolverRow run(const NamedSolver& solver, const Problem& problem) {
     const Stopwatch watch;
-    SolverRow row{&solver, solver.solve(problem), 0.0, unknown};
+    SolverRow row{solver.name, solver.title, solver.solve(problem)};
     row.seconds = watch.seconds();
     return row;
 }
@@ -25,7 +23,7 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
     const bool known = reference.result.verdict == Verdict::converged;
     if (!known) all.no_reference = reference.result.why;
     for (const NamedSolver& solver : solvers()) {
-        if (&solver == reference.solver) {
+        if (solver.name == reference.name) {
             all.rows.push_back(reference);
             continue;
         }
@@ -43,7 +41,14 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
 
 }  // namespace
 
-double SolverRow::estimate() const { return result.history.empty() ? unknown : result.history.back().estimate; }
+double SolverRow::estimate() const {
+    return result.history.empty() ? std::numeric_limits<double>::quiet_NaN() : result.history.back().estimate;
+}
+
+const Vector* SideBySide::exact() const {
+    const auto lu = std::ranges::find(rows, "lu", &SolverRow::name);
+    return lu != rows.end() && no_reference.empty() ? &lu->result.x : nullptr;
+}
 
 SideBySide solve_side_by_side(Problem problem, bool histories, const Watch& watch) {
     SideBySide all;

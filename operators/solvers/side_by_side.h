@@ -7,10 +7,10 @@
 namespace neumann {
 
 struct SolverRow {
-    const NamedSolver* solver = nullptr;
-    SolverResult result;
+    std::string name, title;  // as in NamedSolver
+    SolverResult result = {};
     double seconds = 0.0;
-    double error = 0.0;  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which is the reference
+    double error = std::numeric_limits<double>::quiet_NaN();  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which is the reference
 
     // The last estimate of the error; not a number if there is none.
     double estimate() const;
@@ -18,6 +18,7 @@ struct SolverRow {
 
 struct SideBySide {
     std::vector<SolverRow> rows;  // in the order of solvers()
+    const Vector* exact() const;  // LU's L; null if it gave none
     std::string no_reference;     // why LU gave no L; empty if it did
     bool interrupted = false;     // the rows end early
 };
