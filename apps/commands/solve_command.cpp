@@ -3,8 +3,11 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
+#include "apps/processes/together.h"
 #include "core/base/error.h"
+#include "operators/matrix/traced_system.h"
 #include "operators/petsc/petsc_solver.h"
+#include "operators/shared/shared_solvers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -76,11 +79,11 @@ void print_table(const PatchScene& scene, const SolveRequest& request, const Cho
     if (scene.system().samples_lights())
         fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
     if (!all.no_reference.empty())
-        fmt::print("{}\n", wrapped("LU is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
-    fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>14}   {}\n", "solver", "applications", "seconds", "estimate", "error to LU",
-               "verdict");
+        fmt::print("{}\n", wrapped(all.reference + " is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
+    fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>16}   {}\n", "solver", "applications", "seconds", "estimate",
+               "error to " + all.reference, "verdict");
     for (const SolverRow& row : all.rows)
-        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>14}   {}\n", row.title, applications_text(row.result.applications),
+        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>16}   {}\n", row.title, applications_text(row.result.applications),
                    row.seconds, short_number(row.estimate()),
                    is_reference(row) && all.no_reference.empty() ? "reference" : short_number(row.error), name(row.result.verdict));
     fmt::print(
@@ -111,7 +114,7 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     json["unknown"] = scene.system().samples_lights() ? "L - Le" : "L";
     json["tolerance"] = request.tolerance;
     json["most_applications"] = request.most;
-    json["reference"] = all.no_reference.empty() ? Json("lu") : Json(nullptr);
+    json["reference"] = all.no_reference.empty() ? Json(all.reference == "LU" ? "lu" : "gmres") : Json(nullptr);
     if (!all.no_reference.empty()) json["no_reference"] = all.no_reference;
     json["interrupted"] = all.interrupted;
     json["solvers"] = Json::array();
@@ -136,30 +139,35 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     return json;
 }
 
-SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories) {
-    const ChosenChannel chosen = choose_channel(scene.system(), channel_number(request.channel), {.stop = interrupted});
-    const TracedChannel K = scene.system().channel(chosen.channel);
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories, bool shared) {
+    const MatrixSystem& system = scene.system();
+    SolvedScene solved{choose_channel(system, channel_number(request.channel), {.stop = interrupted}), {}};
+    const ChosenChannel& chosen = solved.chosen;
+    const std::unique_ptr<ChannelOperator> K = system.reflected(chosen.channel);
 
     Problem problem;
-    problem.K = &K;
-    problem.Le = scene.system().samples_lights() ? scene.system().direct(chosen.channel) : scene.system().emitted(chosen.channel);
+    problem.K = K.get();
+    problem.Le = system.samples_lights() ? system.direct(chosen.channel) : system.emitted(chosen.channel);
     problem.tolerance = request.tolerance;
     problem.most = request.most;
     if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
-    problem.reflectance = &K.reflectance();
-    SolvedScene solved{chosen, solve_side_by_side(problem, histories, {.stop = interrupted})};
-    if (!request.petsc) return solved;
-    const Vector exact = solved.all.exact() ? *solved.all.exact() : Vector();
-    solved.warnings =
-        add_petsc_rows(problem, petsc_options(*request.petsc), solved.all.exact() ? &exact : nullptr, histories, {.stop = interrupted}, solved.all);
+    const Watch watch{.stop = interrupted};
+    if (shared) {
+        solved.all = solve_shared(problem, petsc_options(request.petsc.value_or("")), histories, watch, solved.warnings);
+        return solved;
+    }
+    if (const auto* const traced = dynamic_cast<const TracedChannel*>(K.get())) problem.reflectance = &traced->reflectance();
+    solved.all = solve_side_by_side(problem, histories, watch);
+    if (request.petsc) solved.warnings = add_petsc_rows(problem, petsc_options(*request.petsc), histories, watch, solved.all);
     return solved;
 }
 
-int solve_command(const SolveRequest& request) {
-    channel_number(request.channel);  // throws before anything is read
-    const PatchScene scene(request.patches);
+namespace {
+
+int solve_and_print(const SolveRequest& request, Processes* processes) {
+    const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);
     catch_interrupts();
-    const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json);
+    const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json, processes != nullptr);
 
     print_warnings(scene.warnings(), request.patches.quiet);
     print_warnings(solved.warnings, request.patches.quiet);
@@ -170,6 +178,19 @@ int solve_command(const SolveRequest& request) {
     else
         print_table(scene, request, solved.chosen, solved.all);
     return 0;
+}
+
+}  // namespace
+
+int solve_command(const SolveRequest& request) {
+    channel_number(request.channel);  // throws before anything is read
+    const std::unique_ptr<Processes> processes = launched_processes();
+    if (!processes) return solve_and_print(request, nullptr);
+    return run_together(*processes, request.patches, [&](const PatchOptions& options) {
+        SolveRequest mine = request;
+        mine.patches = options;
+        return solve_and_print(mine, processes.get());
+    });
 }
 
 }  // namespace neumann

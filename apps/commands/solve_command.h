@@ -25,8 +25,8 @@ struct SolvedScene {
     SideBySide all;
     std::vector<std::string> warnings = {};
 };
-// `histories`: record true errors at each step. Throws InputError.
-SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories);
+// `histories`: record true errors at each step; `shared`: the scene is shared by several processes. Throws InputError.
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories, bool shared = false);
 nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved);
 
 // Prints for each solver its cost, its distance from LU, and how it ended. Returns the exit code, 0 whatever the verdicts. Throws

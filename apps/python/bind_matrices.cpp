@@ -27,7 +27,7 @@ struct Patched {
 };
 
 py::dict as_dict(const Patched& patched) {
-    const TracedSystem& system = patched.scene->system();
+    const TracedSystem& system = patched.scene->traced();
     const int c = patched.chosen.channel;
     py::dict d;
     d["T"] = transport_matrix(system.table());

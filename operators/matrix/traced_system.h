@@ -9,6 +9,9 @@
 
 namespace neumann {
 
+// Its patches. Throws InputError as TracedSystem's constructor does; `processes`: how many share the rays.
+PatchSpace traced_space(const Scene& scene, const TracedSettings& settings, int processes = 1);
+
 class TracedSystem : public MatrixSystem {
 public:
     // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another, and if

@@ -85,8 +85,7 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
     }
 }
 
-std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, const Vector* exact,
-                                        bool histories, const Watch& watch, SideBySide& all) {
+std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, bool histories, const Watch& watch, SideBySide& all) {
     std::vector<std::string> told;
     const StoppableChannel K(*problem.K, watch);
     const Agreement& agreement = K.agreement();
@@ -102,11 +101,12 @@ std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vecto
             const Stopwatch clock;
             row.result = solve_petsc(plain, *petsc, method);
             row.seconds = clock.seconds();
-            if (exact && agreement.size(*exact) > 0.0)
-                row.error = agreement.size(row.result.x - *exact) / agreement.size(*exact);
-            if (exact && histories) {
+            const bool known = all.exact.size() == K.size() && all.no_reference.empty();
+            if (known && agreement.size(all.exact) > 0.0)
+                row.error = agreement.size(row.result.x - all.exact) / agreement.size(all.exact);
+            if (known && histories) {
                 Problem judged = plain;
-                judged.exact = exact;
+                judged.exact = &all.exact;
                 row.result.history = solve_petsc(judged, *petsc, method).history;
             }
             row.title = "PETSc " + method;

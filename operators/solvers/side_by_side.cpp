@@ -4,7 +4,6 @@
 #include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
 
-#include <algorithm>
 
 namespace neumann {
 
@@ -21,7 +20,10 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
     const SolverRow reference = run(*find_solver("lu"), problem);
     const Agreement& agreement = problem.K->agreement();
     const bool known = reference.result.verdict == Verdict::converged;
-    if (!known) all.no_reference = reference.result.why;
+    if (known)
+        all.exact = reference.result.x;
+    else
+        all.no_reference = reference.result.why;
     for (const NamedSolver& solver : solvers()) {
         if (solver.name == reference.name) {
             all.rows.push_back(reference);
@@ -45,10 +47,6 @@ double SolverRow::estimate() const {
     return result.history.empty() ? std::numeric_limits<double>::quiet_NaN() : result.history.back().estimate;
 }
 
-const Vector* SideBySide::exact() const {
-    const auto lu = std::ranges::find(rows, "lu", &SolverRow::name);
-    return lu != rows.end() && no_reference.empty() ? &lu->result.x : nullptr;
-}
 
 SideBySide solve_side_by_side(Problem problem, bool histories, const Watch& watch) {
     SideBySide all;

@@ -17,9 +17,10 @@ struct SolverRow {
 };
 
 struct SideBySide {
+    std::string reference = "LU";  // whose answer errors are against
     std::vector<SolverRow> rows;  // in the order of solvers()
-    const Vector* exact() const;  // LU's L; null if it gave none
-    std::string no_reference;     // why LU gave no L; empty if it did
+    Vector exact;                 // the reference's L; empty if it gave none
+    std::string no_reference;     // why the reference gave no L; empty if it did
     bool interrupted = false;     // the rows end early
 };
 
