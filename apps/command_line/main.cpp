@@ -1,6 +1,7 @@
 // The command line.
 #include "apps/command_line/command_manual.h"
 #include "apps/command_line/commands.h"
+#include "apps/processes/launch.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -57,6 +58,8 @@ void keep_memory() {
 int main(int argc, char** argv) try {
     keep_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
+    neumann::Launch launch;
+    if (launch.is_helper()) return launch.help();
     CLI::App app("makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors");
     app.name("neumann");
     app.require_subcommand(1);

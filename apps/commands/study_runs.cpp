@@ -30,8 +30,8 @@ void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) 
         const Effort& effort = data.plan.efforts[method][budget];
         const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
         data.peak_is_of_run = restart_peak_memory();
-        const auto result =
-            run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot, {.stop = interrupted});
+        const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot,
+                                       {.stop = interrupted, .crew = data.request.crew});
         if (!result) return;
         StudyRun run = study_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();

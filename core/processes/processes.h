@@ -37,8 +37,8 @@ public:
     struct Traffic {
         std::size_t messages = 0, bytes = 0;
     };
-    // What this process has sent.
-    virtual Traffic sent() const = 0;
+    // What this process has sent and received.
+    virtual Traffic traffic() const = 0;
 };
 
 // Null if this process was started alone. Throws RunError if it was not, and this program was built without MPI.

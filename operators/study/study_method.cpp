@@ -27,7 +27,7 @@ std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& 
         goal.samples = effort.samples;
         goal.seed = seed;
         goal.only_pictures = true;
-        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {.stop = watch.stop}, pilot);
+        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {.stop = watch.stop, .crew = watch.crew}, pilot);
         if (series.outcome == Outcome::interrupted) return std::nullopt;
         return series;
     } catch (const InputError& e) {
