@@ -125,8 +125,8 @@ int render_command(const RenderRequest& given) {
     watch.tell = [&](const std::string& text) {
         if (!request.quiet) fmt::print(stderr, "{}\n", text);
     };
-    Checkpoints checkpoints(*folder, {request.options, scene->hash}, request.checkpoint,
-                            !request.resume.empty() || request.goal.part, watch.tell);
+    Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
+                            request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
     Saving saving{std::move(state), {}, 0.5 * checkpoints.seconds()};
     saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
     const auto rendering = render(request, scene, watch, std::move(saving));

@@ -172,7 +172,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         journal.begin(study, plan);
     }
 
-    run_all(data, journal, status);
+    run_all(data, journal, folder, status);
     const Film& film = scene.film;
     data.points = study_points(journal.runs, data.plan, data.reference.pictures, [&](std::size_t n, std::size_t q) {
         return journal.picture(n, q, film.crop_width, film.crop_height, data.pictures());
