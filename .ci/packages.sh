@@ -40,6 +40,13 @@ python3-scipy       | SciPy: T, R and K are its matrices      |
 python3-matplotlib  | matplotlib, with which the lessons draw |
 '
 
+packages_to_mpi='
+libopenmpi-dev      | Open MPI 4.1 or later                   | mpi.h mpicxx
+openmpi-bin         | its launcher                            | mpirun
+libpetsc-real-dev   | PETSc 3.18 or later, for real numbers   | petsc.h
+libslepc-real-dev   | SLEPc 3.18 or later, likewise           | slepc.h
+'
+
 packages_to_test='
 libgtest-dev        | GoogleTest                              | gtest/gtest.h
 libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h

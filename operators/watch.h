@@ -1,5 +1,5 @@
-// Callbacks of work that takes a while (a render, a study, a matrix, a solver, a search for eigenvalues), and the only way to stop
-// it. Each kind of work calls those that make sense for it.
+// Callbacks of work that takes a while (a render, a study, a matrix, a solver, a search for eigenvalues), the only way to stop it, and
+// who helps with it. Each kind of work uses those that make sense for it.
 #pragma once
 
 #include "core/base/error.h"
@@ -12,6 +12,8 @@
 #include <vector>
 
 namespace neumann {
+
+class Crew;
 
 struct RenderProgress {
     int bounces = 0;            // 0 … N have pictures
@@ -47,6 +49,8 @@ struct Watch {
     std::function<void(std::size_t bounces, const std::function<Image(std::size_t)>& term)> show = {};
     // Whether to make checkpoints before the last one; they cost time.
     bool checkpoints = true;
+    // Processes that sample paths, too; null: this one alone.
+    Crew* crew = nullptr;
 };
 
 // Thrown by work that was stopped and has no result.

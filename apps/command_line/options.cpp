@@ -41,6 +41,15 @@ void add_threads(CLI::App& command, int& threads) {
     command.add_option("-t", threads, "Number of threads; default all")->type_name("THREADS")->check(whole_from(1, 4096));
 }
 
+void add_checkpoint(CLI::App& command, std::optional<double>& seconds, const std::string& what) {
+    command
+        .add_option(
+            "--checkpoint", seconds,
+            fmt::format("Seconds after which what there is of the {} is written to disk, again and again; default 60", what))
+        ->type_name("S")
+        ->check(above_zero());
+}
+
 void add_memory(CLI::App& command, std::optional<double>& gibibytes) {
     command.add_option("--memory", gibibytes, "Approximate memory that may be taken, in GiB; default half of the machine's")
         ->type_name("GIB")

@@ -42,11 +42,7 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
             "Render the K-th of N parts of the samples of --spp, which neumann merge puts together")
         ->type_name("K/N")
         ->check(whole_part());
-    render
-        ->add_option("--checkpoint", request.checkpoint,
-                     "Seconds after which what there is of the render is written to disk, again and again; default 60")
-        ->type_name("S")
-        ->check(above_zero());
+    add_checkpoint(*render, request.checkpoint, "render");
     render
         ->add_option("--resume", request.resume,
                      "Go on with the render in this folder that was cut off, or add samples to one that is finished")

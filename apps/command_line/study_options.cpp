@@ -46,6 +46,7 @@ CLI::App* add_study(CLI::App& app, StudyRequest& request) {
                      "Relative RMSE for the time to a given error; default the smallest that all methods reach")
         ->type_name("REL")
         ->check(above_zero());
+    add_checkpoint(*study, request.checkpoint, "run");
     study->add_flag("--resume", request.resume, "Continue a study that was cut off");
     add_seed(*study, request.seed, "Seed from which the seeds of all runs are derived");
     add_threads(*study, request.threads);

@@ -50,11 +50,9 @@ void Checkpoints::keep(const RecordedRender& render, const std::optional<MethodC
     try {
         save_render(folder_, request_, render, choice, series);
     } catch (const RunError& error) {
-        throw RunError(samples_on_disk_ > 0
-                           ? fmt::format("{}\nThe state before it is whole: neumann render --resume {} goes on from {} "
-                                         "samples a pixel",
-                                         error.what(), folder_.path().string(), samples_on_disk_)
-                           : std::string(error.what()));
+        throw RunError(samples_on_disk_ > 0 ? fmt::format("{}\nThe state before it is whole: {} goes on from {} samples a pixel",
+                                                          error.what(), resuming_, samples_on_disk_)
+                                            : std::string(error.what()));
     }
     keeps_ = true;
     samples_on_disk_ = series.samples;

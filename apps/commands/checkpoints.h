@@ -17,11 +17,12 @@ class Checkpoints {
 public:
     // A state every so many seconds (default_checkpoint, if they are not given), and one in the end if the render took longer or
     // was interrupted, or if it `keeps` its samples anyway: those of a part, and those that were added to. If nothing asks for a
-    // state, a large one is not written, which `tell` tells once.
-    Checkpoints(OutputFolder& folder, RequestOnDisk request, std::optional<double> seconds, bool keeps,
+    // state, a large one is not written, which `tell` tells once. `resuming`: the command that goes on, for messages.
+    Checkpoints(OutputFolder& folder, RequestOnDisk request, std::string resuming, std::optional<double> seconds, bool keeps,
                 std::function<void(const std::string&)> tell)
         : folder_(folder),
           request_(std::move(request)),
+          resuming_(std::move(resuming)),
           seconds_(seconds.value_or(default_checkpoint)),
           is_asked_(seconds || keeps),
           keeps_(keeps),
@@ -37,6 +38,7 @@ private:
 
     OutputFolder& folder_;
     RequestOnDisk request_;
+    std::string resuming_;
     double seconds_;
     bool is_asked_, keeps_, has_told_ = false;
     std::function<void(const std::string&)> tell_;

@@ -11,6 +11,7 @@
 #include "apps/files/saved_render.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
+#include "apps/processes/launch.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
@@ -100,15 +101,18 @@ int render_command(const RenderRequest& given) {
     if (request.resume.empty()) expect_nothing_unfinished(request.output);
     const Stopwatch clock;
     catch_interrupts();
-    const ThreadLimit threads(request.threads);
+    const ThreadLimit threads(threads_of_process(request.threads));
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     std::optional<RenderState> state = read_state(request, *scene);
+    const auto crew = launched_crew(
+        {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene->hash}, request.threads);
     const double reading_seconds = clock.seconds();
     ProgressLine line(request.quiet);
     Watch watch;
     watch.stop = interrupted;
+    watch.crew = crew.get();
     Preview preview(*folder, lenient_label(*scene));
     watch.progress = [&](const RenderProgress& so_far) {
         line.show([&] { return progress_text(so_far) + (preview.is_there() ? "   so far: preview.png" : ""); });
@@ -121,13 +125,17 @@ int render_command(const RenderRequest& given) {
     watch.tell = [&](const std::string& text) {
         if (!request.quiet) fmt::print(stderr, "{}\n", text);
     };
-    Checkpoints checkpoints(*folder, {request.options, scene->hash}, request.checkpoint,
-                            !request.resume.empty() || request.goal.part, watch.tell);
+    Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
+                            request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
     Saving saving{std::move(state), {}, 0.5 * checkpoints.seconds()};
     saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
     const auto rendering = render(request, scene, watch, std::move(saving));
     line.clear();
     rendering->seconds += reading_seconds;
+    if (const Processes* const processes = launched()) {
+        rendering->processes = processes->size();
+        rendering->traffic = processes->traffic();
+    }
     const auto [warnings, json] = [&] {
         try {
             return write_rendering(*rendering, *folder);

@@ -3,6 +3,7 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
+#include "apps/processes/launch.h"
 #include "apps/processes/together.h"
 #include "core/base/error.h"
 #include "operators/matrix/traced_system.h"
@@ -165,6 +166,9 @@ SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bo
 namespace {
 
 int solve_and_print(const SolveRequest& request, Processes* processes) {
+    // These throw before anything is read.
+    channel_number(request.channel);
+    if (request.petsc) require_petsc();
     const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);
     catch_interrupts();
     const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json, processes != nullptr);
@@ -183,13 +187,12 @@ int solve_and_print(const SolveRequest& request, Processes* processes) {
 }  // namespace
 
 int solve_command(const SolveRequest& request) {
-    channel_number(request.channel);  // throws before anything is read
-    const std::unique_ptr<Processes> processes = launched_processes();
+    Processes* const processes = launched();
     if (!processes) return solve_and_print(request, nullptr);
     return run_together(*processes, request.patches, [&](const PatchOptions& options) {
         SolveRequest mine = request;
         mine.patches = options;
-        return solve_and_print(mine, processes.get());
+        return solve_and_print(mine, processes);
     });
 }
 

@@ -4,8 +4,11 @@
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/spectrum_print.h"
+#include "apps/processes/launch.h"
 #include "apps/processes/together.h"
 #include "core/base/stopwatch.h"
+#include "operators/matrix/traced_system.h"
+#include "operators/petsc/petsc.h"
 
 #include <fmt/format.h>
 
@@ -31,6 +34,7 @@ SceneSpectrum spectrum_of(const PatchScene& scene, const SpectrumRequest& reques
 namespace {
 
 int find_and_print(const SpectrumRequest& request, Processes* processes) {
+    if (request.petsc) require_petsc();  // throws before anything is read
     catch_interrupts();
     ProgressLine line(request.patches.quiet);
     line.show([] { return std::string("tracing T"); });
@@ -51,12 +55,12 @@ int find_and_print(const SpectrumRequest& request, Processes* processes) {
 }  // namespace
 
 int spectrum_command(const SpectrumRequest& request) {
-    const std::unique_ptr<Processes> processes = launched_processes();
+    Processes* const processes = launched();
     if (!processes) return find_and_print(request, nullptr);
     return run_together(*processes, request.patches, [&](const PatchOptions& options) {
         SpectrumRequest mine = request;
         mine.patches = options;
-        return find_and_print(mine, processes.get());
+        return find_and_print(mine, processes);
     });
 }
 

@@ -5,6 +5,7 @@
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/study_runs.h"
 #include "apps/files/output_folder.h"
+#include "apps/processes/launch.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
@@ -140,7 +141,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     } else {
         status("short runs that measure how fast the methods are", 0.0);
         auto plan = plan_study({request.budgets, request.samples, request.reference_samples}, methods, data.bounces, request.seed,
-                               scene, pilot, {.stop = interrupted});
+                               scene, pilot, {.stop = interrupted, .crew = request.crew});
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);
     }
@@ -149,7 +150,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         choice = journal.plan.at("choice");
         if (request.reference.empty()) request.reference = journal.plan.at("reference").at("method");
     } else if (request.reference.empty()) {
-        auto chosen = choose_reference(scene, pilot, data.bounces, {.stop = interrupted});
+        auto chosen = choose_reference(scene, pilot, data.bounces, {.stop = interrupted, .crew = request.crew});
         if (!chosen) return nothing_done();
         request.reference = chosen->method;
         choice = chosen->why;
@@ -171,7 +172,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         journal.begin(study, plan);
     }
 
-    run_all(data, journal, status);
+    run_all(data, journal, folder, status);
     const Film& film = scene.film;
     data.points = study_points(journal.runs, data.plan, data.reference.pictures, [&](std::size_t n, std::size_t q) {
         return journal.picture(n, q, film.crop_width, film.crop_height, data.pictures());
@@ -198,10 +199,13 @@ int study_command(const StudyRequest& given) {
     expect_sense(request);
     study_methods(request);  // before the scene is read
     catch_interrupts();
-    const ThreadLimit threads(request.threads);
+    const ThreadLimit threads(threads_of_process(request.threads));
 
     const Stopwatch scene_watch;
     const Scene scene = read_scene(request.scene, request.definitions, {.lenient = request.lenient});
+    const auto crew = launched_crew(
+        {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene.hash}, request.threads);
+    request.crew = crew.get();
     std::optional<Status> status(std::in_place, request.quiet);
     const auto show = [&](const std::string& what, double) { status->show(what); };
     const auto print = [&](const StudyData& data, const std::vector<StudiedPicture>& pictures, const Json& json) {

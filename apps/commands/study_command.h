@@ -9,6 +9,8 @@
 
 namespace neumann {
 
+class Crew;
+
 struct StudyRequest {
     std::string scene;
     std::vector<std::string> definition_texts;
@@ -25,6 +27,8 @@ struct StudyRequest {
     std::optional<double> error;  // relative RMSE, for the time to a given error
     std::uint64_t seed = 0;
     int threads = 0;
+    Crew* crew = nullptr;              // processes that render, too
+    std::optional<double> checkpoint;  // seconds between two states of a run on disk
     bool resume = false, quiet = false, json = false;
     std::string command_line;
 };

@@ -170,8 +170,8 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
 
     const Stopwatch watch;
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
-    const auto run =
-        run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot, {.stop = interrupted});
+    const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot,
+                                {.stop = interrupted, .crew = request.crew});
     if (!run) return std::nullopt;
     StudyReference made;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->term(i));

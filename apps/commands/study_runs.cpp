@@ -1,12 +1,16 @@
 #include "apps/commands/study_runs.h"
 
+#include "apps/commands/checkpoints.h"
 #include "apps/commands/interrupt.h"
+#include "apps/files/saved_render.h"
 #include "core/base/error.h"
 #include "core/base/peak_memory.h"
 
 #include <fmt/format.h>
 
 namespace neumann {
+
+using Json = nlohmann::ordered_json;
 
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder) {
     const double bytes = static_cast<double>(data.runs()) * static_cast<double>(data.pictures()) * data.scene.film.crop_width *
@@ -19,7 +23,17 @@ void expect_disk_space(const StudyData& data, const std::filesystem::path& folde
             folder.string(), data.runs(), bytes / 0x1p30, static_cast<double>(space.available) / 0x1p30));
 }
 
-void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) {
+namespace {
+
+// What is there of a run from before the study was cut off.
+std::optional<RenderState> begun(const OutputFolder& folder, const Json& run) {
+    if (!std::filesystem::exists(folder.saved()) || request_in_file(folder.saved()).options != run) return std::nullopt;
+    return read_saved_render(folder.saved());
+}
+
+}  // namespace
+
+void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const StudyStatus& status) {
     const std::size_t N = data.pictures() - 2;
     while (journal.runs.size() < data.runs()) {
         const std::size_t at = journal.runs.size();
@@ -30,8 +44,13 @@ void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) 
         const Effort& effort = data.plan.efforts[method][budget];
         const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
         data.peak_is_of_run = restart_peak_memory();
-        const auto result =
-            run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot, {.stop = interrupted});
+        const Json number = {{"run", at}};
+        Checkpoints checkpoints(folder, {number, data.scene.hash}, "the same command with --resume", data.request.checkpoint, false,
+                                [](const std::string&) {});
+        Saving saving{begun(folder, number), {}, 0.5 * checkpoints.seconds()};
+        saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
+        const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot,
+                                       {.stop = interrupted, .crew = data.request.crew}, std::move(saving));
         if (!result) return;
         StudyRun run = study_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();
@@ -42,6 +61,7 @@ void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status) 
         for (std::size_t i = 0; i <= N; ++i) pictures.push_back(result->term(i).mean);
         pictures.push_back(result->sum(N).mean);
         journal.add(run, pictures);
+        folder.forget();
         if (interrupted()) return;
     }
     data.complete = true;

@@ -1,6 +1,7 @@
 // Makes the runs of a study, and keeps them in its journal.
 #pragma once
 
+#include "apps/files/output_folder.h"
 #include "apps/files/study_journal.h"
 
 namespace neumann {
@@ -8,7 +9,7 @@ namespace neumann {
 // Throws InputError if the pictures of all runs, which are kept until the end, do not fit into the folder.
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder);
 
-// Goes on until everything is done or it is interrupted.
-void run_all(StudyData& data, StudyJournal& journal, const StudyStatus& status);
+// Goes on until everything is done or it is interrupted. What there is of a long run is in the folder while it is under way.
+void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const StudyStatus& status);
 
 }  // namespace neumann

@@ -87,7 +87,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
          {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
           "strip-terms.gif", preview_file, unfinished_render_file, samples_file, "strip-sums.png", "strip-sums.gif",
           "strip-doubling.png", "strip-doubling.gif"}},
-        {"study", {"study.csv", "study.json"}},
+        {"study", {"study.csv", "study.json", unfinished_run_file}},
         {"compare", {"compare.json"}},
         {"blame", {"blame.json"}},
         {"export",
@@ -119,7 +119,8 @@ void OutputFolder::expect_no_other_files(std::string_view command) const {
                                      others.front(), *writer_of(others.front())));
 }
 
-OutputFolder::OutputFolder(const fs::path& path, std::string_view command) : path_(path) {
+OutputFolder::OutputFolder(const fs::path& path, std::string_view command)
+    : path_(path), unfinished_(command == "study" ? unfinished_run_file : unfinished_render_file) {
     if (path.empty()) throw InputError("the output folder has no name");
     expect_no_other_files(command);
     try {
@@ -208,10 +209,12 @@ void OutputFolder::show(std::string_view bytes) {
 }
 
 void OutputFolder::save(std::span<const std::string_view> pieces) {
-    write_pieces(unfinished_render_file, pieces);
-    put(unfinished_render_file);
+    write_pieces(unfinished_, pieces);
+    put(unfinished_);
     ::fsync(descriptor_);
 }
+
+void OutputFolder::forget() { ::unlink(saved().c_str()); }
 
 void OutputFolder::put(const std::string& name) {
     if (::rename(partial(name).c_str(), (path_ / name).c_str()) != 0) throw RunError(cannot_be_written(path_ / name, errno));
@@ -232,7 +235,8 @@ void OutputFolder::commit() {
     const std::vector<std::string> names = written_;
     const bool has_samples = ::rename((path_ / unfinished_render_file).c_str(), (path_ / samples_file).c_str()) == 0;
     const auto is_new = [&](std::string_view name) {
-        return std::find(names.begin(), names.end(), name) != names.end() || (has_samples && name == samples_file);
+        return std::find(names.begin(), names.end(), name) != names.end() || (has_samples && name == samples_file) ||
+               name == unfinished_run_file;
     };
     const std::string last = "run.json";
 

@@ -10,8 +10,9 @@
 
 namespace neumann {
 
-// A render under way, and what is kept of it when it is finished (saved_render.h).
-inline const std::string unfinished_render_file = "render.unfinished", samples_file = "render.samples";
+// A render under way, what is kept of it when it is finished (saved_render.h), and a study's run under way.
+inline const std::string unfinished_render_file = "render.unfinished", samples_file = "render.samples",
+                         unfinished_run_file = "study.unfinished";
 
 // Whether the program writes files of this name into an output folder: bounce_000.exr, run.json, …
 bool is_output_name(std::string_view name);
@@ -40,10 +41,12 @@ public:
     // process was killed, the next run does. As write().
     void show(std::string_view bytes);
 
-    // Puts render.unfinished, one after the other of these pieces, in place at once, of which another process makes the pictures if
-    // this one does not. It stays until commit(), which calls it render.samples. If not all bytes can be written, the one before it
-    // stays as it was. As write().
+    // Puts render.unfinished, or study.unfinished in a study's folder, one after the other of these pieces, in place at once, of
+    // which another process makes the pictures if this one does not. It stays until commit(), which calls it render.samples, or
+    // until forget(). If not all bytes can be written, the one before it stays as it was. As write().
     void save(std::span<const std::string_view> pieces);
+    std::filesystem::path saved() const { return path_ / unfinished_; }
+    void forget();
 
     // Throws InputError if fewer bytes are free, before time is spent on results that cannot be written.
     void expect_space(double bytes) const;
@@ -65,6 +68,7 @@ private:
     void discard() noexcept;
 
     std::filesystem::path path_;
+    std::string unfinished_;
     std::vector<std::filesystem::path> created_;  // folders that were missing, outermost first
     std::mutex written_by_one_;
     std::vector<std::string> written_;

@@ -3,6 +3,7 @@
 
 #include "apps/files/chosen_files.h"
 #include "apps/files/output_folder.h"
+#include "core/processes/processes.h"
 #include "operators/methods/bounce_series.h"
 
 #include <nlohmann/json.hpp>
@@ -22,6 +23,9 @@ struct Rendering {
     BounceSeries series;
     double seconds = 0.0;  // total time before writing
     ChosenFiles files = {};
+    // Of the processes that rendered it together: how many, and what the first one sent and received.
+    int processes = 1;
+    Processes::Traffic traffic = {};
 
     // Of the scene and of the render.
     Warnings warnings() const;

@@ -171,6 +171,10 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     json["timing"] = {
         {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
+    if (rendering.processes > 1)
+        json["processes"] = {{"count", rendering.processes},
+                             {"messages", rendering.traffic.messages},
+                             {"bytes", rendering.traffic.bytes}};
     json["sum"] = mean_json(report.sum, report.infinite_variance(), report.rare_large_samples());
     add_discretisation(json["sum"], report.sum_discretisation);
     json["bounces"] = Json::array();

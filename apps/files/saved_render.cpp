@@ -229,12 +229,14 @@ std::optional<std::filesystem::path> saved_render_in(const std::filesystem::path
     return std::nullopt;
 }
 
+RequestOnDisk request_in_file(const std::filesystem::path& path) {
+    HashedFile file(path);
+    const Json header = read_header(file, path);
+    return {header.at("request"), header.at("scene_hash")};
+}
+
 RequestOnDisk request_in(const std::filesystem::path& folder) {
-    if (const auto saved = saved_render_in(folder)) {
-        HashedFile file(*saved);
-        const Json header = read_header(file, *saved);
-        return {header.at("request"), header.at("scene_hash")};
-    }
+    if (const auto saved = saved_render_in(folder)) return request_in_file(*saved);
     const std::filesystem::path path = folder / "run.json";
     std::ifstream file(path);
     if (!file) throw InputError(folder.string() + ": holds no render that could be resumed");

@@ -26,6 +26,8 @@ void save_render(OutputFolder& folder, const RequestOnDisk& request, const Recor
 // Of the render that is under way in a folder, of the samples that are kept there or else of its run.json. Throws InputError if
 // none of them is there.
 RequestOnDisk request_in(const std::filesystem::path& folder);
+// Of such a file.
+RequestOnDisk request_in_file(const std::filesystem::path& file);
 // The file of what is under way or kept there, if any.
 std::optional<std::filesystem::path> saved_render_in(const std::filesystem::path& folder);
 

@@ -1,19 +1,17 @@
 #include "apps/processes/together.h"
 
+#include "apps/processes/launch.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 namespace neumann {
 
 int run_together(Processes& processes, PatchOptions options, const std::function<int(const PatchOptions&)>& run) {
-    if (options.threads == 0)
-        options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / processes.on_this_machine());
+    options.threads = threads_of_process(options.threads);
     const bool speaks = processes.rank() == 0;
     if (!speaks) {
         options.quiet = true;

@@ -9,8 +9,8 @@ namespace {
 
 template <class Codec>
 const Codec& load(const char* file, const char* name) {
-    const auto offer = reinterpret_cast<const Codec* (*)()>(
-        function_in_module(file, name, "pictures can be neither read nor written"));
+    const auto offer =
+        reinterpret_cast<const Codec* (*)()>(function_in_module(file, name, "pictures can be neither read nor written"));
     return *offer();
 }
 

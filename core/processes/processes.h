@@ -38,8 +38,8 @@ public:
     struct Traffic {
         std::size_t messages = 0, bytes = 0;
     };
-    // What this process has sent.
-    virtual Traffic sent() const = 0;
+    // What this process has sent and received.
+    virtual Traffic traffic() const = 0;
 
     // What follows is for all processes together: each calls it, and all in the same order.
 

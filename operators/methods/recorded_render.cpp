@@ -12,7 +12,7 @@ std::string why_no_replay(const Method& method) {
     return "";
 }
 
-RecordedSamples::RecordedSamples(const Scene& scene, const RecordedRender& render) {
+RecordedSamples::RecordedSamples(const Scene& scene, const RecordedRender& render, const std::optional<glm::dmat3>& colors) {
     const Plan plan = plan_for(render.method, scene);
     if (std::optional<Scene> reduced = without_unlit_materials(plan, scene))
         reduced_ = std::make_unique<const Scene>(std::move(*reduced));
@@ -21,6 +21,7 @@ RecordedSamples::RecordedSamples(const Scene& scene, const RecordedRender& rende
     settings.walk.bounces = render.bounces;
     settings.walk.rest_probability = render.rest_probability;
     settings.replicate_size = render.replicate_size;
+    settings.colors = colors;
     set_up(render.method, rendered, render.bounces, render.seed, default_memory(), settings);
     sampler_ = std::make_unique<const PictureSampler>(rendered, settings);
 }

@@ -4,7 +4,10 @@
 #include "operators/methods/method.h"
 #include "operators/pictures/replay.h"
 
+#include <glm/glm.hpp>
+
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace neumann {
@@ -25,8 +28,9 @@ std::string why_no_replay(const Method& method);
 class RecordedSamples {
 public:
     // The scene must outlive this object. Throws InputError if the method cannot render it.
-    RecordedSamples(const Scene& scene, const RecordedRender& render);
+    RecordedSamples(const Scene& scene, const RecordedRender& render, const std::optional<glm::dmat3>& colors = {});
 
+    const PictureSampler& sampler() const { return *sampler_; }
     Replay replay(const SampleName& name) const { return neumann::replay(*sampler_, name); }
 
 private:

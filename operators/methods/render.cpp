@@ -62,8 +62,9 @@ BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, 
     return render_chosen(scene, method, goal, watch, pilot, std::move(saving));
 }
 
-BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot) {
-    return render_chosen(scene, method, goal, watch, PilotOnDemand(pilot), Saving());
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot,
+                    Saving saving) {
+    return render_chosen(scene, method, goal, watch, PilotOnDemand(pilot), std::move(saving));
 }
 
 }  // namespace neumann

@@ -14,6 +14,7 @@ BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, 
 // As above, and saved while it is under way. Fields on patches cannot be saved: `saving` is not used.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Saving saving);
 // As above, with a pilot of the scene that exists already.
-BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot);
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot,
+                    Saving saving = {});
 
 }  // namespace neumann

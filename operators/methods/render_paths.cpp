@@ -4,6 +4,7 @@
 #include "core/base/stopwatch.h"
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
+#include "operators/methods/crew.h"
 #include "operators/methods/render_job.h"
 #include "operators/methods/sampling.h"
 #include "operators/pictures/least_errors.h"
@@ -189,12 +190,16 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
             verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
         Watch watch = job.watch;
         watch.checkpoints = watch.checkpoints && !job.goal.only_pictures;
+        const RecordedRender record{as_it_ran(method, settings), job.goal.seed, N, settings.walk.rest_probability,
+                                    settings.replicate_size};
         const auto keep = [&](const RenderedSeries& so_far, bool is_last) {
-            job.saving.keep({as_it_ran(method, settings), job.goal.seed, N, settings.walk.rest_probability, so_far.replicate_size},
-                            job.choice, so_far, is_last);
+            RecordedRender as_sampled = record;
+            as_sampled.replicate_size = so_far.replicate_size;  // smaller where it was stopped early
+            job.saving.keep(as_sampled, job.choice, so_far, is_last);
         };
-        RenderedSeries series =
-            render_series(job.scene, settings, goal, watch, {std::exchange(from, std::nullopt), keep, job.saving.longest_part});
+        const auto helpers = job.watch.crew ? job.watch.crew->begin(record, job.goal.colors) : nullptr;
+        RenderedSeries series = render_series(job.scene, settings, goal, watch,
+                                              {std::exchange(from, std::nullopt), keep, job.saving.longest_part}, helpers.get());
         SeriesReport report = report_series(job.scene, series, verdict);
         const double tail = job.goal.tail.value_or(0.0);
         if (!job.goal.tail || job.goal.bounces || watch.stop() || verdict != RestVerdict::measured ||

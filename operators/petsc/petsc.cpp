@@ -4,10 +4,17 @@
 
 namespace neumann {
 
-std::unique_ptr<Petsc> start_petsc(const std::string& options) {
-    const auto start = reinterpret_cast<Petsc* (*)(const std::string&)>(
+namespace {
+
+auto find_start() {
+    return reinterpret_cast<Petsc* (*)(const std::string&)>(
         function_in_module("libneumann_petsc.so", "neumann_petsc", "--petsc needs neumann with -DNEUMANN_MPI=ON"));
-    return std::unique_ptr<Petsc>(start(options));
 }
+
+}  // namespace
+
+std::unique_ptr<Petsc> start_petsc(const std::string& options) { return std::unique_ptr<Petsc>(find_start()(options)); }
+
+void require_petsc() { find_start(); }
 
 }  // namespace neumann

@@ -57,6 +57,7 @@ public:
 struct PetscEigenTask {
     int count = 1;  // of largest modulus
     bool symmetric = false;
+    Vector start = {};
     double tolerance = 1e-10;  // of the residuals, relative to the eigenvalues
     int restarts = 1000;
 };
@@ -84,5 +85,7 @@ public:
 // `options`: as on the command line of a program that uses PETSc, "-ksp_type gmres -pc_type asm". What they let PETSc print goes to
 // stderr. Throws RunError if neumann was built without PETSc.
 std::unique_ptr<Petsc> start_petsc(const std::string& options);
+// Only throws that.
+void require_petsc();
 
 }  // namespace neumann

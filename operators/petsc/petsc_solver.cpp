@@ -2,6 +2,7 @@
 
 #include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
+#include "operators/spectrum/fixed_numbers.h"
 
 #include <fmt/format.h>
 
@@ -142,6 +143,7 @@ Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::stri
     try {
         PetscEigenTask task;
         task.count = count;
+        FixedNumbers().fill(K, task.start);
         const PetscEigenpairs found = petsc->eigenpairs(A, task);
         for (std::size_t i = 0; i < found.values.size(); ++i) {
             Eigenpair pair{found.values[i], found.vectors[i], 0.0};
@@ -198,7 +200,8 @@ OperatorNorms slepc_norms(const ChannelOperator& K, const EigenLimits& limits) {
     try {
         PetscEigenTask task;
         task.symmetric = true;
-        task.tolerance = 1e-13;
+        task.tolerance = 1e-8;  // of the vector; the value's is its square
+        FixedNumbers().fill(K, task.start);
         const PetscEigenpairs found = start_petsc("")->eigenpairs(A, task);
         if (found.converged) norms.two = std::sqrt(std::max(found.values.front().real(), 0.0));
     } catch (const Stopped&) {

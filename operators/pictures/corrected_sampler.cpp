@@ -2,7 +2,6 @@
 
 #include "operators/pictures/corrected_group.h"
 #include "operators/pictures/pixel_average.h"
-#include "operators/pictures/whole_pictures.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -55,7 +54,7 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
     tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work(Q);
-        for (std::size_t q = 0; q < Q; ++q) work.tally.largest[q].outdo(tally.largest[q]);
+        work.tally = without_smaller_samples(tally);
         return work;
     });
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
@@ -81,23 +80,6 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
     if (dropped) return false;
     for (const Workspace& work : workspaces) tally.merge(work.tally);
     return true;
-}
-
-std::optional<MomentsNode> CorrectedSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
-                                                 std::vector<double> memory) const {
-    const std::size_t Q = settings_.quantities();
-    SampleRanges ranges;
-    ranges.of.resize(pixels_ * Q);
-    Tally new_tally(Q);
-    for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
-    auto node = run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
-                                   [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
-                                       return sample_picture(replicate, picture, ranges, new_tally, of_picture);
-                                   });
-    if (!node) return std::nullopt;
-    tally.merge(new_tally);
-    node->ranges = std::move(ranges);
-    return node;
 }
 
 }  // namespace neumann

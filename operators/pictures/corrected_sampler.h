@@ -25,9 +25,9 @@ public:
     // Keeps a reference to the scene.
     CorrectedSampler(const Scene& scene, const SamplingSettings& settings);
 
-    // As PictureSampler::run().
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
-                                   std::vector<double> memory) const;
+    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                        const Watch& watch) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
@@ -38,8 +38,6 @@ private:
     template <class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
                      Workspace& work, const Observer& observer = {}) const;
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
 
     const Scene* scene_;
     SamplingSettings settings_;

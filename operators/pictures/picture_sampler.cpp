@@ -2,8 +2,8 @@
 
 #include "core/base/hot.h"
 #include "core/base/large_array.h"
-#include "operators/pictures/path_group.h"
 #include "operators/pictures/pixel_average.h"
+#include "operators/pictures/whole_pictures.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -63,21 +63,117 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
                                                std::vector<double> memory) const {
     if (!std::has_single_bit(count) || first % count != 0)
         throw std::logic_error("PictureSampler: not a node of the tree of replicates");
-    if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
-        return whole_pictures->run(first, count, tally, watch, std::move(memory));
-    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_))
-        return corrected->run(first, count, tally, watch, std::move(memory));
-    const TermEstimator& estimator = std::get<TermEstimator>(sampler_);
-    const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
-    const auto pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height());
-    const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
+    if (has_whole_pictures())
+        return join_pictures(
+            first, count, tally, watch, std::move(memory),
+            [&](std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& of_node, const Watch& of_picture) {
+                return sample_picture(replicate, picture, ranges, of_node, of_picture);
+            });
+    MomentsNode node = empty_node(first, count, std::move(memory));
+    if (!sample_pixels({first, count, 0, pixels()}, node.data, node.ranges.of, tally, watch)) return std::nullopt;
+    return node;
+}
+
+std::vector<Share> PictureSampler::shares(std::uint64_t first, std::uint64_t count, std::uint32_t pieces) const {
+    std::vector<Share> all;
+    if (has_whole_pictures()) {
+        for (std::uint64_t r = first; r < first + count; ++r) all.push_back({r, 1, 0, pixels()});
+        return all;
+    }
+    // Whole groups of pixels, so that each group is sampled as it would be without shares.
+    const std::uint32_t at_once = pixels_at_once(), groups = (pixels() + at_once - 1) / at_once,
+                        each = std::max(groups / std::max(pieces, 1u), 1u) * at_once;
+    for (std::uint32_t begin = 0; begin < pixels(); begin += std::min(each, pixels() - begin))
+        all.push_back({first, count, begin, begin + std::min(each, pixels() - begin)});
+    return all;
+}
+
+std::optional<SampledShare> PictureSampler::sample(const Share& share, const Tally& tally, const Watch& watch) const {
+    const std::size_t Q = quantities();
+    SampledShare sampled{{}, {}, without_smaller_samples(tally)};
+    sampled.ranges.of.resize((share.end - share.begin) * Q);
+    if (has_whole_pictures()) {
+        std::vector<Rgb> picture(pixels() * Q, Rgb(0.0));
+        if (!sample_picture(share.first, picture, sampled.ranges, sampled.tally, watch)) return std::nullopt;
+        sampled.data.reserve(picture.size() * 3);
+        for (const Rgb& x : picture) sampled.data.insert(sampled.data.end(), {x.r, x.g, x.b});
+        return sampled;
+    }
+    sampled.data.resize((share.end - share.begin) * Q * PixelMoments::doubles_per_quantity);
+    if (!sample_pixels(share, sampled.data, sampled.ranges.of, sampled.tally, watch)) return std::nullopt;
+    return sampled;
+}
+
+std::optional<MomentsNode> PictureSampler::join(std::uint64_t first, std::uint64_t count, std::uint32_t pieces, Tally& tally,
+                                                const std::function<std::optional<SampledShare>(const Share&)>& next,
+                                                std::vector<double> memory) const {
+    const std::size_t Q = quantities();
+    if (has_whole_pictures())
+        return join_pictures(
+            first, count, tally, {}, std::move(memory),
+            [&](std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& of_node, const Watch&) {
+                const std::optional<SampledShare> sampled = next({replicate, 1, 0, pixels()});
+                if (!sampled) return false;
+                for (std::size_t i = 0; i < picture.size(); ++i)
+                    picture[i] = Rgb(sampled->data[3 * i], sampled->data[3 * i + 1], sampled->data[3 * i + 2]);
+                ranges.merge(sampled->ranges);
+                of_node.merge(sampled->tally);
+                return true;
+            });
+    MomentsNode node = empty_node(first, count, std::move(memory));
+    Tally of_node = without_smaller_samples(tally);
+    for (const Share& share : shares(first, count, pieces)) {
+        const std::optional<SampledShare> sampled = next(share);
+        if (!sampled) return std::nullopt;
+        const auto place = static_cast<std::ptrdiff_t>(share.begin * Q);
+        std::ranges::copy(sampled->data, node.data.begin() + place * PixelMoments::doubles_per_quantity);
+        std::ranges::copy(sampled->ranges.of, node.ranges.of.begin() + place);
+        of_node.merge(sampled->tally);
+    }
+    tally.merge(of_node);
+    return node;
+}
+
+MomentsNode PictureSampler::empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const {
     MomentsNode node{first, count, std::move(memory)};
-    resize_large(node.data, pixels * stride);
-    resize_large(node.ranges.of, pixels * quantities());
-    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
+    resize_large(node.data, pixels() * quantities() * PixelMoments::doubles_per_quantity);
+    resize_large(node.ranges.of, pixels() * quantities());
+    return node;
+}
+
+template <class Sample>
+std::optional<MomentsNode> PictureSampler::join_pictures(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+                                                         std::vector<double> memory, const Sample& sample) const {
+    SampleRanges ranges;
+    ranges.of.resize(pixels() * quantities());
+    Tally of_node = without_smaller_samples(tally);
+    auto node = run_whole_pictures(first, count, pixels(), quantities(), watch, std::move(memory),
+                                   [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
+                                       return sample(replicate, picture, ranges, of_node, of_picture);
+                                   });
+    if (!node) return std::nullopt;
+    tally.merge(of_node);
+    node->ranges = std::move(ranges);
+    return node;
+}
+
+bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                    const Watch& watch) const {
+    if (const auto* splats = std::get_if<SplatSampler>(&sampler_))
+        return splats->sample_picture(replicate, picture, ranges, tally, watch);
+    return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);
+}
+
+bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
+                                   const Watch& watch) const {
+    const TermEstimator& estimator = std::get<TermEstimator>(sampler_);
+    const std::uint64_t first = share.first, count = share.count;
+    const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
+    const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
+    const std::uint32_t size = settings_.replicate_size, at_once = pixels_at_once();
     oneapi::tbb::enumerable_thread_specific<PixelWork> workspaces([&] {
-        PixelWork work(pixels_at_once, quantities(), levels);
-        for (std::size_t q = 0; q < quantities(); ++q) work.tally.largest[q].outdo(tally.largest[q]);
+        PixelWork work(at_once, quantities(), levels);
+        work.tally = without_smaller_samples(tally);
         return work;
     });
 
@@ -91,38 +187,38 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
             some.push_back(pixel_of(scene_.film, pixel));
             samplers.resize(samplers.size() + size, Sampler(settings_.sampler, sobol_, settings_.seed, pixel));
         }
+        const std::size_t place = begin - share.begin;
         for (std::uint64_t r = 0; r < count; ++r) {
             work.tally.given_up += trace(scene_, estimate, std::span(samplers), std::span<const Pixel>(some), first + r, work.group,
                                          std::span(work.tally.rays));
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
                         begin + static_cast<std::uint32_t>(i), first + r, settings_.colors, work.average,
-                        std::span(node.ranges.of).subspan((begin + i) * quantities(), quantities()), work.tally);
+                        ranges.subspan((place + i) * quantities(), quantities()), work.tally);
                 append(r, work.waiting[i], work);
             }
         }
         for (std::size_t i = 0; i < some.size(); ++i)
-            std::copy(work.waiting[i].back().begin(), work.waiting[i].back().end(),
-                      node.data.begin() + static_cast<std::ptrdiff_t>((begin + i) * stride));
+            std::ranges::copy(work.waiting[i].back(), data.begin() + static_cast<std::ptrdiff_t>((place + i) * stride));
     };
     // The groups of pixels do not depend on how the work is divided among threads.
-    const std::uint32_t groups = (pixels + pixels_at_once - 1) / pixels_at_once;
+    const std::uint32_t all = share.end - share.begin, groups = (all + at_once - 1) / at_once;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
         if (dropped) return;
         PixelWork& work = workspaces.local();
         std::uint32_t done = 0;
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
-            const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels);
+            const std::uint32_t begin = share.begin + group * at_once, end = std::min(begin + at_once, share.end);
             std::visit([&](const auto& estimate) { run_pixels(estimate, begin, end, work); }, estimator);
             done += end - begin;
         }
         pixels_done += done;
-        watch.progress({.fraction = static_cast<double>(pixels_done) / pixels});
+        watch.progress({.fraction = static_cast<double>(pixels_done) / all});
         if (watch.stop()) dropped = true;
     });
-    if (dropped) return std::nullopt;
+    if (dropped) return false;
     for (const PixelWork& work : workspaces) tally.merge(work.tally);
-    return node;
+    return true;
 }
 
 }  // namespace neumann

@@ -4,14 +4,19 @@
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/pictures/corrected_sampler.h"
+#include "operators/pictures/path_group.h"
+#include "operators/pictures/share.h"
 #include "operators/pictures/splat_sampler.h"
 #include "operators/pictures/tally.h"
 #include "operators/pictures/term_estimators.h"
 #include "operators/statistics/series_moments.h"
 #include "operators/watch.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -35,12 +40,35 @@ public:
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
                                    std::vector<double> memory = {}) const;
 
+    // The same node in shares: of pixels, about as many as `pieces`, or of whole pictures.
+    std::vector<Share> shares(std::uint64_t first, std::uint64_t count, std::uint32_t pieces) const;
+    // Samples one of them. `tally` holds earlier replicates: what it makes unnecessary is not kept. Nothing if `watch` stopped it.
+    std::optional<SampledShare> sample(const Share& share, const Tally& tally, const Watch& watch = {}) const;
+    // The node again; `next` is asked for each of its shares in turn.
+    std::optional<MomentsNode> join(std::uint64_t first, std::uint64_t count, std::uint32_t pieces, Tally& tally,
+                                    const std::function<std::optional<SampledShare>(const Share&)>& next,
+                                    std::vector<double> memory = {}) const;
+
     // Traces one group of paths of run() again (path_group.h) and reports it to `observer`; `first` is the first path of the group.
     // Returns the samples, path by path with all quantities, with the same bits as in run(); the plan leaves nothing out.
     // The pointwise method has no paths: std::logic_error.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
 private:
+    std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
+    std::uint32_t pixels_at_once() const { return std::max(paths_at_once / settings_.replicate_size, 1u); }
+    bool has_whole_pictures() const { return !std::holds_alternative<TermEstimator>(sampler_); }
+    MomentsNode empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const;
+    // sample(replicate, picture, ranges, tally, watch), for each replicate in turn.
+    template <class Sample>
+    std::optional<MomentsNode> join_pictures(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
+                                             std::vector<double> memory, const Sample& sample) const;
+    // Samples pixels of replicates; data and ranges are of these pixels. Whether it was not stopped.
+    bool sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
+                       const Watch& watch) const;
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                        const Watch& watch) const;
+
     const Scene& scene_;
     Settings settings_;
     std::variant<TermEstimator, SplatSampler, CorrectedSampler> sampler_;

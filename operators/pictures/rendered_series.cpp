@@ -2,6 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "operators/pictures/bounded_samples.h"
+#include "operators/pictures/shared_sampling.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ std::uint32_t replicate_size(std::uint64_t samples) {
 }
 
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
-                             const Watch& watch, Continuation continuation) {
+                             const Watch& watch, Continuation continuation, Helpers* helpers) {
     const PictureSampler sampler(scene, settings);
     const std::uint64_t size = settings.replicate_size;
     RenderedSeries series = beginning(sampler, continuation.from);
@@ -76,6 +77,24 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
 
     // Whether --spp with this number of samples gives the same replicate size.
     const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
+    // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
+    const auto block_after = [&](std::uint64_t done) {
+        std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
+        while ((goal.first + done) % block != 0) block /= 2;
+        if (goal.samples)
+            while (block > 1 && (done + block) * size > *goal.samples) block /= 2;
+        const std::uint64_t there = series.samples / size;
+        while (there > 0 && block > 1 &&
+               static_cast<double>(block) * series.seconds > continuation.longest_part * static_cast<double>(there))
+            block /= 2;
+        return block;
+    };
+    std::optional<SharedSampling> shared;
+    if (helpers)
+        shared.emplace(sampler, *helpers, [&](std::uint64_t replicate) {
+            const std::uint64_t done = replicate - goal.first;
+            return goal.samples && done * size >= *goal.samples ? 0 : block_after(done);
+        });
     std::vector<double> memory;
     bool error_reached = goal.relative_error && std::ranges::any_of(series.convergence, [&](const Checkpoint& checkpoint) {
                              return checkpoint.samples > size && is_reached(*goal.relative_error, checkpoint);
@@ -85,11 +104,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             series.outcome = error_reached ? Outcome::error_reached : Outcome::samples_reached;
             break;
         }
-        // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
-        std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
-        while ((goal.first + done) % block != 0) block /= 2;
-        if (goal.samples)
-            while (block > 1 && (done + block) * size > *goal.samples) block /= 2;
+        std::uint64_t block = block_after(done);
         if (goal.seconds && done > 0) {
             const double each = seconds_so_far() / static_cast<double>(done), left = *goal.seconds - seconds_so_far();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
@@ -99,11 +114,6 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             }
         }
 
-        if (done > 0)
-            while (block > 1 &&
-                   static_cast<double>(block) * seconds_so_far() > continuation.longest_part * static_cast<double>(done))
-                block /= 2;
-
         Watch of_block;
         of_block.progress = [&](const RenderProgress& part) {
             report(static_cast<double>(done) + static_cast<double>(block) * part.fraction);
@@ -112,7 +122,8 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             const bool may_drop = seconds_so_far() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
             return may_drop && watch.stop();
         };
-        auto node = sampler.run(goal.first + done, block, series.tally, of_block, std::move(memory));
+        auto node = shared ? shared->run(goal.first + done, block, series.tally, of_block, std::move(memory))
+                           : sampler.run(goal.first + done, block, series.tally, of_block, std::move(memory));
         if (!node && done == 0) {
             PictureSampler::Settings single = settings;
             single.replicate_size = 1;

@@ -12,11 +12,11 @@ namespace neumann {
 
 // Sampling stops at the first of these limits that it reaches; without any, it never stops.
 struct SamplingGoal {
-    std::optional<std::uint64_t> samples;  // per pixel
-    std::optional<double> seconds;
-    std::optional<double> relative_error;  // relative_standard_error() of every term that is not all zero; checked when the number
-                                           // of samples is a power of two
-    std::uint64_t first = 0;               // replicate; those before it are sampled elsewhere
+    std::optional<std::uint64_t> samples = {};  // per pixel
+    std::optional<double> seconds = {};
+    std::optional<double> relative_error = {};  // relative_standard_error() of every term that is not all zero; checked when the
+                                                // number of samples is a power of two
+    std::uint64_t first = 0;  // replicate; those before it are sampled elsewhere
 };
 
 // Replicates of a seed.
@@ -59,9 +59,9 @@ std::uint32_t replicate_size(std::uint64_t samples);
 
 // A render that is stopped by time or error ends at a number of samples from which replicate_size() gives the same replicate size
 // again, and so does one that is interrupted, unless that would take long. An interrupted render drops the samples that not all
-// pixels have; if that is all of them, it renders one sample per pixel. The bits do not depend on how a render was cut, and the
-// seconds of the goal are those of all parts.
+// pixels have; if that is all of them, it renders one sample per pixel. The bits do not depend on how a render was cut, nor on
+// the helpers, and the seconds of the goal are those of all parts.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
-                             const Watch& watch = {}, Continuation continuation = {});
+                             const Watch& watch = {}, Continuation continuation = {}, Helpers* helpers = nullptr);
 
 }  // namespace neumann

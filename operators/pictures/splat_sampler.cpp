@@ -1,7 +1,6 @@
 #include "operators/pictures/splat_sampler.h"
 
 #include "operators/pictures/splat_group.h"
-#include "operators/pictures/whole_pictures.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/info.h>
@@ -92,14 +91,16 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
     }
 }
 
-bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally,
+bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                   const Watch& watch) const {
     const std::size_t Q = settings_.quantities();
     const std::uint32_t samples = pixels_ * settings_.replicate_size, at_once = paths_at_once * groups_at_once;
     std::vector<Rgb> splatted(picture.size(), Rgb(0.0));
+    SampleRanges of_shares;
+    of_shares.of.resize(picture.size());
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
         Workspace work(Q);
-        for (std::size_t q = 0; q < Q; ++q) work.tally.largest[q].outdo(tally.largest[q]);
+        work.tally = without_smaller_samples(tally);
         return work;
     });
     const auto run_chunk = [&](Chunk& chunk) {
@@ -107,7 +108,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         chunk.shares.clear();
         for (std::uint32_t first = chunk.first; first < chunk.end; first += paths_at_once) {
             const std::uint32_t n = std::min(paths_at_once, chunk.end - first);
-            sample_group(replicate, first, n, chunk, picture, ranges.own, work);
+            sample_group(replicate, first, n, chunk, picture, ranges, work);
         }
     };
     // Chunks are computed in any order and added in a fixed one: the same bits on any number of threads.
@@ -136,7 +137,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                        oneapi::tbb::make_filter<Chunk*, void>(oneapi::tbb::filter_mode::serial_in_order, [&](const Chunk* chunk) {
                            for (const Chunk::Share& s : chunk->shares) {
                                splatted[s.pixel * Q + s.quantity] += s.value;
-                               ranges.shares.of[s.pixel * Q + s.quantity].add(s.value);
+                               of_shares.of[s.pixel * Q + s.quantity].add(s.value);
                            }
                            watch.progress({.fraction = static_cast<double>(chunk->end) / samples});
                            if (watch.stop()) dropped = true;
@@ -144,34 +145,16 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     if (dropped) return false;
     for (const Workspace& work : workspaces) tally.merge(work.tally);
     for (LargestSamples& largest : tally.largest) largest.add_count(samples);
+    // Most paths contribute nothing to a given pixel, so 0 is among the samples.
+    for (SampleRange& range : of_shares.of)
+        if (range.largest[0] >= range.smallest[0] || settings_.generator == PathGenerator::light) range.add(Rgb(0.0));
+    ranges.merge(of_shares);
     const double each = 1.0 / settings_.replicate_size;
     for (std::size_t i = 0; i < picture.size(); ++i) {
         picture[i] = (picture[i] + splatted[i]) * each;
         if (settings_.colors) picture[i] = *settings_.colors * picture[i];
     }
     return true;
-}
-
-std::optional<MomentsNode> SplatSampler::run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
-                                             std::vector<double> memory) const {
-    const std::size_t Q = settings_.quantities();
-    Ranges ranges;
-    ranges.own.of.resize(pixels_ * Q);
-    ranges.shares.of.resize(pixels_ * Q);
-    Tally new_tally(Q);
-    for (std::size_t q = 0; q < Q; ++q) new_tally.largest[q].outdo(tally.largest[q]);
-    auto node = run_whole_pictures(first, count, pixels_, Q, watch, std::move(memory),
-                                   [&](std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& of_picture) {
-                                       return sample_picture(replicate, picture, ranges, new_tally, of_picture);
-                                   });
-    if (!node) return std::nullopt;
-    tally.merge(new_tally);
-    // Most paths contribute nothing to a given pixel, so 0 is among the samples.
-    for (SampleRange& range : ranges.shares.of)
-        if (range.largest[0] >= range.smallest[0] || settings_.generator == PathGenerator::light) range.add(Rgb(0.0));
-    ranges.own.merge(ranges.shares);
-    node->ranges = std::move(ranges.own);
-    return node;
 }
 
 }  // namespace neumann

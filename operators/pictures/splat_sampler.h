@@ -19,21 +19,15 @@ class SplatSampler {
 public:
     SplatSampler(const Scene& scene, const SamplingSettings& settings);
 
-    // As PictureSampler::run().
-    std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
-                                   std::vector<double> memory) const;
+    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                        const Watch& watch) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
 private:
     struct Workspace;
     struct Chunk;
-    // Ranges of the samples from the camera (`own`), and of splatted contributions (`shares`).
-    struct Ranges {
-        SampleRanges own, shares;
-    };
-    // Adds a replicate's picture, all quantities of each pixel. Returns false if the work was dropped.
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, Ranges& ranges, Tally& tally, const Watch& watch) const;
     // Traces paths first … first + samples − 1 of the replicate. `found(path, quantity, value)`: a contribution to the path's own
     // pixel, before the filter's weight. `splatted(path, position, quantity, value)`: a contribution at a position on the film, as
     // radiance times the number of pixels.

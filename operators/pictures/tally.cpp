@@ -37,4 +37,10 @@ std::uint64_t Tally::non_finite_samples() const {
     return std::accumulate(non_finite_count.begin(), non_finite_count.end(), std::uint64_t{0});
 }
 
+Tally without_smaller_samples(const Tally& tally) {
+    Tally fresh(tally.rays.size());
+    for (std::size_t q = 0; q < tally.rays.size(); ++q) fresh.largest[q].outdo(tally.largest[q]);
+    return fresh;
+}
+
 }  // namespace neumann

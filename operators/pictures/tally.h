@@ -30,4 +30,7 @@ struct Tally {
     std::vector<NonFiniteSample> non_finite;  // the first ones in order of bounce, pixel and sample
 };
 
+// An empty one that will be merged into `tally`, and keeps no samples that are too small for it.
+Tally without_smaller_samples(const Tally& tally);
+
 }  // namespace neumann

@@ -1,5 +1,6 @@
 #include "operators/shared/shared_rays.h"
 
+#include "core/base/stopwatch.h"
 #include "operators/matrix/ray_table.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -31,7 +32,9 @@ SharedRays::SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_
         unknown += space.facets()[f].cells.size();
         first_ray_.push_back(first_ray_.back() + RayTable::rays(space.facets()[f], rays));
     }
+    const Stopwatch clock;
     trace(rays, seed, watch);
+    seconds_ = clock.seconds();
     find_slots(shared.number, shared.first);
 }
 

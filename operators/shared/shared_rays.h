@@ -49,8 +49,8 @@ public:
     using Agreement::largest;
     using Agreement::sum;
 
-    // What a product sends from this process: values to others, in messages.
-    std::size_t values_sent() const { return given_.size(); }
+    // That this process has traced for.
+    double seconds() const { return seconds_; }
 
 private:
     void trace(std::uint32_t rays, std::uint64_t seed, const Watch& watch);
@@ -65,6 +65,7 @@ private:
     std::vector<std::uint32_t> others_;  // the numbers of the unknowns of others at slots, ascending
     std::vector<std::uint32_t> given_;   // own unknowns that others see, process by process
     Processes::Counts counts_;           // of fetch()
+    double seconds_ = 0.0;
 };
 
 }  // namespace neumann

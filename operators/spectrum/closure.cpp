@@ -1,8 +1,9 @@
 #include "operators/spectrum/closure.h"
 
+#include "operators/spectrum/fixed_numbers.h"
+
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace neumann {
 
@@ -10,18 +11,13 @@ namespace {
 
 template <class Other>
 double defect(const ChannelOperator& K, int pairs, const Other& other) {
-    std::mt19937_64 bits(1);
-    const auto fill = [&](Vector& x) {
-        bits.discard(K.first());
-        for (double& value : x) value = static_cast<double>(bits() >> 11) * 0x1p-52 - 1.0;
-        bits.discard(K.unknowns() - K.first() - static_cast<std::size_t>(K.size()));
-    };
+    FixedNumbers numbers;
     const auto dot = [&](const Vector& f, const Vector& g) { return K.agreement().sum(f.cwiseProduct(K.measure()).dot(g)); };
     Vector f(K.size()), g(K.size()), Kf(K.size()), other_g(K.size());
     double largest = 0.0;
     for (int i = 0; i < pairs; ++i) {
-        fill(f);
-        fill(g);
+        numbers.fill(K, f);
+        numbers.fill(K, g);
         K.apply(f, Kf);
         other(g, other_g);
         const double size = std::sqrt(dot(Kf, Kf) * dot(g, g));

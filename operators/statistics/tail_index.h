@@ -24,7 +24,8 @@ public:
     void add_count(std::uint64_t n) { count_ += n; }
     void merge(const LargestSamples& other);
     // For a set that will be merged into `other`: samples that are too small for `other` need not be kept.
-    void outdo(const LargestSamples& other) { threshold_ = std::max(threshold_, other.threshold_); }
+    void outdo(const LargestSamples& other) { outdo(other.threshold_); }
+    void outdo(double threshold) { threshold_ = std::max(threshold_, threshold); }
     // add() ignores values up to this.
     double threshold() const { return threshold_; }
 

@@ -20,14 +20,15 @@ Method studied_method(const std::string& word) {
 }
 
 std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
-                                       const Scene& scene, const Pilot& pilot, const Watch& watch) {
+                                       const Scene& scene, const Pilot& pilot, const Watch& watch, Saving saving) {
     try {
         Goal goal;
         goal.bounces = bounces;
         goal.samples = effort.samples;
         goal.seed = seed;
         goal.only_pictures = true;
-        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {.stop = watch.stop}, pilot);
+        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {.stop = watch.stop, .crew = watch.crew}, pilot,
+                                     std::move(saving));
         if (series.outcome == Outcome::interrupted) return std::nullopt;
         return series;
     } catch (const InputError& e) {

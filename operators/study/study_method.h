@@ -18,6 +18,6 @@ Method studied_method(const std::string& word);
 
 // Returns nothing if `watch` stops it. Errors name the method.
 std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& effort, int bounces, std::uint64_t seed,
-                                       const Scene& scene, const Pilot& pilot, const Watch& watch);
+                                       const Scene& scene, const Pilot& pilot, const Watch& watch, Saving saving = {});
 
 }  // namespace neumann

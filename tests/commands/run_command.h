@@ -129,9 +129,10 @@ protected:
     Finished run_program(const std::vector<std::string>& command) const {
         return RunningCommand(command, folder(), base_ / "log").wait();
     }
-    RunningCommand start(const std::vector<std::string>& arguments) const {
-        return RunningCommand(neumann(arguments), folder(), base_ / "log");
+    RunningCommand start_program(const std::vector<std::string>& command) const {
+        return RunningCommand(command, folder(), base_ / "log");
     }
+    RunningCommand start(const std::vector<std::string>& arguments) const { return start_program(neumann(arguments)); }
 
     // All that is below a folder, files and folders.
     Names names(const std::string& below = ".") const {

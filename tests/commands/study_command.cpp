@@ -2,6 +2,7 @@
 #include "tests/commands/render_output.h"
 
 #include <cstdlib>
+#include <random>
 
 namespace neumann::study_command_test {
 
@@ -332,6 +333,32 @@ TEST_F(StudyCommand, Resumed) {
     EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
     EXPECT_EQ(study_json("a").at("complete"), true);
     study("whole", options);
+    EXPECT_EQ(figures("a"), figures("whole"));
+}
+
+// A run that takes longer than the study is let live: wherever it dies, 20 moments, it goes on from what is on the disk.
+using StudyCommandSlow = StudyCommand;
+TEST_F(StudyCommandSlow, ResumedAfterTwentyDeaths) {
+    const Strings options = joined({"--methods", "walk,corrected:patches=100:directions=64", "--samples", "8192,16384"},
+                                   {"--repeats", "2", "-n", "1", "--reference-spp", "256", "--checkpoint", "0.05", "-t", "1"});
+    study("whole", options);
+    const Strings arguments = joined({"study", "scene.xml", "-o", "a", "--quiet"}, options);
+    const auto begun = [&] { return text_of(path("a/study.journal")).find('\n') != std::string::npos; };
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> wait(300, 1500);
+    int deaths = 0, within_runs = 0;
+    for (; deaths < 20; ++deaths) {
+        RunningCommand command = start(deaths > 0 ? joined(arguments, {"--resume"}) : arguments);
+        for (int i = 0; i < 3000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        std::this_thread::sleep_for(std::chrono::milliseconds(wait(random)));
+        command.signal(SIGKILL);
+        if (command.wait().exit_code == 0) break;
+        within_runs += std::filesystem::exists(path("a/study.unfinished"));
+    }
+    EXPECT_GT(deaths, 5);
+    EXPECT_GT(within_runs, 3);
+    if (begun()) run(joined(arguments, {"--resume"}));
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
     EXPECT_EQ(figures("a"), figures("whole"));
 }
 

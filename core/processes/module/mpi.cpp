@@ -51,13 +51,12 @@ public:
     }
 
     void send(int to, const std::string& text, std::initializer_list<std::span<const std::byte>> numbers) override {
-        std::array<std::uint64_t, 2> frame = {text.size(), 0};
+        Frame frame = {text.size(), 0};
         for (const auto& part : numbers) frame[1] += part.size();
         MPI_Send(frame.data(), 2, MPI_UINT64_T, to, frame_tag, all_);
         send_pieces(to, text_tag, std::as_bytes(std::span(text)));
         for (const auto& part : numbers) send_pieces(to, numbers_tag, part);
-        sent_.messages += 1;
-        sent_.bytes += frame[0] + frame[1] + sizeof frame;
+        count(frame);
     }
 
     std::optional<Message> receive() override {
@@ -67,16 +66,17 @@ public:
         if (!has_arrived) return std::nullopt;
         Message message;
         message.from = status.MPI_SOURCE;
-        std::array<std::uint64_t, 2> frame{};
+        Frame frame{};
         MPI_Recv(frame.data(), 2, MPI_UINT64_T, message.from, frame_tag, all_, MPI_STATUS_IGNORE);
         message.text.resize(frame[0]);
         receive_all(message.from, text_tag, std::as_writable_bytes(std::span(message.text)));
         message.numbers.resize(frame[1]);
         receive_all(message.from, numbers_tag, message.numbers);
+        count(frame);
         return message;
     }
 
-    Traffic sent() const override { return sent_; }
+    Traffic traffic() const override { return traffic_; }
 
     void sum(std::span<double> values) override { reduce(values, MPI_SUM); }
     void largest(std::span<double> values) override { reduce(values, MPI_MAX); }
@@ -108,12 +108,19 @@ private:
         };
         MPI_Alltoallv(given, counts.given.data(), begins(counts.given).data(), type, taken, counts.taken.data(),
                       begins(counts.taken).data(), type, all_);
-        for (int p = 0; p < size_; ++p) {
-            const auto n = static_cast<std::size_t>(counts.given[static_cast<std::size_t>(p)]);
-            if (p == rank_ || n == 0) continue;
-            sent_.messages += 1;
-            sent_.bytes += n * bytes;
-        }
+        for (const std::vector<int>* const each : {&counts.given, &counts.taken})
+            for (int p = 0; p < size_; ++p) {
+                const auto n = static_cast<std::size_t>((*each)[static_cast<std::size_t>(p)]);
+                if (p == rank_ || n == 0) continue;
+                traffic_.messages += 1;
+                traffic_.bytes += n * bytes;
+            }
+    }
+    using Frame = std::array<std::uint64_t, 2>;  // bytes of the text and of the numbers
+
+    void count(const Frame& frame) {
+        traffic_.messages += 1;
+        traffic_.bytes += frame[0] + frame[1] + sizeof frame;
     }
     void send_pieces(int to, int tag, std::span<const std::byte> all) {
         for (; !all.empty(); all = all.subspan(std::min(all.size(), longest_piece)))
@@ -132,7 +139,7 @@ private:
 
     MPI_Comm all_ = MPI_COMM_NULL;
     int rank_ = 0, size_ = 1, here_ = 1;
-    Traffic sent_;
+    Traffic traffic_;
 };
 
 }  // namespace

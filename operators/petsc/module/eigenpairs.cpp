@@ -15,8 +15,7 @@ PetscEigenpairs find_eigenpairs(const PetscMatrix& A, const PetscEigenTask& task
     make_vector(A, &start);
     make_vector(A, &real);
     make_vector(A, &imaginary);
-    // The same on any number of processes.
-    check(VecSet(start, 1.0));
+    copy(task.start, start);
     check(EPSCreate(PETSC_COMM_WORLD, &eps));
     check(EPSSetOperators(eps, shell, nullptr));
     check(EPSSetProblemType(eps, task.symmetric ? EPS_HEP : EPS_NHEP));

@@ -1,0 +1,120 @@
+#include "apps/processes/helper.h"
+
+#include "apps/commands/limits.h"
+#include "apps/processes/launch.h"
+#include "apps/processes/render_message.h"
+#include "apps/processes/share_message.h"
+#include "operators/pictures/share_queue.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+namespace neumann {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Helper {
+public:
+    explicit Helper(Processes& processes) : processes_(processes) {}
+
+    void run() {
+        while (!is_over_) {
+            bool waits = true;
+            while (const auto message = processes_.receive()) {
+                waits = false;
+                try {
+                    handle(Json::parse(message->text), message->numbers);
+                } catch (const std::exception& e) {
+                    fail(e);
+                }
+            }
+            waits = !answer() && waits;
+            if (waits) std::this_thread::sleep_for(std::chrono::microseconds(500));
+        }
+    }
+
+private:
+    void handle(const Json& message, std::span<const std::byte> numbers) {
+        const auto what = message.at("do").get<std::string>();
+        if (what == "render") {
+            begin(render_message_from(message));
+            send({{"ready", message.at("number")}});
+        } else if (what == "share" && shares_) {
+            Tally outdo(numbers.size() / sizeof(double));
+            for (std::size_t q = 0; q < outdo.largest.size(); ++q) {
+                double threshold = 0.0;
+                std::memcpy(&threshold, numbers.data() + q * sizeof threshold, sizeof threshold);
+                outdo.largest[q].outdo(threshold);
+            }
+            number_ = message.at("number");
+            shares_->add(share_from(message.at("share")), outdo);
+        } else if (what == "drop" && shares_) {
+            shares_->drop();
+        } else if (what == "end") {
+            shares_.reset();
+            send({{"ended", true}});
+            is_over_ = true;
+        }
+    }
+
+    void begin(RenderMessage message) {
+        shares_.reset();
+        samples_.reset();
+        threads_.reset();
+        threads_.emplace(threads_of_process(message.threads));
+        if (!scene_ || message.scene != on_disk_) {
+            scene_.emplace(read(message.scene));
+            on_disk_ = message.scene;
+        }
+        samples_.emplace(*scene_, message.render, message.colors);
+        shares_.emplace(samples_->sampler());
+    }
+
+    // Sends what is sampled; whether there was something.
+    bool answer() {
+        bool did = false;
+        try {
+            while (auto done = shares_ ? shares_->take() : std::nullopt) {
+                send({{"sampled", number_}, {"share", as_json(done->first)}}, as_bytes(done->second));
+                did = true;
+            }
+        } catch (const std::exception& e) {
+            fail(e);
+            shares_.reset();
+        }
+        return did;
+    }
+
+    void fail(const std::exception& e) { send({{"failed", e.what()}, {"machine", processes_.machine()}}); }
+    void send(const Json& text, const std::vector<std::byte>& numbers = {}) { processes_.send(0, text.dump(), {numbers}); }
+
+    Processes& processes_;
+    std::optional<ThreadLimit> threads_;
+    SceneOnDisk on_disk_;
+    std::optional<Scene> scene_;
+    std::optional<RecordedSamples> samples_;
+    std::optional<ShareQueue> shares_;
+    std::uint64_t number_ = 0;  // of the work to which the shares belong
+    bool is_over_ = false;
+};
+
+}  // namespace
+
+int help(Processes& processes) {
+    // Batch systems and terminals send these to all processes; the first one then ends the render, and this one.
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGTERM, SIG_IGN);
+    Helper(processes).run();
+    return 0;
+}
+
+}  // namespace neumann

@@ -1,0 +1,54 @@
+#include "apps/processes/launch.h"
+
+#include "apps/processes/helper.h"
+#include "apps/processes/process_crew.h"
+
+#include <oneapi/tbb/info.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace neumann {
+
+namespace {
+
+Processes* of_this_launch = nullptr;
+
+}  // namespace
+
+Launch::Launch() : processes_(launched_processes()) { of_this_launch = processes_.get(); }
+
+Launch::~Launch() {
+    of_this_launch = nullptr;
+    if (!processes_ || is_helper()) return;
+    for (int other = 1; other < processes_->size(); ++other) processes_->send(other, R"({"do": "end"})");
+    // What they were sending has to be received before.
+    for (int left = processes_->size() - 1; left > 0;) {
+        const auto message = processes_->receive();
+        if (!message)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        else if (nlohmann::json::parse(message->text).contains("ended"))
+            --left;
+    }
+}
+
+int Launch::help() { return neumann::help(*processes_); }
+
+Processes* launched() { return of_this_launch; }
+
+int threads_of_process(int threads) {
+    if (threads > 0 || !launched()) return threads;
+    // By the launcher a process may be bound to fewer.
+    return std::min(oneapi::tbb::info::default_concurrency(),
+                    std::max(static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)) / launched()->on_this_machine(), 1));
+}
+
+std::unique_ptr<Crew> launched_crew(const SceneOnDisk& scene, int threads) {
+    if (!launched()) return nullptr;
+    return std::make_unique<ProcessCrew>(*launched(), scene, threads);
+}
+
+}  // namespace neumann

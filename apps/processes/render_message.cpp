@@ -1,0 +1,42 @@
+#include "apps/processes/render_message.h"
+
+#include "apps/files/method_json.h"
+
+namespace neumann {
+
+using Json = nlohmann::ordered_json;
+
+Json as_json(const RenderMessage& message) {
+    const RecordedRender& render = message.render;
+    Json json = {{"scene", as_json(message.scene)},
+                 {"threads", message.threads},
+                 {"options", as_json(render.method)},
+                 {"seed", render.seed},
+                 {"bounces", render.bounces},
+                 {"rest_probability", render.rest_probability},
+                 {"replicate_size", render.replicate_size}};
+    if (const auto& m = message.colors)
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row) json["colors"].push_back((*m)[column][row]);
+    return json;
+}
+
+RenderMessage render_message_from(const Json& json) {
+    RenderMessage message{scene_from(json.at("scene")),
+                          json.at("threads"),
+                          {method_from_json(json.at("options")), json.at("seed"), json.at("bounces"), json.at("rest_probability"),
+                           json.at("replicate_size")},
+                          {}};
+    if (json.contains("colors")) {
+        message.colors.emplace();
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                (*message.colors)[column][row] = json.at("colors").at(static_cast<std::size_t>(3 * column + row));
+    }
+    return message;
+}
+
+Json as_json(const Share& share) { return {share.first, share.count, share.begin, share.end}; }
+Share share_from(const Json& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
+
+}  // namespace neumann

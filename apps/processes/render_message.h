@@ -1,0 +1,27 @@
+// What a process has to know to sample shares of a render, as JSON.
+#pragma once
+
+#include "apps/processes/scene_on_disk.h"
+#include "operators/methods/recorded_render.h"
+#include "operators/pictures/share.h"
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+namespace neumann {
+
+struct RenderMessage {
+    SceneOnDisk scene;
+    int threads = 0;
+    RecordedRender render;
+    std::optional<glm::dmat3> colors;
+};
+nlohmann::ordered_json as_json(const RenderMessage& message);
+RenderMessage render_message_from(const nlohmann::ordered_json& json);
+
+nlohmann::ordered_json as_json(const Share& share);
+Share share_from(const nlohmann::ordered_json& json);
+
+}  // namespace neumann
