@@ -1,5 +1,7 @@
 #include "core/reader/gltf/primitive.h"
 
+#include "core/reader/gltf/extensions.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -95,6 +97,9 @@ public:
             return {};
         }
         if (!position) attributes->fail_missing("POSITION", "the index of an accessor");
+        if (const std::string draco = "KHR_draco_mesh_compression";
+            primitive_.extension(draco) && !accessors_.has_numbers(*position))
+            fail_compressed(draco, primitive_.place(), primitive_.notes());
         const Vertices vertices = read_vertices(*attributes, *position);
         const std::vector<Corners> corners = triangles_of(read_corners(mode, vertices.positions->count()), mode);
         primitive_.finish();

@@ -89,11 +89,8 @@ void Shapes::expect_memory_for(const MeshFile& file, const Location& place) {
 std::vector<Shapes::Part> Shapes::read_parts(Element& scene, std::size_t mesh) {
     JsonObject object = meshes_.object(mesh);
     const std::string name = object.text("name").value_or(fmt::format("mesh_{}", mesh));
-    const JsonList primitives = object.list("primitives"), weights = object.list("weights");
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        if (!(weights[i].is_number() && weights[i] == 0.0))
-            throw InputError(weights.place_of(i),
-                             "morph targets are not supported, expected all weights to be 0; apply them before the export");
+    const JsonList primitives = object.list("primitives");
+    refuse_morphs(object.list("weights"), notes_.problems);
     object.finish();
     std::vector<Part> parts;
     const auto keep = [&](MeshFile file, const Part& like) {
