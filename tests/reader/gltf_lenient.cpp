@@ -122,6 +122,17 @@ TEST_F(GltfLenient, PicturesOfOtherCodingsAreGrey) {
     EXPECT_EQ(reflectance(read_gltf()), Rgb(1.0, 0.5, 0.25));
 }
 
+TEST_F(GltfLenient, OneSetOfCoordinatesIsTaken) {
+    primitive()["attributes"]["TEXCOORD_1"] = add_accessor<float>("VEC2", {9, 8, 7, 6, 5, 4, 3, 2});
+    const std::size_t texture = add_texture(encode_png_of(1, 3, {255, 255, 255}));
+    matt_basis()["baseColorTexture"] = {{"index", texture}};
+    material()["normalTexture"] = {{"index", texture}, {"texCoord", 1}};
+    const SceneParts parts = read_leniently();
+    EXPECT_EQ(replaced(parts), (Texts{"#/materials/0/normalTexture: the texture is at TEXCOORD_1 and another of the material at "
+                                      "TEXCOORD_0; taken at TEXCOORD_0"}));
+    EXPECT_EQ(mesh(parts).uv[0], Vec2(0, 1));
+}
+
 TEST_F(GltfLenient, SkinsAreNotBent) {
     std::vector<float> binds;
     for (const float x : {0.0f, 1.0f}) binds.insert(binds.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -x, 0, 0, 1});

@@ -183,14 +183,17 @@ private:
     }
 
     // Which texture coordinates the material uses.
-    std::optional<int> coordinate_set() const {
+    std::optional<int> coordinate_set() {
         std::optional<int> set;
         for (const Texture* t : material_.textures()) {
-            if (set && *set != t->coordinates)
-                throw InputError(t->place, fmt::format("the texture is at TEXCOORD_{} and another of the material at TEXCOORD_{}, "
-                                                       "expected one set of texture coordinates",
-                                                       t->coordinates, *set));
-            set = t->coordinates;
+            if (!set) set = t->coordinates;
+            if (*set != t->coordinates)
+                primitive_.notes().problems.replace(
+                    Unknown(t->place,
+                            fmt::format("the texture is at TEXCOORD_{} and another of the material at TEXCOORD_{}", t->coordinates,
+                                        *set),
+                            ", expected one set of texture coordinates", fmt::format("taken at TEXCOORD_{}", *set)),
+                    t->place);
         }
         return set;
     }

@@ -125,10 +125,7 @@ Element Shapes::make_shape(const Part& part, const Placed* placed) {
         if (is_flat && glm::determinant(glm::dmat3(placed->to_world)) < 0.0) add_boolean(e, "flip_normals", true, placed->place);
     }
     add_reference(e, part.bsdf, part.place);
-    if (part.material->emits()) {
-        neumann::reader::add(e, make_emitter(*part.material, pictures_, notes_.warnings));
-        has_emitters_ = true;
-    }
+    if (part.material->emits()) neumann::reader::add(e, make_emitter(*part.material, pictures_, notes_.warnings));
     return e;
 }
 

@@ -24,6 +24,7 @@ SourceText::SourceText(const std::string& path) : path_(path), line_starts_{0} {
     }
     if (stream.bad() || !stream.is_open()) throw InputError(file, "cannot be read");
     if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) throw InputError(file, "is in UTF-16, expected UTF-8");
     for (std::size_t i = text_.find('\n'); i != std::string::npos; i = text_.find('\n', i + 1)) line_starts_.push_back(i + 1);
 }
 
