@@ -116,10 +116,11 @@ const Element& File::find(const Attribute& url, const std::string& tag) const {
         throw InputError(url.place, fmt::format("there is no <{}> '{}'{}", tag, given, did_you_mean(given, names)));
     }
     // Some programs write the same element again.
-    if (std::any_of(std::next(first), last, [&](const auto& other) { return !is_same(*other.second, *first->second); }))
+    const Element& found = *first->second;
+    if (std::any_of(std::next(first), last, [&](const auto& other) { return !is_same(*other.second, found); }))
         throw InputError(url.place, fmt::format("there are several <{}> '{}', at {} and at {}, expected one", tag, id,
-                                                to_string(first->second->place), to_string(std::next(first)->second->place)));
-    return *first->second;
+                                                to_string(found.place), to_string(std::next(first)->second->place)));
+    return found;
 }
 
 }  // namespace neumann::reader::collada
