@@ -3,6 +3,7 @@
 #include "operators/methods/render.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace neumann {
 

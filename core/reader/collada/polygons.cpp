@@ -3,6 +3,7 @@
 #include "core/base/frame.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neumann::reader::collada {
 

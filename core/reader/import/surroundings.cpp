@@ -3,6 +3,7 @@
 #include "core/reader/import/make_elements.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace neumann::reader {
 
