@@ -36,8 +36,8 @@ public:
     // The unknown of the space for each own one.
     std::uint32_t unknown(std::size_t facet, std::uint32_t cell) const { return space_->facets()[facets_[facet]].first + cell; }
 
-    // Values at the slots, from each process's values at its own unknowns.
-    void fetch(const Vector& own, Vector& at_slots) const;
+    // Values at the slots, from each process's values at its own unknowns; they stay until the next call.
+    const double* fetch(const Vector& own) const;
     // Adds what each process has at its slots at the unknowns that they stand for.
     void add_up(const Vector& at_slots, Vector& own) const;
     // Of a field of the space, the values at the own unknowns; and the other way, on process 0, elsewhere empty.
@@ -49,7 +49,7 @@ public:
     using Agreement::largest;
     using Agreement::sum;
 
-    // That this process has traced for.
+    // Processor time that this process has traced for.
     double seconds() const { return seconds_; }
 
 private:
@@ -65,6 +65,7 @@ private:
     std::vector<std::uint32_t> others_;  // the numbers of the unknowns of others at slots, ascending
     std::vector<std::uint32_t> given_;   // own unknowns that others see, process by process
     Processes::Counts counts_;           // of fetch()
+    LargeArray<double> at_slots_;        // of fetch(); read at random, which small pages make slower
     double seconds_ = 0.0;
 };
 
