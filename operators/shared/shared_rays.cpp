@@ -101,7 +101,8 @@ const double* SharedRays::fetch(const Vector& own) const {
 
 void SharedRays::add_up(const Vector& at_slots, Vector& own) const {
     Vector taken(static_cast<Eigen::Index>(given_.size()));
-    processes_->exchange(std::span<const double>(at_slots.data() + own_, others_.size()), values_of(taken), {counts_.taken, counts_.given});
+    processes_->exchange(std::span<const double>(at_slots.data() + own_, others_.size()), values_of(taken),
+                         {counts_.taken, counts_.given});
     own = at_slots.head(own_);
     for (std::size_t i = 0; i < given_.size(); ++i) own[given_[i]] += taken[static_cast<Eigen::Index>(i)];
 }

@@ -1,7 +1,7 @@
 // T shared out: a process has the rows of its own facets, with the same rays as RayTable, and never those of others.
 //
-// A row lists slots: the process's own unknowns 0 … own() − 1, then those that its rays see and others have, and a last one for what
-// is nothing. Four bytes a ray, as in RayTable.
+// A row lists slots: the process's own unknowns 0 … own() − 1, then those that its rays see and others have, and a last one for
+// what is nothing. Four bytes a ray, as in RayTable.
 #pragma once
 
 #include "core/base/large_array.h"
@@ -23,7 +23,9 @@ public:
     // The numbers of this process's facets, and for the i-th of them its first unknown, and its rays.
     std::span<const std::uint32_t> facets() const { return facets_; }
     std::uint32_t first_of(std::size_t i) const { return first_of_facet_[i]; }
-    std::span<const std::uint32_t> row(std::size_t i) const { return {slots_.get() + first_ray_[i], slots_.get() + first_ray_[i + 1]}; }
+    std::span<const std::uint32_t> row(std::size_t i) const {
+        return {slots_.get() + first_ray_[i], slots_.get() + first_ray_[i + 1]};
+    }
     std::size_t rays() const { return first_ray_.back(); }
 
     std::uint32_t own() const { return own_; }

@@ -11,8 +11,8 @@ class LaunchedMatrices : public RenderTest {
 protected:
     static std::vector<std::string> on(int processes, std::vector<std::string> command) {
         if (processes == 0) return command;
-        std::vector<std::string> all{MPIRUN, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n",
-                                     std::to_string(processes)};
+        std::vector<std::string> all{MPIRUN, "--allow-run-as-root",    "--oversubscribe", "--bind-to", "none",
+                                     "-n",   std::to_string(processes)};
         all.insert(all.end(), command.begin(), command.end());
         return all;
     }
@@ -32,7 +32,8 @@ protected:
 };
 
 TEST_F(LaunchedMatrices, ObeyTheLawsOfOneProcess) {
-    const std::pair<const char*, const char*> scenes[] = {{"furnace", "300"}, {"cornell-box", "500"}, {"glossy-floor", "40"}, {"glass-ball", "60"}};
+    const std::pair<const char*, const char*> scenes[] = {
+        {"furnace", "300"}, {"cornell-box", "500"}, {"glossy-floor", "40"}, {"glass-ball", "60"}};
     for (const int processes : {1, 2, 3}) {
         for (const auto& [name, patches] : scenes) {
             if (processes == 1 && name != std::string("furnace")) continue;
@@ -75,7 +76,8 @@ TEST_F(LaunchedMatrices, HaveTheEigenvaluesOfOneProcess) {
 }
 
 TEST_F(LaunchedMatrices, SolveAsOneProcessDoes) {
-    const std::vector<std::string> command{"solve", scene("furnace"), "-D", "albedo=0.9", "--patches", "300", "--error", "1e-8", "--json"};
+    const std::vector<std::string> command{"solve", scene("furnace"), "-D",   "albedo=0.9", "--patches",
+                                           "300",   "--error",        "1e-8", "--json"};
     const Json alone = printed_on(0, command);
     const Json shared = printed_on(3, command);
     EXPECT_EQ(shared.at("reference"), "gmres");
@@ -101,7 +103,8 @@ TEST_F(LaunchedMatrices, OneSpeaksOfWhatIsWrong) {
 class PetscOfOneProcess : public LaunchedMatrices {};
 
 TEST_F(PetscOfOneProcess, SolvesAsOursDo) {
-    const Json solved = printed_on(0, {"solve", scene("cornell-box"), "--patches", "600", "--error", "1e-9", "--petsc", "--json", "--quiet"});
+    const Json solved =
+        printed_on(0, {"solve", scene("cornell-box"), "--patches", "600", "--error", "1e-9", "--petsc", "--json", "--quiet"});
     for (const char* name : {"petsc-gmres-none", "petsc-gmres-jacobi", "petsc-bcgs-bjacobi", "petsc-gmres-gamg"}) {
         EXPECT_EQ(row(solved, name).at("verdict"), "converged") << name;
         EXPECT_LE(row(solved, name).at("error"), 1e-9) << name;  // against LU
