@@ -24,6 +24,7 @@ struct Notes {
     Warnings& warnings;
     Problems& problems;
     std::set<std::string> extensions = {};  // unknown ones that have been told
+    std::set<std::string> refused = {};     // those that the file requires, among them
 
     void left_out(const std::string& extension);
 };
