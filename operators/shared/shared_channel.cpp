@@ -47,10 +47,9 @@ void SharedChannel::reflect(Vector& means) const {
 }
 
 void SharedChannel::apply(const Vector& x, Vector& y) const {
-    Vector source;
-    T_->fetch(x, source);
+    const double* const source = T_->fetch(x);
     y.resize(size());
-    for_facets(*T_, [&](std::size_t begin, std::size_t end) { find_shared_means(*T_, source.data(), begin, end, y.data()); });
+    for_facets(*T_, [&](std::size_t begin, std::size_t end) { find_shared_means(*T_, source, begin, end, y.data()); });
     reflect(y);
 }
 

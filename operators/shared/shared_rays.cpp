@@ -1,10 +1,10 @@
 #include "operators/shared/shared_rays.h"
 
-#include "core/base/stopwatch.h"
 #include "operators/matrix/ray_table.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
+#include <ctime>
 #include <map>
 #include <utility>
 
@@ -32,9 +32,9 @@ SharedRays::SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_
         unknown += space.facets()[f].cells.size();
         first_ray_.push_back(first_ray_.back() + RayTable::rays(space.facets()[f], rays));
     }
-    const Stopwatch clock;
+    const std::clock_t begin = std::clock();
     trace(rays, seed, watch);
-    seconds_ = clock.seconds();
+    seconds_ = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     find_slots(shared.number, shared.first);
 }
 
@@ -87,20 +87,22 @@ void SharedRays::find_slots(const std::vector<std::uint32_t>& number, const std:
     processes_->exchange(others_, given_, asked);
     for (std::uint32_t& u : given_) u -= first_;
     counts_ = {asked.taken, asked.given};
+    at_slots_ = make_large_array<double>(slots());
 }
 
-void SharedRays::fetch(const Vector& own, Vector& at_slots) const {
+const double* SharedRays::fetch(const Vector& own) const {
     Vector given(static_cast<Eigen::Index>(given_.size()));
     for (std::size_t i = 0; i < given_.size(); ++i) given[static_cast<Eigen::Index>(i)] = own[given_[i]];
-    at_slots.resize(slots());
-    at_slots.head(own_) = own;
-    at_slots[nothing()] = 0.0;
-    processes_->exchange(values_of(std::as_const(given)), std::span(at_slots.data() + own_, others_.size()), counts_);
+    std::copy(own.begin(), own.end(), at_slots_.get());
+    at_slots_[nothing()] = 0.0;
+    processes_->exchange(values_of(std::as_const(given)), std::span(at_slots_.get() + own_, others_.size()), counts_);
+    return at_slots_.get();
 }
 
 void SharedRays::add_up(const Vector& at_slots, Vector& own) const {
     Vector taken(static_cast<Eigen::Index>(given_.size()));
-    processes_->exchange(std::span<const double>(at_slots.data() + own_, others_.size()), values_of(taken), {counts_.taken, counts_.given});
+    processes_->exchange(std::span<const double>(at_slots.data() + own_, others_.size()), values_of(taken),
+                         {counts_.taken, counts_.given});
     own = at_slots.head(own_);
     for (std::size_t i = 0; i < given_.size(); ++i) own[given_[i]] += taken[static_cast<Eigen::Index>(i)];
 }

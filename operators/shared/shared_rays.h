@@ -1,7 +1,7 @@
 // T shared out: a process has the rows of its own facets, with the same rays as RayTable, and never those of others.
 //
-// A row lists slots: the process's own unknowns 0 … own() − 1, then those that its rays see and others have, and a last one for what
-// is nothing. Four bytes a ray, as in RayTable.
+// A row lists slots: the process's own unknowns 0 … own() − 1, then those that its rays see and others have, and a last one for
+// what is nothing. Four bytes a ray, as in RayTable.
 #pragma once
 
 #include "core/base/large_array.h"
@@ -23,7 +23,9 @@ public:
     // The numbers of this process's facets, and for the i-th of them its first unknown, and its rays.
     std::span<const std::uint32_t> facets() const { return facets_; }
     std::uint32_t first_of(std::size_t i) const { return first_of_facet_[i]; }
-    std::span<const std::uint32_t> row(std::size_t i) const { return {slots_.get() + first_ray_[i], slots_.get() + first_ray_[i + 1]}; }
+    std::span<const std::uint32_t> row(std::size_t i) const {
+        return {slots_.get() + first_ray_[i], slots_.get() + first_ray_[i + 1]};
+    }
     std::size_t rays() const { return first_ray_.back(); }
 
     std::uint32_t own() const { return own_; }
@@ -36,8 +38,8 @@ public:
     // The unknown of the space for each own one.
     std::uint32_t unknown(std::size_t facet, std::uint32_t cell) const { return space_->facets()[facets_[facet]].first + cell; }
 
-    // Values at the slots, from each process's values at its own unknowns.
-    void fetch(const Vector& own, Vector& at_slots) const;
+    // Values at the slots, from each process's values at its own unknowns; they stay until the next call.
+    const double* fetch(const Vector& own) const;
     // Adds what each process has at its slots at the unknowns that they stand for.
     void add_up(const Vector& at_slots, Vector& own) const;
     // Of a field of the space, the values at the own unknowns; and the other way, on process 0, elsewhere empty.
@@ -49,7 +51,7 @@ public:
     using Agreement::largest;
     using Agreement::sum;
 
-    // That this process has traced for.
+    // Processor time that this process has traced for.
     double seconds() const { return seconds_; }
 
 private:
@@ -65,6 +67,7 @@ private:
     std::vector<std::uint32_t> others_;  // the numbers of the unknowns of others at slots, ascending
     std::vector<std::uint32_t> given_;   // own unknowns that others see, process by process
     Processes::Counts counts_;           // of fetch()
+    LargeArray<double> at_slots_;        // of fetch(); read at random, which small pages make slower
     double seconds_ = 0.0;
 };
 

@@ -92,6 +92,7 @@ TEST(TracedSystem, RefusesWhatDoesNotFit) {
 }
 
 TEST(Refinement, FurnaceDoesNotMove) {
+    const Scene scene = furnace(Rgb(0.9));
     const auto rows = coarser_spectra(TracedSystem(scene, {160, 16, 0}));
     ASSERT_EQ(rows.size(), 4u);
     for (const RefinementRow& row : rows) EXPECT_NEAR(std::abs(row.leading[0][0]), 0.9, 1e-12);
