@@ -58,7 +58,7 @@ TEST_F(LaunchedMatrices, ObeyTheLawsOfOneProcess) {
 }
 
 TEST_F(LaunchedMatrices, HaveTheEigenvaluesOfOneProcess) {
-    const std::vector<std::string> command{"spectrum", scene("cornell-box"), "--patches", "600", "--json", "--quiet"};
+    const std::vector<std::string> command{"spectrum", scene("cornell-box"), "--patches", "300", "--json", "--quiet"};
     const Json alone = printed_on(0, command);
     for (const int processes : {2, 3}) {
         SCOPED_TRACE(processes);
