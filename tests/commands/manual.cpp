@@ -113,7 +113,8 @@ TEST_F(Manual, ExamplesAreCommandsThatAreUnderstood) {
     all.insert("");
     for (const std::string& topic : all) {
         for (const std::string& example : terms(topic.empty() ? page({}) : page({topic}), "EXAMPLES")) {
-            std::istringstream words(example);
+            // Without the launcher, and without what is within quotes.
+            std::istringstream words(std::regex_replace(example, std::regex(R"(^mpirun -n \d+ |"[^"]*")"), ""));
             std::string program, command;
             words >> program >> command;
             EXPECT_EQ(program, "neumann");
@@ -158,9 +159,9 @@ TEST_F(Manual, ReadmeLeadsToTheTextOfEveryCommand) {
     EXPECT_EQ(pages_of_readme(), expected);
 }
 
-// An option in README.md or anywhere in the manual is one of a command, or of ./test and CMake.
+// An option in README.md or anywhere in the manual is one of a command, or of ./test, CMake, mpirun and a benchmark.
 TEST_F(Manual, OptionsThatAreNamedExist) {
-    Options known{"--help", "--quick", "--build", "--install", "--prefix", "--array"};
+    Options known{"--help", "--quick", "--build", "--install", "--prefix", "--array", "--mca", "--entries"};
     for (const std::string& command : commands()) known.merge(options(command));
     std::vector<std::filesystem::path> files = manual();
     files.push_back(repository / "README.md");

@@ -58,17 +58,18 @@ TEST_F(LaunchedMatrices, ObeyTheLawsOfOneProcess) {
 }
 
 TEST_F(LaunchedMatrices, HaveTheEigenvaluesOfOneProcess) {
-    const std::vector<std::string> command{"spectrum", scene("cornell-box"), "--patches", "600", "--json", "--quiet"};
+    const std::vector<std::string> command{
+        "spectrum", scene("sphere-segment"), "--patches", "300", "--eigenvalues", "2", "--time", "1000", "--json", "--quiet"};
     const Json alone = printed_on(0, command);
     for (const int processes : {2, 3}) {
         SCOPED_TRACE(processes);
         const Json shared = printed_on(processes, command);
-        for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c < alone.at("channels").size(); ++c) {
             const Json &a = alone.at("channels")[c], &b = shared.at("channels")[c];
             for (const char* norm : {"inf", "1", "2"}) EXPECT_NEAR(a.at("norms").at(norm), b.at("norms").at(norm), 1e-10) << norm;
             EXPECT_NEAR(a.at("norm_1_standard_error"), b.at("norm_1_standard_error"), 1e-10);
             EXPECT_NEAR(a.at("spectral_radius"), b.at("spectral_radius"), 1e-9);
-            for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t i = 0; i < 2; ++i)
                 EXPECT_NEAR(a.at("eigenvalues")[i].at("real"), b.at("eigenvalues")[i].at("real"), 1e-8);
             EXPECT_EQ(a.at("bounces_until"), b.at("bounces_until"));
         }

@@ -65,6 +65,7 @@ void check(const std::string& path, const TracedSettings& settings, Processes& p
         entries = std::max(entries, difference_of_entries(K));
         SeriesOptions options;
         options.tolerance = 1e-10;
+        options.most_bounces = 60;
         const SeriesRun run = run_series(K, shared.direct(c), options), run1 = run_series(K1, alone.direct(c), options);
         sums = std::max(sums, table.size(run.sum - table.own_of(run1.sum)) / table.size(run.sum));
         enclosed = std::max(enclosed, std::abs(run.rows.back().enclosure_width - run1.rows.back().enclosure_width));
