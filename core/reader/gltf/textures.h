@@ -1,7 +1,7 @@
 // What a material says of its textures: which picture, at which texture coordinates.
 #pragma once
 
-#include "core/reader/gltf/json_object.h"
+#include "core/reader/import/json_object.h"
 #include "core/reader/gltf/pictures.h"
 #include "core/reader/xml/element.h"
 

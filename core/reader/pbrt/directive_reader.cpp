@@ -2,7 +2,7 @@
 #include "core/reader/pbrt/directive_reader.h"
 
 #include "core/reader/meshes/mesh_text.h"
-#include "core/reader/pbrt/find_file.h"
+#include "core/reader/import/find_file.h"
 #include "core/reader/pbrt/transforms.h"
 #include "core/reader/pbrt/unpack.h"
 #include "core/reader/xml/did_you_mean.h"
