@@ -96,6 +96,7 @@ public:
 
     // Throws InputError, or Told if the property is there and wrong.
     [[noreturn]] void fail_missing(const std::string& name, const std::string& expected) const;
+    bool is_wrong(const std::string& name) const { return wrong_.count(name) > 0; }
     // Adds the problem at the property.
     void complain(const std::string& name, const std::string& what);
     // Properties that have no effect on a picture.
