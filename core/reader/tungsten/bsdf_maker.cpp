@@ -115,9 +115,17 @@ void BsdfMaker::add_metal(Element& e) {
     const std::optional<Vec3> eta = find_vector(o_, "eta"), k = find_vector(o_, "k");
     const std::optional<std::string> name = o_.text("material");
     if (name || !(eta || k)) {
+        std::string metal = name.value_or("Cu");
         // Some have a longer name in Mitsuba.
-        const std::string metal = name.value_or("Cu"), longer = metal + "_palik";
-        add_string(e, "material", !is_metal(metal) && is_metal(longer) ? longer : metal, o_.place_of("material"));
+        if (!is_metal(metal) && is_metal(metal + "_palik")) metal += "_palik";
+        if (!is_metal(metal)) {
+            std::vector<std::string> names;
+            for (const Metal& known : metals()) names.emplace_back(known.name);
+            importing_.refuse(o_.place_of("material"), fmt::format("material '{}' is not known", printable(metal)),
+                              did_you_mean(metal, names), "taken as 'Cu'");
+            metal = "Cu";
+        }
+        add_string(e, "material", metal, o_.place_of("material"));
         return;
     }
     if (!eta || !k)

@@ -18,7 +18,8 @@ RawScene import_tungsten(const std::string& path, const NamedValues& definitions
     if (!root.has("primitives") && !root.has("bsdfs") && !root.has("camera"))
         throw InputError(root.place(), "the file has no primitives, bsdfs nor camera, expected a scene of Tungsten");
     problems.attempt(root.place(), [&] { read_integrator(root, importing); });
-    problems.attempt(root.place(), [&] { read_camera(root, importing); });
+    if (!problems.attempt(root.place(), [&] { read_camera(root, importing); }))
+        add(scene.root, make_object("sensor", "perspective", root.place()));  // so that it is not told twice
     Textures textures(importing);
     Bsdfs bsdfs(root, textures, importing);
     bsdfs.add_all();

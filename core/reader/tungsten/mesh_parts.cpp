@@ -24,7 +24,8 @@ Wo3Mesh read_file(const std::string& path, const Location& place) {
     const std::string ending = lower_ending(path);
     if (ending == ".wo3") return read_wo3(path);
     if (ending != ".obj")
-        throw InputError(place, fmt::format("'{}' is no mesh that is known, expected a .wo3 or a .obj", printable(path)));
+        throw InputError(place, fmt::format("'{}' is no mesh that is known, expected a .wo3 or a .obj",
+                                            printable(std::filesystem::path(path).filename().string())));
     Wo3Mesh mesh{read_obj(path), {}};
     mesh.materials.assign(mesh.mesh.triangles.size(), -1);
     return mesh;
