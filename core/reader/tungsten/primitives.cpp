@@ -36,11 +36,9 @@ void Primitives::add_all() {
 
 void Primitives::add(JsonObject primitive) {
     const std::string type = read_type(primitive, "primitive", primitive_types, "left out", importing_);
-    if (type.empty()) {
-        emit_ = emit_ || primitive.has("emission") || primitive.has("power") || primitive.has("temperature");
-        return;
-    }
+    if (type.empty()) return;
     if (type == "point") {
+        primitive.ignore({"bsdf"});
         emit_ |= add_point(primitive, textures_, importing_);
     } else if (type == "infinite_sphere") {
         primitive.ignore({"bsdf"});
