@@ -33,7 +33,7 @@ void add_texture(Element& parent, const std::string& name, const TextureValue& v
     e.attributes.push_back({"name", name, value.place});
 }
 
-// The mean of the colours, or alpha; what has none is opaque.
+// The mean of the colours, or alpha. Without one, whole numbers are opaque and floats are a mean, as in Tungsten.
 Texels numbers_of(const Texels& from, bool alpha) {
     Texels result{from.width, from.height, 1};
     const std::size_t channels = static_cast<std::size_t>(from.channels), count = from.values.size() + from.bytes.size();
@@ -43,7 +43,7 @@ Texels numbers_of(const Texels& from, bool alpha) {
     };
     for (std::size_t i = 0; i + channels <= count; i += channels) {
         double number = 1.0;
-        if (!alpha)
+        if (!alpha || (!has_alpha && !from.is_encoded))
             number = channels < 3 ? value(i) : (value(i) + value(i + 1) + value(i + 2)) / 3.0;
         else if (has_alpha)
             number = value(i + channels - 1);
@@ -132,7 +132,7 @@ std::string Textures::number_picture(const std::string& path, const Location& pl
     if (!name.empty()) return name;
     const Texels from = decode_texels(read_bytes(path, place), path);
     importing_.scene.files.push_back(path);
-    if (kind == Kind::alpha && from.channels != 2 && from.channels != 4)
+    if (kind == Kind::alpha && from.is_encoded && from.channels != 2 && from.channels != 4)
         importing_.notes.warnings.add("an opacity that is a picture without alpha: opaque, as in Tungsten");
     name = fmt::format("textures/{}.exr", importing_.picture_names.unique(stem_of(path)));
     importing_.scene.in_memory.pictures[name] = std::make_shared<Texels>(numbers_of(from, kind == Kind::alpha));
