@@ -1,6 +1,7 @@
 // The command line.
 #include "apps/command_line/command_manual.h"
 #include "apps/command_line/commands.h"
+#include "apps/command_line/options.h"
 #include "apps/processes/launch.h"
 #include "core/base/error.h"
 
@@ -59,7 +60,9 @@ int main(int argc, char** argv) try {
     keep_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
     neumann::Launch launch;
-    if (launch.is_helper()) return launch.help();
+    // In these all processes take part from the beginning.
+    const bool together = argc > 1 && (argv[1] == std::string("solve") || argv[1] == std::string("spectrum"));
+    if (launch.is_helper() && !together) return launch.help();
     CLI::App app("makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors");
     app.name("neumann");
     app.require_subcommand(1);
@@ -75,8 +78,11 @@ int main(int argc, char** argv) try {
 
     if (argc > 1 && argv[1][0] != '-') find(app, argv[1]);
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = neumann::joined_arguments(argc, argv);
+        std::ranges::reverse(arguments);  // as CLI11 wants them
+        app.parse(std::move(arguments));
     } catch (const CLI::ParseError& e) {
+        if (launch.is_helper()) return launch.help();
         const int code = app.exit(e);
         return code == 0 ? finish(0) : wrong_input;
     }
@@ -86,7 +92,8 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     const auto given = std::ranges::find_if(commands, [](const neumann::Command& command) { return bool(*command.app); });
-    return finish(given->run());
+    const int code = given->run();
+    return launch.is_helper() ? launch.help() : finish(code);
 } catch (const neumann::UnknownError& e) {
     complain(std::string(e.what()) + "\n--lenient takes the scene without what is not known");
     return wrong_input;

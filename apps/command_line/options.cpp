@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 namespace neumann {
 
@@ -90,6 +91,24 @@ void add_lenient(CLI::App& command, bool& lenient) {
         "--lenient", lenient,
         "Take a scene with things that are not known: materials become grey and diffuse, lights, shapes and parameters "
         "are left out, and each is named in a warning");
+}
+
+void add_petsc(CLI::App& command, std::optional<std::string>& options, const std::string& meaning) {
+    command.add_option("--petsc", options, meaning)->type_name("OPTIONS")->expected(0, 1)->default_str("");
+}
+
+std::vector<std::string> joined_arguments(int argc, char** argv) {
+    std::vector<std::string> joined;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view text = argv[i];
+        const bool petsc = !joined.empty() && joined.back() == "--petsc" && text.size() > 2 && text[0] == '-' && text[1] != '-' &&
+                           !text.starts_with("-D") && text.find_first_of("_ ") != text.npos;
+        if (petsc)
+            joined.back() += "=" + std::string(text);
+        else
+            joined.emplace_back(text);
+    }
+    return joined;
 }
 
 void add_patch_options(CLI::App& command, PatchOptions& options) {

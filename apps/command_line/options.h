@@ -33,8 +33,13 @@ PartOfSamples part_of(const std::string& text);
 void add_files(CLI::App& command, std::vector<std::string>& files);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
+// --petsc, with or without a value.
+void add_petsc(CLI::App& command, std::optional<std::string>& options, const std::string& meaning);
 // --lenient.
 void add_lenient(CLI::App& command, bool& lenient);
+
+// The command line with "--petsc" and a value that looks like an option, "-ksp_type gmres", as one argument.
+std::vector<std::string> joined_arguments(int argc, char** argv);
 
 // SCENE and the options of all commands that treat it as matrices.
 void add_patch_options(CLI::App& command, PatchOptions& options);

@@ -19,6 +19,7 @@ CLI::App* add_solve(CLI::App& app, SolveRequest& request) {
         ->check(whole_from(1, 1000000000))
         ->capture_default_str();
     command->add_flag("--csv", request.csv, "Print every step of every solver as CSV")->excludes("--json");
+    add_petsc(*command, request.petsc, "PETSc's solvers as well, with these options of theirs, or else a few kinds");
     return command;
 }
 

@@ -22,6 +22,7 @@ CLI::App* add_spectrum(CLI::App& app, SpectrumRequest& request) {
         ->check(whole_from(1, 1000000000))
         ->capture_default_str();
     command->add_flag("--csv", request.csv, "Print the eigenvalues as CSV")->excludes("--json");
+    add_petsc(*command, request.petsc, "SLEPc's leading eigenvalues as well, with these options of theirs");
     return command;
 }
 

@@ -111,7 +111,7 @@ int export_command(const ExportRequest& request) {
                                    ? (fs::path("out") / (fs::path(request.patches.scene).stem().string() + "-matrices")).string()
                                    : request.output;
     const PatchScene scene(request.patches);
-    const TracedSystem& system = scene.system();
+    const TracedSystem& system = scene.traced();
     check_matrix_memory(request.patches, system);
     check_folder(output);
     Export files(output, request.patches.quiet);

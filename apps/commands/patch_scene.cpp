@@ -9,6 +9,7 @@
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
 #include "core/scene/shading_normals.h"
+#include "operators/shared/shared_system.h"
 
 #include <fmt/format.h>
 #include <bit>
@@ -45,10 +46,22 @@ PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(o
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
                        std::map<std::string, std::string> definitions)
+    : PatchScene(options, scene, std::move(definitions), [&](const TracedSettings& traced) {
+          return std::make_unique<TracedSystem>(*scene, traced, Watch{.stop = interrupted});
+      }) {}
+
+PatchScene::PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc)
+    : PatchScene(options, read(options), parse_definitions(options.definitions), [&](const TracedSettings& traced) {
+          return std::make_unique<SharedSystem>(*scene_, traced, processes, petsc, Watch{.stop = interrupted});
+      }) {}
+
+PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
+                       std::map<std::string, std::string> definitions,
+                       const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make)
     : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     const TracedSettings traced = settings(options);
     try {
-        system_ = std::make_unique<TracedSystem>(*scene_, traced, Watch{.stop = interrupted});
+        system_ = make(traced);
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }

@@ -3,10 +3,12 @@
 
 #include "apps/commands/limits.h"
 #include "core/base/warnings.h"
+#include "core/processes/processes.h"
 #include "operators/matrix/traced_system.h"
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,11 +36,15 @@ class PatchScene {
 public:
     // Throws InputError that names the wrong option or scene, and what is allowed.
     explicit PatchScene(const PatchOptions& options);
+    // For processes that share it, all together; `petsc`: SLEPc's options.
+    PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc);
     // Uses a scene that was read before, with these definitions.
     PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions);
 
     const Scene& scene() const { return *scene_; }
-    const TracedSystem& system() const { return *system_; }
+    const MatrixSystem& system() const { return *system_; }
+    // Of one process alone.
+    const TracedSystem& traced() const { return dynamic_cast<const TracedSystem&>(*system_); }
 
     // "", or "r", "g", "b", as in names of files.
     const char* channel_letter(int c) const;
@@ -51,11 +57,14 @@ public:
     nlohmann::ordered_json json() const;
 
 private:
+    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions,
+               const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
+
     PatchOptions options_;
     ThreadLimit threads_;
     std::map<std::string, std::string> definitions_;
     std::shared_ptr<const Scene> scene_;
-    std::unique_ptr<TracedSystem> system_;
+    std::unique_ptr<MatrixSystem> system_;
 };
 
 // The channel that --channel names: r, g or b; nothing if the name is empty. Throws InputError.

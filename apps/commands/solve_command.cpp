@@ -3,7 +3,12 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
+#include "apps/processes/launch.h"
+#include "apps/processes/together.h"
 #include "core/base/error.h"
+#include "operators/matrix/traced_system.h"
+#include "operators/petsc/petsc_solver.h"
+#include "operators/shared/shared_solvers.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,7 +19,7 @@ namespace neumann {
 
 namespace {
 
-bool is_reference(const SolverRow& row) { return std::string_view(row.solver->name) == "lu"; }
+bool is_reference(const SolverRow& row) { return row.name == "lu"; }
 
 std::string short_number(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : ""; }
 
@@ -57,7 +62,7 @@ void print_notes(const SideBySide& all) {
         for (std::size_t k = 0; k < all.rows.size(); ++k) {
             if (other(row, all.rows[k])) continue;
             said = said || k < i;
-            who += (who.empty() ? "" : "; ") + std::string(all.rows[k].solver->title);
+            who += (who.empty() ? "" : "; ") + all.rows[k].title;
         }
         if (!said) fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}.", who, name(row.result.verdict), row.result.why), 4));
     }
@@ -75,11 +80,11 @@ void print_table(const PatchScene& scene, const SolveRequest& request, const Cho
     if (scene.system().samples_lights())
         fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
     if (!all.no_reference.empty())
-        fmt::print("{}\n", wrapped("LU is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
-    fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>14}   {}\n", "solver", "applications", "seconds", "estimate", "error to LU",
-               "verdict");
+        fmt::print("{}\n", wrapped(all.reference + " is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
+    fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>16}   {}\n", "solver", "applications", "seconds", "estimate",
+               "error to " + all.reference, "verdict");
     for (const SolverRow& row : all.rows)
-        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>14}   {}\n", row.solver->title, applications_text(row.result.applications),
+        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>16}   {}\n", row.title, applications_text(row.result.applications),
                    row.seconds, short_number(row.estimate()),
                    is_reference(row) && all.no_reference.empty() ? "reference" : short_number(row.error), name(row.result.verdict));
     fmt::print(
@@ -94,14 +99,15 @@ void print_csv(const SideBySide& all) {
     const auto cell = [](double x) { return std::isnan(x) ? std::string() : fmt::format("{:.9g}", x); };
     for (const SolverRow& row : all.rows)
         for (const SolverStep& step : row.result.history)
-            fmt::print("{},{:.9g},{},{},{:.6f}\n", row.solver->name, step.applications, cell(step.estimate), cell(step.error),
+            fmt::print("{},{:.9g},{},{},{:.6f}\n", row.name, step.applications, cell(step.estimate), cell(step.error),
                        step.seconds);
 }
 
 }  // namespace
 
 nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved) {
-    const auto& [chosen, all] = solved;
+    const ChosenChannel& chosen = solved.chosen;
+    const SideBySide& all = solved.all;
     using Json = nlohmann::ordered_json;
     Json json = scene.json();
     json["channel"] = {{"name", scene.system().channel_name(chosen.channel)}, {"why", chosen.why}};
@@ -109,13 +115,13 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     json["unknown"] = scene.system().samples_lights() ? "L - Le" : "L";
     json["tolerance"] = request.tolerance;
     json["most_applications"] = request.most;
-    json["reference"] = all.no_reference.empty() ? Json("lu") : Json(nullptr);
+    json["reference"] = all.no_reference.empty() ? Json(all.reference == "LU" ? "lu" : "gmres") : Json(nullptr);
     if (!all.no_reference.empty()) json["no_reference"] = all.no_reference;
     json["interrupted"] = all.interrupted;
     json["solvers"] = Json::array();
     for (const SolverRow& row : all.rows) {
-        Json solver = {{"name", row.solver->name},
-                       {"title", row.solver->title},
+        Json solver = {{"name", row.name},
+                       {"title", row.title},
                        {"verdict", name(row.result.verdict)},
                        {"why", row.result.why},
                        {"applications", row.result.applications},
@@ -134,27 +140,41 @@ nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& r
     return json;
 }
 
-SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories) {
-    const ChosenChannel chosen = choose_channel(scene.system(), channel_number(request.channel), {.stop = interrupted});
-    const TracedChannel K = scene.system().channel(chosen.channel);
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories, bool shared) {
+    const MatrixSystem& system = scene.system();
+    SolvedScene solved{choose_channel(system, channel_number(request.channel), {.stop = interrupted}), {}};
+    const ChosenChannel& chosen = solved.chosen;
+    const std::unique_ptr<ChannelOperator> K = system.reflected(chosen.channel);
 
     Problem problem;
-    problem.K = &K;
-    problem.Le = scene.system().samples_lights() ? scene.system().direct(chosen.channel) : scene.system().emitted(chosen.channel);
+    problem.K = K.get();
+    problem.Le = system.samples_lights() ? system.direct(chosen.channel) : system.emitted(chosen.channel);
     problem.tolerance = request.tolerance;
     problem.most = request.most;
     if (std::isfinite(chosen.radius) && !chosen.traps_light) problem.radius = chosen.radius;
-    problem.reflectance = &K.reflectance();
-    return {chosen, solve_side_by_side(problem, histories, {.stop = interrupted})};
+    const Watch watch{.stop = interrupted};
+    if (shared) {
+        solved.all = solve_shared(problem, petsc_options(request.petsc.value_or("")), histories, watch, solved.warnings);
+        return solved;
+    }
+    if (const auto* const traced = dynamic_cast<const TracedChannel*>(K.get())) problem.reflectance = &traced->reflectance();
+    solved.all = solve_side_by_side(problem, histories, watch);
+    if (request.petsc) solved.warnings = add_petsc_rows(problem, petsc_options(*request.petsc), histories, watch, solved.all);
+    return solved;
 }
 
-int solve_command(const SolveRequest& request) {
-    channel_number(request.channel);  // throws before anything is read
-    const PatchScene scene(request.patches);
+namespace {
+
+int solve_and_print(const SolveRequest& request, Processes* processes) {
+    // These throw before anything is read.
+    channel_number(request.channel);
+    if (request.petsc) require_petsc();
+    const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);
     catch_interrupts();
-    const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json);
+    const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json, processes != nullptr);
 
     print_warnings(scene.warnings(), request.patches.quiet);
+    print_warnings(solved.warnings, request.patches.quiet);
     if (request.patches.json)
         fmt::print("{}\n", solve_json(scene, request, solved).dump(2));
     else if (request.csv)
@@ -162,6 +182,18 @@ int solve_command(const SolveRequest& request) {
     else
         print_table(scene, request, solved.chosen, solved.all);
     return 0;
+}
+
+}  // namespace
+
+int solve_command(const SolveRequest& request) {
+    Processes* const processes = launched();
+    if (!processes) return solve_and_print(request, nullptr);
+    return run_together(*processes, request.patches, [&](const PatchOptions& options) {
+        SolveRequest mine = request;
+        mine.patches = options;
+        return solve_and_print(mine, processes);
+    });
 }
 
 }  // namespace neumann

@@ -5,7 +5,9 @@
 #include "operators/matrix/channel_choice.h"
 #include "operators/solvers/side_by_side.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
@@ -15,14 +17,16 @@ struct SolveRequest {
     double tolerance = 1e-6;
     int most = 10000;  // largest number of applications of K
     bool csv = false;
+    std::optional<std::string> petsc;  // PETSc's options; empty: a few kinds
 };
 
 struct SolvedScene {
     ChosenChannel chosen;
     SideBySide all;
+    std::vector<std::string> warnings = {};
 };
-// `histories`: record true errors at each step. Throws InputError.
-SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories);
+// `histories`: record true errors at each step; `shared`: the scene is shared by several processes. Throws InputError.
+SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bool histories, bool shared = false);
 nlohmann::ordered_json solve_json(const PatchScene& scene, const SolveRequest& request, const SolvedScene& solved);
 
 // Prints for each solver its cost, its distance from LU, and how it ended. Returns the exit code, 0 whatever the verdicts. Throws

@@ -4,7 +4,11 @@
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/spectrum_print.h"
+#include "apps/processes/launch.h"
+#include "apps/processes/together.h"
 #include "core/base/stopwatch.h"
+#include "operators/matrix/traced_system.h"
+#include "operators/petsc/petsc.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +17,8 @@ namespace neumann {
 SceneSpectrum spectrum_of(const PatchScene& scene, const SpectrumRequest& request,
                           const std::function<void(const std::function<std::string()>&)>& tell) {
     const Stopwatch clock;
-    SpectrumLimits limits{request.eigenvalues, request.seconds, static_cast<double>(request.most)};
+    SpectrumLimits limits{request.eigenvalues, request.seconds, static_cast<double>(request.most), {}};
+    if (dynamic_cast<const TracedSystem*>(&scene.system())) limits.petsc = request.petsc;
     limits.look = [&](const std::string& what, const EigenStep& step) {
         tell([&] {
             return fmt::format("{}   {:.0f} applications of K   largest residual {:.1e}   {:.0f} s", what, step.applications,
@@ -26,11 +31,15 @@ SceneSpectrum spectrum_of(const PatchScene& scene, const SpectrumRequest& reques
     return found;
 }
 
-int spectrum_command(const SpectrumRequest& request) {
+namespace {
+
+int find_and_print(const SpectrumRequest& request, Processes* processes) {
+    if (request.petsc) require_petsc();  // throws before anything is read
     catch_interrupts();
     ProgressLine line(request.patches.quiet);
     line.show([] { return std::string("tracing T"); });
-    const PatchScene scene(request.patches);
+    const PatchScene scene =
+        processes ? PatchScene(request.patches, *processes, request.petsc.value_or("")) : PatchScene(request.patches);
     const SceneSpectrum found = spectrum_of(scene, request, [&](const auto& text) { line.show(text); });
     line.clear();
     print_warnings(found.warnings, request.patches.quiet);
@@ -41,6 +50,18 @@ int spectrum_command(const SpectrumRequest& request) {
     else
         print_spectrum(scene, found);
     return 0;
+}
+
+}  // namespace
+
+int spectrum_command(const SpectrumRequest& request) {
+    Processes* const processes = launched();
+    if (!processes) return find_and_print(request, nullptr);
+    return run_together(*processes, request.patches, [&](const PatchOptions& options) {
+        SpectrumRequest mine = request;
+        mine.patches = options;
+        return find_and_print(mine, processes);
+    });
 }
 
 }  // namespace neumann

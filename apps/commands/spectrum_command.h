@@ -5,6 +5,7 @@
 #include "operators/matrix/scene_spectrum.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace neumann {
@@ -15,6 +16,7 @@ struct SpectrumRequest {
     double seconds = 60.0;
     int most = 10000;  // largest number of applications of K in a search
     bool csv = false;
+    std::optional<std::string> petsc;  // SLEPc's options
 };
 
 // scene_spectrum() with the warnings of the scene. Calls `tell` with the progress from time to time; Ctrl-C stops it.

@@ -43,8 +43,8 @@ void print_norms(const SceneSpectrum& report) {
     print_row("  ‖K‖∞, of radiance", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.sup); });
     print_row("  ‖K‖₁, of power", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.one); });
     print_row("    standard error by the rays", report,
-              [](const ChannelSpectrum& s) { return fmt::format("{:.2g}", s.one_error); });
-    print_row("    there, part of the measure", report, [](const ChannelSpectrum& s) { return fmt::format("{:.1e}", s.one_part); });
+              [](const ChannelSpectrum& s) { return fmt::format("{:.2g}", s.one.error); });
+    print_row("    there, part of the measure", report, [](const ChannelSpectrum& s) { return fmt::format("{:.1e}", s.one.part); });
     print_row("  ‖K‖₂", report, [&](const ChannelSpectrum& s) { return fixed(s.norms.two); });
     print_row("  spectral radius", report, [&](const ChannelSpectrum& s) { return fixed(s.radius); });
     print_row("    moves on refinement by", report,
@@ -66,6 +66,23 @@ void print_norms(const SceneSpectrum& report) {
     }
 }
 
+// The same by SLEPc: the moduli, and how far they are from ours.
+void print_slepc(const SceneSpectrum& report) {
+    const auto by_slepc = [](const ChannelSpectrum& s) { return s.by_slepc ? s.by_slepc->pairs.size() : 0; };
+    std::size_t most = 0;
+    for (const ChannelSpectrum& s : report.channels) most = std::max(most, by_slepc(s));
+    for (std::size_t i = 0; i < most; ++i)
+        print_row(fmt::format("  {}, SLEPc", i + 1), report, [&](const ChannelSpectrum& s) {
+            return i < by_slepc(s) ? complex_text(s.by_slepc->pairs[i].value) : std::string("not found");
+        });
+    if (most > 0)
+        print_row("  applications of K, both", report, [](const ChannelSpectrum& s) {
+            return fmt::format("{:.0f}, {:.0f}", s.leading.applications, s.by_slepc ? s.by_slepc->applications : 0.0);
+        });
+    for (const ChannelSpectrum& s : report.channels)
+        if (s.by_slepc && !s.by_slepc->converged) fmt::print("{}: {}.\n", s.name, s.by_slepc->why);
+}
+
 void print_eigenvalues(const SceneSpectrum& report) {
     print_row("Leading eigenvalues", report, [](const ChannelSpectrum& s) { return s.name; });
     std::size_t most = 0;
@@ -84,6 +101,7 @@ void print_eigenvalues(const SceneSpectrum& report) {
         for (const Eigenpair& pair : s.leading.pairs) largest = std::max(largest, pair.residual);
         return s.leading.converged ? fmt::format("{:.1e}", largest) : fmt::format("not found: {:.0e}", largest);
     });
+    print_slepc(report);
     for (const ChannelSpectrum& s : report.channels) {
         if (!s.leading.converged) fmt::print("{}: {}.\n", s.name, s.leading.why);
         if (s.bounds && s.bounds->meet())
@@ -195,8 +213,8 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SceneSpectru
             {"name", s.name},
             {"largest_albedo", s.largest_albedo},
             {"norms", {{"inf", json_number(s.norms.sup)}, {"1", json_number(s.norms.one)}, {"2", json_number(s.norms.two)}}},
-            {"norm_1_standard_error", json_number(s.one_error)},
-            {"norm_1_part_of_measure", json_number(s.one_part)},
+            {"norm_1_standard_error", json_number(s.one.error)},
+            {"norm_1_part_of_measure", json_number(s.one.part)},
             {"spectral_radius", json_number(s.radius)},
             {"spectral_radius_shift", json_number(s.shift)},
             {"series", name(s.convergence)},
@@ -211,6 +229,16 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SceneSpectru
             Json value = complex_json(pair.value);
             value["residual"] = pair.residual;
             channel["eigenvalues"].push_back(value);
+        }
+        if (s.by_slepc) {
+            Json& slepc = channel["slepc"];
+            slepc = {{"converged", s.by_slepc->converged}, {"why", s.by_slepc->why}, {"applications", s.by_slepc->applications},
+                     {"eigenvalues", Json::array()}};
+            for (const Eigenpair& pair : s.by_slepc->pairs) {
+                Json value = complex_json(pair.value);
+                value["residual"] = pair.residual;
+                slepc["eigenvalues"].push_back(value);
+            }
         }
         channel["refinement"] = Json::array();
         for (const RefinementRow& r : report.coarser) {

@@ -27,7 +27,7 @@ struct Patched {
 };
 
 py::dict as_dict(const Patched& patched) {
-    const TracedSystem& system = patched.scene->system();
+    const TracedSystem& system = patched.scene->traced();
     const int c = patched.chosen.channel;
     py::dict d;
     d["T"] = transport_matrix(system.table());
@@ -52,7 +52,7 @@ std::unique_ptr<Job> start_matrices(const std::shared_ptr<LoadedScene>& loaded, 
         job.tell("tracing T");
         auto patched = std::make_shared<Patched>();
         patched->scene = patch_scene(*loaded, request.patches);
-        check_matrix_memory(request.patches, patched->scene->system());
+        check_matrix_memory(request.patches, patched->scene->traced());
         job.tell("looking for the spectral radius");
         patched->chosen = choose_channel(patched->scene->system(), channel_number(request.channel), {.stop = interrupted});
         return [patched] { return py::cast(patched); };

@@ -89,8 +89,8 @@ py::array_t<double> as_array(const std::vector<SolverStep>& history) {
 
 py::object as_dict(const SolverRow& row) {
     py::dict d;
-    d["name"] = row.solver->name;
-    d["title"] = row.solver->title;
+    d["name"] = row.name;
+    d["title"] = row.title;
     d["x"] = row.result.x;
     d["verdict"] = name(row.result.verdict);
     d["why"] = row.result.why;
@@ -128,7 +128,7 @@ std::unique_ptr<Job> start_solver(const std::string& name, const Operator& K, co
                 fmt::format("{}   {:.0f} applications of K   error about {:.2g}", solver->title, step.applications, step.estimate));
         };
         const Stopwatch watch;
-        auto row = std::make_shared<SolverRow>(SolverRow{solver, solver->solve(problem), 0.0, 0.0});
+        auto row = std::make_shared<SolverRow>(SolverRow{solver->name, solver->title, solver->solve(problem)});
         row->seconds = watch.seconds();
         return [row] { return as_dict(*row); };
     });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -39,6 +40,22 @@ public:
     };
     // What this process has sent and received.
     virtual Traffic traffic() const = 0;
+
+    // What follows is for all processes together: each calls it, and all in the same order.
+
+    // The sum, or the largest, of each value over all processes: the same bits on all.
+    virtual void sum(std::span<double> values) = 0;
+    virtual void largest(std::span<double> values) = 0;
+
+    // How many values go to each process, and come from each.
+    struct Counts {
+        std::vector<int> given, taken;
+    };
+    // The counts of an exchange of which each process knows what it gives.
+    virtual Counts counts(std::vector<int> given) = 0;
+    // Part p of `given` goes to process p, and part p of `taken` comes from there.
+    virtual void exchange(std::span<const double> given, std::span<double> taken, const Counts& counts) = 0;
+    virtual void exchange(std::span<const std::uint32_t> given, std::span<std::uint32_t> taken, const Counts& counts) = 0;
 };
 
 // Null if this process was started alone. Throws RunError if it was not, and this program was built without MPI.

@@ -3,8 +3,6 @@
 #include "operators/blame/path_mistakes.h"
 #include "operators/blame/picture_mistakes.h"
 #include "operators/blame/sentences.h"
-#include "operators/blame/technique_mistakes.h"
-#include "operators/methods/render.h"
 
 #include <fmt/format.h>
 
@@ -25,8 +23,6 @@ namespace {
 constexpr double strong_evidence = 40.0;
 constexpr std::size_t places_a_term = 3;
 constexpr std::uint64_t most_replayed = 64;  // samples of a pixel, from which a path is chosen
-// For what the mistakes make of the scene: some ten microseconds each.
-constexpr double most_paths = 4e6;
 
 void expect_finite(const DepthPicture& picture) {
     const Image& mean = picture.mean;
@@ -34,6 +30,12 @@ void expect_finite(const DepthPicture& picture) {
         for (int x = 0; x < mean.width; ++x)
             if (!is_finite(mean.at(x, y)))
                 throw InputError(fmt::format("picture {}: the pixel in column {} and row {} is not finite", picture.depth, x, y));
+}
+
+void check(const std::vector<DepthPicture>& pictures, std::optional<Counting> counting) {
+    if (pictures.empty()) throw InputError("there are no pictures to compare with");
+    for (const DepthPicture& picture : pictures) expect_finite(picture);
+    terms_of(pictures, counting.value_or(Counting::pbrt));  // sizes and numbers
 }
 
 Scene on_their_film(const Scene& scene, const Image& picture) {
@@ -108,22 +110,14 @@ std::vector<std::uint32_t> shapes_seen(const Scene& scene) {
 
 class Judge {
 public:
-    Judge(const Scene& scene, const BlameSettings& settings, const Watch& watch)
-        : scene_(scene), settings_(settings), watch_(watch) {}
+    Judge(ExpectedPictures& expected, std::optional<Counting> counting)
+        : expected_(expected), scene_(expected.scene()), counting_(counting) {}
 
     Blame judge(const std::vector<DepthPicture>& pictures) {
         int most = 0;
         for (const DepthPicture& p : pictures) most = std::max(most, p.depth + 1);
-        Goal goal;
-        goal.bounces = most;
-        goal.seed = settings_.seed;
-        goal.only_pictures = true;
-        if (settings_.samples)
-            goal.samples = settings_.samples;
-        else
-            goal.seconds = settings_.seconds;
-        const BounceSeries ours = render(scene_, independent_walk(), goal, watch_);
-        if (ours.outcome == Outcome::interrupted) throw Stopped();
+        const std::shared_ptr<const BounceSeries> rendered = expected_.ours(most);
+        const BounceSeries& ours = *rendered;
         result_.samples = ours.samples;
         choose_counting(pictures, ours);
         judge_noise(pictures, ours);
@@ -140,27 +134,20 @@ public:
 
 private:
     void choose_counting(const std::vector<DepthPicture>& pictures, const BounceSeries& ours) {
-        if (settings_.counting == Counting::bounces) {
+        if (counting_ == Counting::bounces) {
             result_.counting = Counting::bounces;
             return;
         }
         std::vector<double> sums;
         for (int i = 0; i <= ours.bounces(); ++i) sums.push_back(mean_of(ours.sum(static_cast<std::size_t>(i)).mean));
         const Counting likely = likely_counting(pictures, sums);
-        result_.counting = settings_.counting.value_or(likely);
+        result_.counting = counting_.value_or(likely);
         constexpr double close = 0.02, clearly = 4.0;
         const double misfit = misfit_of_means(pictures, likely, sums);
         if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close) result_.told = likely;
     }
 
-    // Samples that are independent of each other, as most renderers have: their variance then is ours, times a number.
-    static method::Walk independent_walk() {
-        method::Walk walk;
-        walk.sampler = SamplerKind::independent;
-        return walk;
-    }
-
-    // That number, from the picture that has least; what is wrong only adds to it.
+    // The number by which ours is multiplied, from the picture that has least; what is wrong only adds to it.
     void judge_noise(const std::vector<DepthPicture>& pictures, const BounceSeries& ours) {
         for (const DepthPicture& p : pictures) {
             if (p.variance) continue;
@@ -201,7 +188,9 @@ private:
         std::vector<BounceRange> direct;
         for (const ComparedTerm& c : compared_)
             if (c.bounces.last <= 1) direct.push_back(c.bounces);
-        const std::vector<WrongTerms> wrong = direct.empty() ? std::vector<WrongTerms>() : make_wrong(direct);
+        const auto made = direct.empty() ? nullptr : expected_.wrong(direct);
+        const std::vector<WrongTerms> none;
+        const std::vector<WrongTerms>& wrong = made ? *made : none;
         for (std::size_t i = 0; i < compared_.size(); ++i) {
             const ComparedTerm& c = compared_[i];
             TermVerdict v;
@@ -217,16 +206,6 @@ private:
             if (v.differs && !result_.first_wrong) result_.first_wrong = i;
             result_.terms.push_back(std::move(v));
         }
-    }
-
-    // For what mistakes make of the scene.
-    int paths_a_pixel() const {
-        const auto pixels = static_cast<double>(compared_[0].ours.mean.pixels.size());
-        return static_cast<int>(
-            std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(result_.samples, 16))));
-    }
-    std::vector<WrongTerms> make_wrong(const std::vector<BounceRange>& ranges) const {
-        return wrong_terms(scene_, ranges, paths_a_pixel(), settings_.seed + 1, watch_);
     }
 
     // Whether a mistake is clearly likelier than none: differences of few pixels do not show in blocks. Beyond bounce 1 fireflies
@@ -266,7 +245,7 @@ private:
             add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed);
         std::vector<BounceRange> ranges;
         for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
-        for (const WrongTerms& w : make_wrong(ranges)) {
+        for (const WrongTerms& w : *expected_.wrong(ranges)) {
             if (w.mistake == Mistake::none) continue;
             add(name_of(w.mistake), describe(w.mistake), w.terms, 0, false);
             if (w.mistake != Mistake::no_inverse_square) continue;
@@ -276,9 +255,7 @@ private:
             for (const PictureNoise& p : w.terms) rescaled.push_back(scaled(p, factor));
             add(name_of(w.mistake), describe(w.mistake), rescaled, 1, false);
         }
-        // A bidirectional path takes several times as long.
-        for (const WrongPictures& w : without_techniques(scene_, ranges, paths_a_pixel() / 4, settings_.seed + 2, watch_))
-            add(w.name, w.words, w.terms, 0, false);
+        for (const WrongPictures& w : *expected_.without_techniques(ranges)) add(w.name, w.words, w.terms, 0, false);
         std::stable_sort(result_.suspects.begin(), result_.suspects.end(),
                          [](const Suspect& a, const Suspect& b) { return a.misfit < b.misfit; });
         put_causes_first();
@@ -340,9 +317,9 @@ private:
         }
     }
 
+    ExpectedPictures& expected_;
     const Scene& scene_;
-    const BlameSettings& settings_;
-    const Watch& watch_;
+    const std::optional<Counting> counting_;
     double times_ = std::numeric_limits<double>::infinity();  // their variance, in units of ours
     std::vector<ComparedTerm> compared_;
     Blame result_;
@@ -351,11 +328,19 @@ private:
 }  // namespace
 
 Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch) {
-    if (pictures.empty()) throw InputError("there are no pictures to compare with");
-    for (const DepthPicture& picture : pictures) expect_finite(picture);
-    terms_of(pictures, settings.counting.value_or(Counting::pbrt));  // sizes and numbers
-    const Scene seen = on_their_film(scene, pictures.front().mean);
-    return Judge(seen, settings, watch).judge(pictures);
+    check(pictures, settings.counting);
+    ExpectedPictures expected(on_their_film(scene, pictures.front().mean), settings.samples, settings.seconds, settings.seed,
+                              watch);
+    return Judge(expected, settings.counting).judge(pictures);
+}
+
+Blame blame(ExpectedPictures& expected, const std::vector<DepthPicture>& pictures, std::optional<Counting> counting) {
+    check(pictures, counting);
+    const Film& film = expected.scene().film;
+    if (const Image& mean = pictures.front().mean; mean.width != film.crop_width || mean.height != film.crop_height)
+        throw InputError(fmt::format("the pictures have {}×{} pixels, expected the film's {}×{}", mean.width, mean.height,
+                                     film.crop_width, film.crop_height));
+    return Judge(expected, counting).judge(pictures);
 }
 
 }  // namespace neumann

@@ -3,6 +3,7 @@
 
 #include "core/scene/scene.h"
 #include "operators/blame/difference_test.h"
+#include "operators/blame/expected_pictures.h"
 #include "operators/blame/other_pictures.h"
 #include "operators/blame/worst_places.h"
 #include "operators/watch.h"
@@ -65,5 +66,7 @@ constexpr double false_alarms = 0.005;
 // `pictures`: of one size, which becomes that of the scene's film. Throws InputError as terms_of() does, if a value is
 // not finite, and if the film has another shape; Stopped.
 Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch = {});
+// The same for pictures of the size of the scene's film.
+Blame blame(ExpectedPictures& expected, const std::vector<DepthPicture>& pictures, std::optional<Counting> counting = {});
 
 }  // namespace neumann

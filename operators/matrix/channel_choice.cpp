@@ -16,24 +16,24 @@ struct Radius {
     std::string why;  // why it was not found
 };
 
-Radius find_radius(const TracedSystem& system, int c, const Watch& watch) {
-    const TracedChannel K = system.channel(c);
+Radius find_radius(const MatrixSystem& system, int c, const Watch& watch) {
+    const std::unique_ptr<ChannelOperator> K = system.reflected(c);
     double applications = 0.0;
     // Light trapped in glass by total reflection has many eigenvectors with eigenvalue 1, so that searches do not converge.
     if (has_glass(system.space())) {
-        const RadiusBounds bounds = radius_bounds(K, most_for_bounds, watch);
+        const RadiusBounds bounds = radius_bounds(*K, most_for_bounds, watch);
         applications += bounds.applications;
         if (bounds.meet()) return {bounds.high, applications, ""};
     }
     EigenLimits limits;
     limits.watch = watch;
-    const Eigenpairs leading = leading_eigenpairs(K, 1, false, limits);
+    const Eigenpairs leading = system.leading(*K, 1, limits);
     return {leading.radius(), applications + leading.applications, leading.why};
 }
 
 }  // namespace
 
-ChosenChannel choose_channel(const TracedSystem& system, std::optional<int> given, const Watch& watch) {
+ChosenChannel choose_channel(const MatrixSystem& system, std::optional<int> given, const Watch& watch) {
     ChosenChannel chosen;
     const int channels = system.channels();
     if (channels == 1) given.reset();

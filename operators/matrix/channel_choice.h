@@ -1,8 +1,9 @@
 // Chooses a colour channel for work on a single one.
 #pragma once
 
-#include "operators/matrix/traced_system.h"
+#include "operators/matrix/matrix_system.h"
 
+#include <optional>
 #include <string>
 
 namespace neumann {
@@ -17,6 +18,6 @@ struct ChosenChannel {
 };
 
 // The given channel, or else the one with the largest spectral radius. If the scene is grey, its only channel.
-ChosenChannel choose_channel(const TracedSystem& system, std::optional<int> given, const Watch& watch = {});
+ChosenChannel choose_channel(const MatrixSystem& system, std::optional<int> given, const Watch& watch = {});
 
 }  // namespace neumann

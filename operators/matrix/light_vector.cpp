@@ -15,11 +15,11 @@ namespace {
 constexpr std::uint64_t direct_stream = 0x6469726563ull, emitted_stream = 0x656d697474ull;
 
 template <class Each>
-void for_facets(const PatchSpace& space, const Each& each) {
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 32),
-                              [&](const auto& range) {
-                                  for (std::uint32_t f = range.begin(); f < range.end(); ++f) each(f);
-                              });
+void for_facets(const PatchSpace& space, const SomeFacets& some, const Each& each) {
+    const std::size_t all = some ? some->size() : space.facets().size();
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, all, 32), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) each(some ? (*some)[i] : static_cast<std::uint32_t>(i));
+    });
 }
 
 struct Segment {
@@ -65,10 +65,10 @@ NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space
 }  // namespace
 
 template <int C>
-ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
+ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space, const SomeFacets& facets) {
     ExitantVector<C> Le = ExitantVector<C>::zero(space.size());
     const SobolPoints points(16);
-    for_facets(space, [&](std::uint32_t f) {
+    for_facets(space, facets, [&](std::uint32_t f) {
         const Facet& facet = space.facets()[f];
         if (!facet.front) return;
         Sampler sampler(points, emitted_stream, f);
@@ -88,13 +88,14 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space) {
 }
 
 template <int C>
-IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed) {
+IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed,
+                                 const SomeFacets& facets) {
     const PatchSpace& space = R.space();
     IncidentVector<C> means = IncidentVector<C>::zero(space.size());
     if (scene.emitters.empty()) return means;
     const SobolPoints points(samples);
     const LightSampler lights(scene.geometry, scene.emitters, LightChoice::mixed, LightPlace::near_projected);
-    for_facets(space, [&](std::uint32_t f) {
+    for_facets(space, facets, [&](std::uint32_t f) {
         if (!(R.reflectance().col(f) == 0.0).all()) light_facet<C>(lights, space, points, seed, f, means);
     });
     return means;
@@ -112,9 +113,11 @@ double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
     return all > 0.0 ? rays * lights / all : 0.0;
 }
 
-template ExitantVector<1> emitted_light<1>(const Scene&, const PatchSpace&);
-template ExitantVector<4> emitted_light<4>(const Scene&, const PatchSpace&);
-template IncidentVector<1> arriving_light<1>(const Scene&, const ReflectionMatrix<1>&, std::uint32_t, std::uint64_t);
-template IncidentVector<4> arriving_light<4>(const Scene&, const ReflectionMatrix<4>&, std::uint32_t, std::uint64_t);
+template ExitantVector<1> emitted_light<1>(const Scene&, const PatchSpace&, const SomeFacets&);
+template ExitantVector<4> emitted_light<4>(const Scene&, const PatchSpace&, const SomeFacets&);
+template IncidentVector<1> arriving_light<1>(const Scene&, const ReflectionMatrix<1>&, std::uint32_t, std::uint64_t,
+                                             const SomeFacets&);
+template IncidentVector<4> arriving_light<4>(const Scene&, const ReflectionMatrix<4>&, std::uint32_t, std::uint64_t,
+                                             const SomeFacets&);
 
 }  // namespace neumann

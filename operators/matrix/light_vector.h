@@ -4,16 +4,23 @@
 #include "core/scene/scene.h"
 #include "operators/matrix/reflection_matrix.h"
 
+#include <optional>
+#include <span>
+
 namespace neumann {
+
+// Numbers of facets, or all if there are none; what is not of them is 0.
+using SomeFacets = std::optional<std::span<const std::uint32_t>>;
 
 // The mean of Le over each patch and cell of directions.
 template <int C>
-ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space);
+ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space, const SomeFacets& facets = {});
 
 // T Le, the g in K Le = R g, where R is not 0. Its means over the cells are estimated with `samples` pairs of a point on the facet
 // and one on a light: Σ Le V G / pdf / (projected solid angle of the cell).
 template <int C>
-IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed);
+IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed,
+                                 const SomeFacets& facets = {});
 
 // Expected number of a facet's rays that hit a light, if every point of the scene were hit with equal probability.
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays);

@@ -7,11 +7,8 @@
 
 namespace neumann {
 
-namespace {
-
-// Fills the row of one facet.
-NEUMANN_HOT void trace_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
-                             const std::function<void(const BlindRay&)>& on_blind_ray, std::uint32_t* row) {
+NEUMANN_HOT void trace_row(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
+                           const std::function<void(const BlindRay&)>& on_blind_ray, std::uint32_t* row) {
     const Facet& facet = space.facets()[number];
     const DirectionCells cells = facet.cells;
     const std::uint32_t each = sobol.size() / cells.size();
@@ -23,8 +20,6 @@ NEUMANN_HOT void trace_facet(const PatchSpace& space, const SobolPoints& sobol, 
             on_blind_ray({number, place, facet.first + cell, 1.0 / each, sight});
     });
 }
-
-}  // namespace
 
 RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
                    const std::function<void(const BlindRay&)>& on_blind_ray)
@@ -41,7 +36,7 @@ RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t se
                               [&](const auto& range) {
                                   if (watch.stop()) throw Stopped();
                                   for (std::uint32_t f = range.begin(); f < range.end(); ++f)
-                                      trace_facet(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f, on_blind_ray,
+                                      trace_row(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f, on_blind_ray,
                                                   seen_.get() + first_[f]);
                               });
 }

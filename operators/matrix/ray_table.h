@@ -23,6 +23,10 @@ struct BlindRay {
     const Sight& sight;
 };
 
+// Fills the row of one facet, of sobol.size() rays.
+void trace_row(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t facet,
+               const std::function<void(const BlindRay&)>& on_blind_ray, std::uint32_t* row);
+
 class RayTable {
 public:
     // `rays`: per facet; a power of two. Facets with more cells of directions than that have one ray per cell. Keeps a reference to

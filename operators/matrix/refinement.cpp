@@ -6,15 +6,17 @@
 
 namespace neumann {
 
-std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits) {
+std::vector<RefinementRow> coarser_spectra(const MatrixSystem& as_given, const EigenLimits& limits) {
     std::vector<RefinementRow> rows;
+    const TracedSettings& settings = as_given.settings();
     const auto add = [&](const char* what, std::size_t patches, std::uint32_t rays) {
         if (patches == 0 || rays == 0) return;
-        const TracedSystem system(scene, {patches, rays, settings.seed, settings.memory}, limits.watch);
-        RefinementRow row{what, system.settings(), system.space().patches().size(), system.space().size(), {}};
-        for (int c = 0; c < system.channels(); ++c) {
+        const std::unique_ptr<MatrixSystem> system =
+            as_given.with({patches, rays, settings.seed, settings.memory}, limits.watch);
+        RefinementRow row{what, system->settings(), system->space().patches().size(), system->space().size(), {}};
+        for (int c = 0; c < system->channels(); ++c) {
             auto& leading = row.leading.emplace_back();
-            const Eigenpairs found = leading_eigenpairs(system.channel(c), 2, false, limits);
+            const Eigenpairs found = system->leading(*system->reflected(c), 2, limits);
             for (const Eigenpair& pair : found.pairs)
                 if (found.converged) leading.push_back(pair.value);
         }

@@ -3,7 +3,7 @@
 // compactness of the light transport operator, SIGGRAPH 2022.
 #pragma once
 
-#include "operators/matrix/traced_system.h"
+#include "operators/matrix/matrix_system.h"
 #include "operators/spectrum/spectrum.h"
 
 #include <complex>
@@ -20,7 +20,7 @@ struct RefinementRow {
 
 // Rows for a sixteenth and a quarter of the patches, and for a sixteenth and a quarter of the rays. There are fewer rows if patches
 // or rays are too few, or if limits.watch stops them. Eigenvalues that are not found within the limits are left out.
-std::vector<RefinementRow> coarser_spectra(const Scene& scene, const TracedSettings& settings, const EigenLimits& limits = {});
+std::vector<RefinementRow> coarser_spectra(const MatrixSystem& system, const EigenLimits& limits = {});
 
 // How far the spectral radius of a channel moves when patches or rays are quartered; not a number if there is nothing to compare.
 double radius_shift(const std::vector<RefinementRow>& rows, std::size_t channel, double radius);

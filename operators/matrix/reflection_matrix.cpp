@@ -80,7 +80,6 @@ ReflectionMatrix<1> ReflectionMatrix<C>::channel(int c) const {
     return {*space_, reflectance().row(C == 1 ? 0 : c), blocks_, channel_ + c};
 }
 
-// Works in place; handles the back together with the front if they share a block.
 template <int C>
 void ReflectionMatrix<C>::reflect_cells(std::uint32_t f, double* values) const {
     const Facet& facet = space_->facets()[f];

@@ -67,6 +67,12 @@ public:
         return of.block ? &of.block->matrix(channel_ + channel) : nullptr;
     }
     std::uint32_t first_of_block(std::uint32_t facet) const { return (*blocks_)[facet].first; }
+    // Whether the facet is the back of a patch whose block is stored with the front.
+    bool goes_with_front(std::uint32_t facet) const {
+        return block(facet) && first_of_block(facet) != space_->facets()[facet].first;
+    }
+    // Applies the block of a facet in place to the values of its cells; those of the back follow if they share it.
+    void reflect_cells(std::uint32_t facet, double* values) const;
 
 private:
     template <int>
@@ -80,11 +86,6 @@ private:
           reflectance_(std::make_shared<const Reflectance>(std::move(reflectance))),
           blocks_(std::move(blocks)),
           channel_(channel) {}
-    // Whether the facet is the back of a patch whose block is stored with the front.
-    bool goes_with_front(std::uint32_t facet) const {
-        return block(facet) && first_of_block(facet) != space_->facets()[facet].first;
-    }
-    void reflect_cells(std::uint32_t facet, double* values) const;
     Values reflect(Values means) const;
 
     const PatchSpace* space_;

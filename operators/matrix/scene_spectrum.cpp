@@ -2,6 +2,7 @@
 
 #include "core/base/stopwatch.h"
 #include "operators/matrix/scene_patches.h"
+#include "operators/petsc/petsc_solver.h"
 #include "operators/solvers/stoppable.h"
 #include "operators/spectrum/closure.h"
 #include "operators/spectrum/remaining.h"
@@ -42,33 +43,32 @@ private:
     Stopwatch clock_;
 };
 
-ChannelSpectrum channel_spectrum(const TracedSystem& system, int c, int eigenvalues, const EigenLimits& limits,
-                                 const Watch& watch) {
-    const TracedChannel K = system.channel(c);
+ChannelSpectrum channel_spectrum(const MatrixSystem& system, int c, const SpectrumLimits& wanted, const EigenLimits& limits,
+                                 const Watch& watch, std::vector<std::string>& told) {
+    const std::unique_ptr<ChannelOperator> K = system.reflected(c);
     ChannelSpectrum s;
     s.name = system.channel_name(c);
     s.largest_albedo = system.largest_albedo(c);
-    s.norms = operator_norms(K, limits);
-    s.one_error = K.standard_error_of_power(s.norms.one_at);
-    s.one_part = K.measure()[s.norms.one_at] / K.measure().sum();
-    s.leading = leading_eigenpairs(K, eigenvalues, false, limits);
+    s.norms = system.norms(*K, limits);
+    s.one = system.error_of_power(c, s.norms.one_at);
+    s.leading = system.leading(*K, wanted.eigenvalues, limits);
+    if (wanted.petsc) s.by_slepc = slepc_eigenpairs(*K, wanted.eigenvalues, *wanted.petsc, limits, &told);
     s.radius = s.leading.radius();
     if (!std::isfinite(s.radius)) {
-        s.bounds = radius_bounds(K, most_for_bounds, watch);
+        s.bounds = radius_bounds(*K, most_for_bounds, watch);
         if (s.bounds->meet()) s.radius = s.bounds->high;
     }
     return s;
 }
 
-void find_convergence(ChannelSpectrum& s, const TracedSystem& system, int c, const std::vector<RefinementRow>& coarser,
+void find_convergence(ChannelSpectrum& s, const MatrixSystem& system, int c, const std::vector<RefinementRow>& coarser,
                       const Watch& watch) {
     s.shift = radius_shift(coarser, static_cast<std::size_t>(c), s.radius);
     s.convergence = judge(s.radius, s.shift);
     if (s.convergence == Convergence::at_one && has_glass(system.space())) s.convergence = Convergence::undecided;
     if (s.convergence != Convergence::converges) return;
-    const TracedChannel K = system.channel(c);
     try {
-        const StoppableChannel stoppable(K, watch);
+        const StoppableChannel stoppable(system.reflected(c), watch);
         const auto rows = power_rows(stoppable, system.emitted(c), system.direct(c), power_left, SceneSpectrum::most_bounces);
         for (std::size_t i = 0; i < s.bounces.size(); ++i) s.bounces[i] = bounces_until(rows, SceneSpectrum::remaining[i]);
     } catch (const Stopped&) {
@@ -83,23 +83,24 @@ void find_convergence(ChannelSpectrum& s, const TracedSystem& system, int c, con
 
 }  // namespace
 
-SceneSpectrum scene_spectrum(const TracedSystem& system, const SpectrumLimits& limits, const Watch& watch) {
+SceneSpectrum scene_spectrum(const MatrixSystem& system, const SpectrumLimits& limits, const Watch& watch) {
     const SearchTime time(limits, watch);
-    const TracedChannel transport = system.transport();
+    const std::unique_ptr<ChannelOperator> transport = system.transported();
+    const Agreement& agreement = transport->agreement();
     SceneSpectrum found;
-    const Vector sums = row_sums(transport);
-    found.row_min = sums.minCoeff();
-    found.row_mean = sums.mean();
-    found.row_max = sums.maxCoeff();
+    const Vector sums = row_sums(*transport);
+    found.row_min = agreement.lowest(sums);
+    found.row_mean = agreement.sum(sums.sum()) / static_cast<double>(transport->unknowns());
+    found.row_max = agreement.size(sums);
     found.rays_without_hit = static_cast<double>(system.rays_that_see_nothing()) / static_cast<double>(system.rays());
-    found.reciprocity_defect = reciprocity_defect(transport);
+    found.reciprocity_defect = reciprocity_defect(*transport);
     found.emits = !system.scene().emitters.empty();
     const int channels = system.channels();
     // Each channel gets as much time as all comparisons together.
     for (int c = 0; c < channels; ++c)
         found.channels.push_back(
-            channel_spectrum(system, c, limits.eigenvalues, time.part(1.0 / (channels - c + 1), system.channel_name(c)), watch));
-    found.coarser = coarser_spectra(system.scene(), system.settings(), time.part(1.0, "coarser"));
+            channel_spectrum(system, c, limits, time.part(1.0 / (channels - c + 1), system.channel_name(c)), watch, found.warnings));
+    found.coarser = coarser_spectra(system, time.part(1.0, "coarser"));
     for (int c = 0; c < channels; ++c) {
         ChannelSpectrum& s = found.channels[static_cast<std::size_t>(c)];
         find_convergence(s, system, c, found.coarser, time.part(1.0, s.name).watch);

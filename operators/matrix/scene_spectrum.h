@@ -18,8 +18,9 @@ struct ChannelSpectrum {
     const char* name = "";
     double largest_albedo = 0.0;
     OperatorNorms norms;
-    double one_error = 0.0, one_part = 0.0;  // of ‖K‖₁: standard error by the rays, and its unknown's part of the measure
+    MatrixSystem::PowerError one;  // of ‖K‖₁
     Eigenpairs leading;
+    std::optional<Eigenpairs> by_slepc;
     double radius = 0.0, shift = 0.0;    // spectral radius, and how far it moves when patches or rays are quartered
     std::optional<RadiusBounds> bounds;  // of the radius, if the eigenvalues were not found
     Convergence convergence = Convergence::undecided;
@@ -44,12 +45,13 @@ struct SceneSpectrum {
 struct SpectrumLimits {
     int eigenvalues = 4;
     double seconds = 60.0;
-    double most = 10000.0;  // applications of K in a search
+    double most = 10000.0;             // applications of K in a search
+    std::optional<std::string> petsc;  // SLEPc's options for another search for the eigenvalues of each channel
     // Called in every search with what is searched, and how far the search is.
     std::function<void(const std::string& what, const EigenStep&)> look = [](const std::string&, const EigenStep&) {};
 };
 
 // If out of time or stopped, returns what was found so far, with a warning.
-SceneSpectrum scene_spectrum(const TracedSystem& system, const SpectrumLimits& limits, const Watch& watch = {});
+SceneSpectrum scene_spectrum(const MatrixSystem& system, const SpectrumLimits& limits, const Watch& watch = {});
 
 }  // namespace neumann

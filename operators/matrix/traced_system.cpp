@@ -17,21 +17,22 @@ namespace {
 // Approximate memory per unknown, and per ray with its entry in T and in the transpose of one channel.
 constexpr double bytes_of_unknown = 160.0, bytes_of_ray = 16.0;
 
-PatchSpace make_space(const Scene& scene, const TracedSettings& settings) {
-    check_patch_memory(settings.patches, settings.rays, bytes_of_unknown + settings.rays * bytes_of_ray, settings.memory);
+}  // namespace
+
+PatchSpace traced_space(const Scene& scene, const TracedSettings& settings, int processes) {
+    const double bytes_of_own = bytes_of_ray / processes;
+    check_patch_memory(settings.patches, settings.rays, bytes_of_unknown + settings.rays * bytes_of_own, settings.memory);
     PatchSpace space = scene_patches(scene, {.patches = settings.patches});
     if (space.size() == 0) throw InputError("no surface faces another or shines: K is 0 and has no unknowns");
-    const double bytes = space.size() * bytes_of_unknown + static_cast<double>(RayTable::size(space, settings.rays)) * bytes_of_ray;
+    const double bytes = space.size() * bytes_of_unknown + static_cast<double>(RayTable::size(space, settings.rays)) * bytes_of_own;
     check_patch_memory(settings.patches, settings.rays, bytes / static_cast<double>(space.patches().size()), settings.memory);
     return space;
 }
 
-}  // namespace
-
 TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings, const Watch& watch)
     : scene_(&scene),
       settings_(settings),
-      space_(make_space(scene, settings)),
+      space_(traced_space(scene, settings)),
       table_(space_, settings.rays, settings.seed, watch),
       samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays),
       identity_(ReflectionMatrix<1>::identity(space_)) {
@@ -54,11 +55,6 @@ void TracedSystem::fill() {
         channel(c).apply(emitted(c), b);
         direct_.row(c) = b.transpose();
     }
-}
-
-const char* TracedSystem::channel_name(int c) const {
-    constexpr const char* names[] = {"red", "green", "blue"};
-    return channels() == 1 ? "grey" : names[c];
 }
 
 std::size_t TracedSystem::rays_that_see_nothing() const {

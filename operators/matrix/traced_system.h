@@ -1,8 +1,7 @@
 // A scene as matrices: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
 #pragma once
 
-#include "core/base/memory.h"
-#include "core/scene/scene.h"
+#include "operators/matrix/matrix_system.h"
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/traced_channel.h"
 
@@ -10,14 +9,10 @@
 
 namespace neumann {
 
-struct TracedSettings {
-    std::size_t patches = 2000;  // approximate number; at least one per chart
-    std::uint32_t rays = 64;     // per facet; a power of two. Also the number of light samples per facet
-    std::uint64_t seed = 0;
-    double memory = default_memory();  // approximate limit in bytes
-};
+// Its patches. Throws InputError as TracedSystem's constructor does; `processes`: how many share the rays.
+PatchSpace traced_space(const Scene& scene, const TracedSettings& settings, int processes = 1);
 
-class TracedSystem {
+class TracedSystem : public MatrixSystem {
 public:
     // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another, and if
     // the patches and rays need too much memory. Throws Stopped if `watch` stops it while T is
@@ -26,30 +21,37 @@ public:
     TracedSystem(const TracedSystem&) = delete;
     TracedSystem& operator=(const TracedSystem&) = delete;
 
-    const Scene& scene() const { return *scene_; }
-    const TracedSettings& settings() const { return settings_; }
-    const PatchSpace& space() const { return space_; }
+    const Scene& scene() const override { return *scene_; }
+    const TracedSettings& settings() const override { return settings_; }
+    const PatchSpace& space() const override { return space_; }
+    std::unique_ptr<MatrixSystem> with(const TracedSettings& settings, const Watch& watch) const override {
+        return std::make_unique<TracedSystem>(*scene_, settings, watch);
+    }
     const RayTable& table() const { return table_; }
 
-    // 1 if the scene is grey, otherwise 3.
-    int channels() const { return static_cast<int>(R_.size()); }
-    // "grey", or "red", "green", "blue".
-    const char* channel_name(int c) const;
+    int channels() const override { return static_cast<int>(R_.size()); }
     const ReflectionMatrix<1>& reflection(int c) const { return R_[static_cast<std::size_t>(c)]; }
     // A channel of K; it refers to the table and R of this object.
     TracedChannel channel(int c) const { return {table_, reflection(c)}; }
-    // T alone: a row is the mean over its rays, so T 1 = 1 in a closed scene.
     TracedChannel transport() const { return {table_, identity_}; }
 
-    // Largest albedo for basic radiance.
-    double largest_albedo(int c) const { return scene_->materials.largest_basic_albedo()[c]; }
-    Vector emitted(int c) const { return emitted_.row(c).transpose(); }
-    // b = K Le, by light sampling if the rays of T hardly hit the lights.
-    Vector direct(int c) const { return direct_.row(c).transpose(); }
-    bool samples_lights() const { return samples_lights_; }
+    std::unique_ptr<ChannelOperator> reflected(int c) const override { return std::make_unique<TracedChannel>(channel(c)); }
+    std::unique_ptr<ChannelOperator> transported() const override { return std::make_unique<TracedChannel>(transport()); }
+    OperatorNorms norms(const ChannelOperator& K, const EigenLimits& limits) const override { return operator_norms(K, limits); }
+    Eigenpairs leading(const ChannelOperator& K, int count, const EigenLimits& limits) const override {
+        return leading_eigenpairs(K, count, false, limits);
+    }
+    PowerError error_of_power(int c, Eigen::Index one_at) const override {
+        const TracedChannel K = channel(c);
+        return {K.standard_error_of_power(one_at), K.measure()[one_at] / K.measure().sum()};
+    }
 
-    std::size_t rays() const { return table_.seen().size(); }
-    std::size_t rays_that_see_nothing() const;
+    Vector emitted(int c) const override { return emitted_.row(c).transpose(); }
+    Vector direct(int c) const override { return direct_.row(c).transpose(); }
+    bool samples_lights() const override { return samples_lights_; }
+
+    std::size_t rays() const override { return table_.seen().size(); }
+    std::size_t rays_that_see_nothing() const override;
 
 private:
     using Rows = Eigen::MatrixXd;  // one row per channel

@@ -1,6 +1,7 @@
 #include "operators/matrix/transport_matrix.h"
 
 #include "core/base/hot.h"
+#include "operators/matrix/ray_mean.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -13,33 +14,6 @@ namespace {
 // The least number of rays per task: with fewer, waking another thread costs more than it saves.
 constexpr std::size_t rays_at_once = 1 << 16;
 
-// The channels of an unknown in SIMD registers.
-template <int C>
-struct Lanes;
-template <>
-struct Lanes<1> {
-    using Type = double;
-};
-template <>
-struct Lanes<4> {
-    typedef double Type __attribute__((vector_size(32), may_alias));
-};
-
-// The mean radiance along `rays`. Four partial sums hide the latency of additions.
-template <int C>
-void mean(const double* source, std::span<const std::uint32_t> rays, typename Lanes<C>::Type& result) {
-    using Lane = typename Lanes<C>::Type;
-    const auto at = [&](std::uint32_t unknown) -> const Lane& {
-        return *reinterpret_cast<const Lane*>(source + std::size_t{C} * unknown);
-    };
-    Lane sum[4] = {};
-    std::size_t i = 0;
-    for (; i + 4 <= rays.size(); i += 4)
-        for (std::size_t k = 0; k < 4; ++k) sum[k] += at(rays[i + k]);
-    for (; i < rays.size(); ++i) sum[0] += at(rays[i]);
-    result = ((sum[0] + sum[1]) + (sum[2] + sum[3])) / static_cast<double>(rays.size());
-}
-
 // Computes the means over the cells of facets [begin, end).
 template <int C>
 NEUMANN_HOT void find_means(const RayTable& table, const double* source, std::uint32_t begin, std::uint32_t end, double* result) {
@@ -49,7 +23,7 @@ NEUMANN_HOT void find_means(const RayTable& table, const double* source, std::ui
         const auto row = table.row(f);
         const std::size_t cells = facet.cells.size(), each = row.size() / cells;
         for (std::size_t j = 0; j < cells; ++j)
-            mean<C>(source, row.subspan(j * each, each), *reinterpret_cast<Lane*>(result + C * (facet.first + j)));
+            ray_mean<C>(source, row.subspan(j * each, each), *reinterpret_cast<Lane*>(result + C * (facet.first + j)));
     }
 }
 

@@ -6,22 +6,30 @@
 
 namespace neumann {
 
-Enclosure enclose(const Vector& term, const Vector& later, const Vector& sum, const Vector& rest) {
+Enclosure enclose(const Vector& term, const Vector& later, const Vector& sum, const Vector& rest, const Agreement& agreement) {
     Enclosure result;
+    enum { none, vanished, negative } trouble = none;
     double c1 = std::numeric_limits<double>::infinity(), c2 = 0.0;
-    for (Eigen::Index u = 0; u < term.size(); ++u) {
+    for (Eigen::Index u = 0; u < term.size() && trouble == none; ++u) {
         const double t = term[u], next = later[u];
         if (!(t >= 0.0 && next >= 0.0)) {
             result.why = fmt::format("a term is negative or not a number at unknown {}", u);
-            return result;
-        }
-        if (t == 0.0 && next == 0.0) continue;
-        if (t == 0.0) {
+            trouble = negative;
+        } else if (t > 0.0) {
+            c1 = std::min(c1, next / t);
+            c2 = std::max(c2, next / t);
+        } else if (next > 0.0) {
             result.why = fmt::format("the term before is 0 at unknown {}, and this one is not", u);
-            return result;
+            trouble = vanished;
         }
-        c1 = std::min(c1, next / t);
-        c2 = std::max(c2, next / t);
+    }
+    double all[] = {-c1, c2, static_cast<double>(trouble)};
+    agreement.largest(all);
+    c1 = -all[0];
+    c2 = all[1];
+    if (all[2] > 0.0) {
+        if (trouble == none) result.why = "a term is negative, or 0 before one that is not, in the part of another process";
+        return result;
     }
     result.c1 = std::min(c1, c2);
     result.c2 = c2;
@@ -32,8 +40,8 @@ Enclosure enclose(const Vector& term, const Vector& later, const Vector& sum, co
     result.exists = true;
     result.low = sum + result.c1 / (1.0 - result.c1) * rest;
     result.high = sum + c2 / (1.0 - c2) * rest;
-    const double size = result.high.size() == 0 ? 0.0 : result.high.maxCoeff();
-    result.width = size > 0.0 ? (result.high - result.low).maxCoeff() / size : 0.0;
+    const double size = agreement.size(result.high);
+    result.width = size > 0.0 ? agreement.size(result.high - result.low) / size : 0.0;
     return result;
 }
 

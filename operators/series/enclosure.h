@@ -8,7 +8,7 @@
 // L. Collatz, Einschließungssatz für die charakteristischen Zahlen von Matrizen, Math. Z. 48 (1942).
 #pragma once
 
-#include "operators/series/vector.h"
+#include "operators/series/agreement.h"
 
 #include <string>
 
@@ -23,6 +23,7 @@ struct Enclosure {
 };
 
 // Needs term = t_n ≥ 0 and later = t_{n+p}, with t_n > 0 wherever t_{n+p} > 0.
-Enclosure enclose(const Vector& term, const Vector& later, const Vector& sum, const Vector& rest);
+Enclosure enclose(const Vector& term, const Vector& later, const Vector& sum, const Vector& rest,
+                  const Agreement& agreement = Agreement::alone());
 
 }  // namespace neumann

@@ -3,8 +3,6 @@
 
 #include <Eigen/Core>
 
-#include <cmath>
-
 namespace neumann {
 
 using Vector = Eigen::VectorXd;  // one value per unknown
@@ -16,10 +14,5 @@ inline const Vector& to_vector(const Vector& x) { return x; }
 struct TermNorms {
     double power = 0.0, l2 = 0.0, sup = 0.0;
 };
-
-inline TermNorms norms(const Vector& t, const Vector& measure) {
-    if (t.size() == 0) return {};
-    return {measure.dot(t.cwiseAbs()), std::sqrt(measure.dot(t.cwiseAbs2())), t.lpNorm<Eigen::Infinity>()};
-}
 
 }  // namespace neumann

@@ -21,8 +21,8 @@ SolverResult solve_anderson(const Problem& problem, int m) {
         g += problem.Le;
         f = g - x;
         const double estimate = log.from_residual(f, x);
-        rate.add(largest(f));
-        const bool rounding = SolverLog::is_rounding(largest(f), x, !rate.not_falling());
+        rate.add(log.largest(f));
+        const bool rounding = log.is_rounding(log.largest(f), x, !rate.not_falling());
         Vector weighted = weight.cwiseProduct(f);
         if (last_f.size() != 0) {
             df.col(next) = weighted - last_f;
@@ -37,7 +37,7 @@ SolverResult solve_anderson(const Problem& problem, int m) {
             const Vector gamma = df.leftCols(kept).colPivHouseholderQr().solve(weighted);
             x -= dg.leftCols(kept) * gamma;
         }
-        if (!x.allFinite()) return log.end(x, Verdict::broke_down, "values that are not finite");
+        if (!log.all_finite(x)) return log.end(x, Verdict::broke_down, "values that are not finite");
         // The estimate belongs to the previous iterate: the residual of this one is not known yet.
         if (log.reached(x, estimate)) return log.end(x, Verdict::converged, "by the residual");
         if (rounding) return log.end_rounding(x, estimate);

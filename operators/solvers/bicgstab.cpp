@@ -16,7 +16,7 @@ SolverResult solve_bicgstab(const Problem& problem) {
     const EigenSystem* seen = nullptr;
     const auto look = [&] {
         if (y == last) return;
-        log.record(largest(y - last) / largest(y), problem.exact ? log.true_error(seen->unscaled(y)) : log.true_error(y));
+        log.record(log.largest(y - last) / log.largest(y), problem.exact ? log.true_error(seen->unscaled(y)) : log.true_error(y));
         last = y;
     };
     const EigenSystem system(*problem.K, [&] {
@@ -38,10 +38,10 @@ SolverResult solve_bicgstab(const Problem& problem) {
         x = system.unscaled(y);
         log.apply(x, r);
         r += problem.Le - x;
-        if (!x.allFinite() || bicgstab.info() == Eigen::NumericalIssue)
+        if (!log.all_finite(x) || bicgstab.info() == Eigen::NumericalIssue)
             return log.end(x, Verdict::broke_down, "a division by zero in BiCGSTAB");
         if (log.reached(x, log.from_residual(r, x))) return log.end(x, Verdict::converged, "by the residual");
-        if ((goal <= least || log.exhausted()) && SolverLog::is_rounding(largest(r), x, false))
+        if ((goal <= least || log.exhausted()) && log.is_rounding(log.largest(r), x, false))
             return log.end_rounding(x, log.from_residual(r, x));
         if (log.exhausted()) return log.end_limit(x);
         goal = std::max(0.1 * goal, least);

@@ -20,7 +20,7 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
     for (;;) {
         // The residual of this x takes one more application, so the estimate belongs to the previous iterate.
         if (log.reached(x, estimate)) return log.end(x, Verdict::converged, "by the residual");
-        if (SolverLog::is_rounding(largest(r), x)) return log.end_rounding(x, estimate);
+        if (log.is_rounding(log.largest(r), x)) return log.end_rounding(x, estimate);
         if (log.exhausted()) return log.end_limit(x);
         log.apply(d, Kd);
         r -= d - Kd;
@@ -29,7 +29,7 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
         d = next * c * d + 2.0 / width * r;
         c = next;
         x += d;
-        if (!x.allFinite()) return log.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
+        if (!log.all_finite(x)) return log.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
     }
 }
 

@@ -50,7 +50,7 @@ SolverResult solve_conjugate_gradients(const Problem& problem) {
         x += alpha * p;
         r -= alpha * (p - Kp);
         if (log.reached(x, log.from_residual(r, x))) return log.end(x, Verdict::converged, "by the residual");
-        if (SolverLog::is_rounding(largest(r), x)) return log.end_rounding(x, log.from_residual(r, x));
+        if (log.is_rounding(log.largest(r), x)) return log.end_rounding(x, log.from_residual(r, x));
         if (log.exhausted()) return log.end_limit(x);
         const double next = dot(r, r);
         last_p = p;

@@ -18,11 +18,11 @@ SolverResult solve_extrapolated(const Problem& problem, const Extrapolate& extra
     for (;;) {
         std::optional<Trouble> trouble = extrapolate(series, x);
         const Vector sum = series.sum();
-        if (trouble || !x.allFinite()) x = sum;
-        const bool ended = largest(series.term()) == 0.0;
-        const double change = ended ? 0.0 : trouble || last.size() == 0 ? infinity : largest(x - last) / largest(x);
+        if (trouble || !log.all_finite(x)) x = sum;
+        const bool ended = log.largest(series.term()) == 0.0;
+        const double change = ended ? 0.0 : trouble || last.size() == 0 ? infinity : log.largest(x - last) / log.largest(x);
         last = trouble ? Vector() : x;
-        rate.add(largest(series.term()));
+        rate.add(log.largest(series.term()));
         steady = log.reached(x, change) ? steady + 1 : 0;
         if (ended) return log.end(sum, Verdict::converged, fmt::format("term {} is 0", series.bounce()));
         if (steady >= wait) {
@@ -35,12 +35,12 @@ SolverResult solve_extrapolated(const Problem& problem, const Extrapolate& extra
         }
         // Even if the extrapolation fails, the terms themselves may have converged.
         const double rounding = log.rounding(rate.rate());
-        if (rate.estimate() <= problem.tolerance * largest(sum) &&
-            log.reached(sum, std::max(rate.estimate() / largest(sum), rounding)))
+        if (rate.estimate() <= problem.tolerance * log.largest(sum) &&
+            log.reached(sum, std::max(rate.estimate() / log.largest(sum), rounding)))
             return log.end(sum, Verdict::converged,
                            fmt::format("the plain sum, its tail estimated from the rate {:.6g}; extrapolated: {}", rate.rate(),
                                        trouble ? trouble->why : "no two limits agree"));
-        if (SolverLog::is_rounding(rate.estimate(), sum)) return log.end_rounding(sum, rounding);
+        if (log.is_rounding(rate.estimate(), sum)) return log.end_rounding(sum, rounding);
         if (rate.not_falling() && log.diverges())
             return log.end_diverging(x, "the terms did not get smaller over the last 32 bounces");
         if (log.exhausted()) return trouble ? log.end(x, trouble->verdict, trouble->why) : log.end_limit(x);

@@ -55,7 +55,7 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
         log.apply(x, r);
         r += problem.Le - x;
         if (log.reached(x, log.from_residual(r, x))) return log.end(x, Verdict::converged, "by the residual");
-        if ((goal <= least || log.exhausted()) && SolverLog::is_rounding(largest(r), x, false))
+        if ((goal <= least || log.exhausted()) && log.is_rounding(log.largest(r), x, false))
             return log.end_rounding(x, log.from_residual(r, x));
         if (log.exhausted()) return log.end_limit(x);
         goal = std::max(0.1 * goal, least);

@@ -35,6 +35,10 @@ public:
     double row(Eigen::Index u, const Vector& x) const override { return K_.row(u).dot(x); }
     double diagonal(Eigen::Index u) const override { return K_(u, u); }
     void add_column(Eigen::Index u, double a, Vector& y) const override { y += a * K_.col(u); }
+    void for_row(Eigen::Index u, const Entry& each) const override {
+        for (Eigen::Index v = 0; v < K_.cols(); ++v)
+            if (K_(u, v) != 0.0) each(static_cast<std::size_t>(v), K_(u, v));
+    }
     const Vector& measure() const override { return measure_; }
 
 private:
@@ -60,6 +64,9 @@ public:
     double diagonal(Eigen::Index u) const override { return K_.coeff(u, u); }
     void add_column(Eigen::Index u, double a, Vector& y) const override {
         for (Matrix::InnerIterator entry(transposed_, u); entry; ++entry) y[entry.col()] += a * entry.value();
+    }
+    void for_row(Eigen::Index u, const Entry& each) const override {
+        for (Matrix::InnerIterator entry(K_, u); entry; ++entry) each(static_cast<std::size_t>(entry.col()), entry.value());
     }
     const Vector& measure() const override { return measure_; }
 

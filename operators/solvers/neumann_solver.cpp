@@ -14,13 +14,13 @@ SolverResult solve_neumann(const Problem& problem) {
     ChangeRate rate;
     for (;;) {
         const Vector x = series.sum();
-        const double term = largest(series.term());
-        if (!x.allFinite()) return log.end_overflow(x, "the terms");
+        const double term = log.largest(series.term());
+        if (!log.all_finite(x)) return log.end_overflow(x, "the terms");
         rate.add(term);
         const double rounding = log.rounding(rate.rate());
-        if (log.reached(x, term == 0.0 ? 0.0 : std::max(rate.estimate() / largest(x), rounding)))
+        if (log.reached(x, term == 0.0 ? 0.0 : std::max(rate.estimate() / log.largest(x), rounding)))
             return log.end(x, Verdict::converged, fmt::format("the tail is estimated from the rate {:.6g}", rate.rate()));
-        if (SolverLog::is_rounding(rate.estimate(), x)) return log.end_rounding(x, rounding);
+        if (log.is_rounding(rate.estimate(), x)) return log.end_rounding(x, rounding);
         if (rate.not_falling() && log.diverges())
             return log.end_diverging(x, "the terms did not get smaller over the last 32 bounces");
         if (log.exhausted()) return log.end_limit(x);

@@ -37,18 +37,19 @@ public:
     }
     double row(Eigen::Index u, const Vector& x) const override {
         double sum = 0.0;
-        for_row(K_, u, [&](std::uint32_t v, double a) { sum += a * x[v]; });
+        for_entries(K_, u, [&](std::uint32_t v, double a) { sum += a * x[v]; });
         return sum;
     }
     double diagonal(Eigen::Index u) const override {
         double sum = 0.0;
-        for_row(K_, u, [&](std::uint32_t v, double a) { sum += v == u ? a : 0.0; });
+        for_entries(K_, u, [&](std::uint32_t v, double a) { sum += v == u ? a : 0.0; });
         return sum;
     }
     void add_column(Eigen::Index u, double a, Vector& y) const override {
         // m_w K_wu = m_u K*_uw.
-        for_row(adjoint_, u, [&](std::uint32_t w, double b) { y[w] += a * b * (measure_[u] / measure_[w]); });
+        for_entries(adjoint_, u, [&](std::uint32_t w, double b) { y[w] += a * b * (measure_[u] / measure_[w]); });
     }
+    void for_row(Eigen::Index u, const Entry& each) const override { for_entries(K_, u, each); }
 
 protected:
     const auto& adjoint() const { return adjoint_; }
@@ -66,7 +67,7 @@ private:
     using Adjoint = decltype(adjoint_of(std::declval<const Op&>()));
     static constexpr bool entries = HasRows<Op> && HasRows<Adjoint>;
     template <class A, class Each>
-    static void for_row(const A& op, Eigen::Index u, const Each& each) {
+    static void for_entries(const A& op, Eigen::Index u, const Each& each) {
         if constexpr (entries)
             op.for_row(static_cast<std::uint32_t>(u), each);
         else

@@ -10,7 +10,9 @@ SolverResult solve_ratio_tail(const Problem& problem) {
         if (series.bounce() == 0) return Trouble{Verdict::refused, "one term is not enough"};
         const Vector& measure = problem.K->measure();
         const Vector weighted = measure.cwiseProduct(series.term());
-        const double lambda = weighted.dot(series.term()) / weighted.dot(series.before());
+        double products[] = {weighted.dot(series.term()), weighted.dot(series.before())};
+        problem.K->agreement().sum(products);
+        const double lambda = products[0] / products[1];
         // This also catches NaN.
         if (!(std::abs(lambda) < 1.0))
             return Trouble{Verdict::refused,

@@ -27,12 +27,12 @@ SolverResult solve_sor(const Problem& problem, double omega) {
             change = std::max(change, std::abs(step));
         }
         log.count(1.0);
-        if (!x.allFinite()) return log.end_overflow(x, "the iterates");
+        if (!log.all_finite(x)) return log.end_overflow(x, "the iterates");
         rate.add(change);
-        const double rounding = log.rounding(rate.rate()), size = largest(x);
+        const double rounding = log.rounding(rate.rate()), size = log.largest(x);
         if (log.reached(x, size == 0.0 ? 0.0 : std::max(change == 0.0 ? 0.0 : rate.estimate() / size, rounding)))
             return log.end(x, Verdict::converged, fmt::format("the changes fall at the rate {:.6g}", rate.rate()));
-        if (SolverLog::is_rounding(change, x, !rate.not_falling())) return log.end_rounding(x, rounding);
+        if (log.is_rounding(change, x, !rate.not_falling())) return log.end_rounding(x, rounding);
         if (rate.not_falling() && log.diverges())
             return log.end_diverging(x, "the changes did not get smaller over the last 32 sweeps");
         if (log.exhausted()) return log.end_limit(x);
@@ -63,8 +63,8 @@ SolverResult solve_southwell(const Problem& problem) {
         log.count(cost);
         if (i % std::max<Eigen::Index>(1, n / 4) != 0) continue;
         if (log.reached(x, log.from_residual(r, x))) return log.end(x, Verdict::converged, "by the residual");
-        if (SolverLog::is_rounding(largest(r), x)) return log.end_rounding(x, log.from_residual(r, x));
-        if (!x.allFinite()) return log.end_overflow(x, "the iterates");
+        if (log.is_rounding(log.largest(r), x)) return log.end_rounding(x, log.from_residual(r, x));
+        if (!log.all_finite(x)) return log.end_overflow(x, "the iterates");
         if (!(K.measure().dot(r.cwiseAbs()) < 1e6 * power) && log.diverges())
             return log.end_diverging(x, "the unshot power grew to a million times the emitted power");
         if (log.exhausted()) return log.end_limit(x);

@@ -10,15 +10,15 @@ namespace neumann {
 namespace {
 
 // Compares neighbouring terms first, and every second term if neighbours alternate.
-Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum) {
+Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum, const Agreement& agreement) {
     Enclosure enclosure;
     if (series.bounce() == 0) {
         enclosure.why = "there is only one term";
         return enclosure;
     }
-    enclosure = enclose(series.before(), series.term(), sum, series.term());
+    enclosure = enclose(series.before(), series.term(), sum, series.term(), agreement);
     if (enclosure.exists || series.bounce() == 1) return enclosure;
-    Enclosure second = enclose(before_last, series.term(), sum, series.before() + series.term());
+    Enclosure second = enclose(before_last, series.term(), sum, series.before() + series.term(), agreement);
     return second.exists ? second : enclosure;
 }
 
@@ -31,6 +31,7 @@ double rate_over(const std::vector<SeriesRow>& rows) {
 
 SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOptions& options) {
     SeriesRun run;
+    const Agreement& agreement = K.agreement();
     constexpr double infinity = std::numeric_limits<double>::infinity(), epsilon = std::numeric_limits<double>::epsilon();
     const bool bounded = options.norm && *options.norm < 1.0;
     const double a = bounded ? *options.norm : 1.0;
@@ -41,7 +42,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
     ChangeRate rate;
     RadiusEvidence evidence(&K, bounded ? options.norm : std::nullopt);
     Vector before_last;
-    const double emitted = norms(Le, K.measure()).sup;
+    const double emitted = agreement.size(Le);
     const auto end = [&](Verdict verdict, std::string why) {
         run.verdict = verdict;
         run.why = std::move(why);
@@ -52,19 +53,19 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
         run.sum = series.sum();
         SeriesRow row;
         row.bounce = series.bounce();
-        row.term = norms(series.term(), K.measure());
+        row.term = norms(series.term(), K.measure(), agreement);
         rate.add(row.term.sup);
         row.ratio = run.rows.empty() ? std::numeric_limits<double>::quiet_NaN() : row.term.power / run.rows.back().term.power;
         row.a_priori = bounded ? std::pow(a, row.bounce + 1) / (1.0 - a) * emitted : infinity;
         row.a_posteriori = bounded ? row.term.sup * a / (1.0 - a) : infinity;
         row.estimate = row.term.sup == 0.0 ? 0.0 : rate.estimate();
-        run.enclosure = enclose_last(series, before_last, run.sum);
+        run.enclosure = enclose_last(series, before_last, run.sum, agreement);
         row.enclosure_width = run.enclosure.exists ? run.enclosure.width : infinity;
         run.rows.push_back(row);
         if (options.observer) options.observer(row);
 
-        const double allowed = std::max(options.tolerance, epsilon) * norms(run.sum, K.measure()).sup;
-        if (!run.sum.allFinite())
+        const double allowed = std::max(options.tolerance, epsilon) * agreement.size(run.sum);
+        if (!agreement.all_finite(run.sum))
             return end(evidence.shows_divergence() ? Verdict::diverging : Verdict::broke_down,
                        "the terms grew until they were not finite");
         if (row.term.sup == 0.0)

@@ -4,33 +4,34 @@
 #include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
 
-#include <string_view>
 
 namespace neumann {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 SolverRow run(const NamedSolver& solver, const Problem& problem) {
     const Stopwatch watch;
-    SolverRow row{&solver, solver.solve(problem), 0.0, unknown};
+    SolverRow row{solver.name, solver.title, solver.solve(problem)};
     row.seconds = watch.seconds();
     return row;
 }
 
 void run_all(const Problem& problem, bool histories, SideBySide& all) {
     const SolverRow reference = run(*find_solver("lu"), problem);
+    const Agreement& agreement = problem.K->agreement();
     const bool known = reference.result.verdict == Verdict::converged;
-    if (!known) all.no_reference = reference.result.why;
+    if (known)
+        all.exact = reference.result.x;
+    else
+        all.no_reference = reference.result.why;
     for (const NamedSolver& solver : solvers()) {
-        if (&solver == reference.solver) {
+        if (solver.name == reference.name) {
             all.rows.push_back(reference);
             continue;
         }
         SolverRow row = run(solver, problem);
         const Vector& L = reference.result.x;
-        if (known && largest(L) > 0.0) row.error = largest(row.result.x - L) / largest(L);
+        if (known && agreement.size(L) > 0.0) row.error = agreement.size(row.result.x - L) / agreement.size(L);
         if (known && histories) {
             Problem judged = problem;
             judged.exact = &L;
@@ -42,7 +43,10 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
 
 }  // namespace
 
-double SolverRow::estimate() const { return result.history.empty() ? unknown : result.history.back().estimate; }
+double SolverRow::estimate() const {
+    return result.history.empty() ? std::numeric_limits<double>::quiet_NaN() : result.history.back().estimate;
+}
+
 
 SideBySide solve_side_by_side(Problem problem, bool histories, const Watch& watch) {
     SideBySide all;

@@ -7,18 +7,20 @@
 namespace neumann {
 
 struct SolverRow {
-    const NamedSolver* solver = nullptr;
-    SolverResult result;
+    std::string name, title;  // as in NamedSolver
+    SolverResult result = {};
     double seconds = 0.0;
-    double error = 0.0;  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which is the reference
+    double error = std::numeric_limits<double>::quiet_NaN();  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which is the reference
 
     // The last estimate of the error; not a number if there is none.
     double estimate() const;
 };
 
 struct SideBySide {
+    std::string reference = "LU";  // whose answer errors are against
     std::vector<SolverRow> rows;  // in the order of solvers()
-    std::string no_reference;     // why LU gave no L; empty if it did
+    Vector exact;                 // the reference's L; empty if it gave none
+    std::string no_reference;     // why the reference gave no L; empty if it did
     bool interrupted = false;     // the rows end early
 };
 

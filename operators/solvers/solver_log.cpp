@@ -14,8 +14,6 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-double largest(const Vector& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
-
 SolverLog::SolverLog(const Problem& problem) : problem_(problem), evidence_(problem.K, problem.radius) {
     if (!problem.K || problem.K->size() != problem.Le.size())
         throw std::invalid_argument("Le needs one value for each unknown of K");
@@ -44,7 +42,7 @@ double SolverLog::rounding(double rate) const {
     return epsilon / (rate < 1.0 ? 1.0 - rate : 1.0);
 }
 
-bool SolverLog::is_rounding(double change, const Vector& x, bool falling) {
+bool SolverLog::is_rounding(double change, const Vector& x, bool falling) const {
     const double size = largest(x);
     return size > 0.0 && change <= (falling ? epsilon : 1e-12) * size;
 }
@@ -72,12 +70,12 @@ bool SolverLog::converges() {
 }
 
 SolverResult SolverLog::end(Vector x, Verdict verdict, std::string why) {
-    if (!x.allFinite() && verdict != Verdict::diverging) {
+    if (!all_finite(x) && verdict != Verdict::diverging) {
         if (verdict != Verdict::broke_down) why = "values that are not finite";
         verdict = Verdict::broke_down;
     }
-    if ((verdict == Verdict::converged || verdict == Verdict::rounding) && x.size() > 0) {
-        const double lowest = x.minCoeff();
+    if ((verdict == Verdict::converged || verdict == Verdict::rounding) && K().unknowns() > 0) {
+        const double lowest = K().agreement().lowest(x);
         if (problem_.radius && *problem_.radius >= 1.0) {
             verdict = Verdict::refused;
             why = fmt::format(
@@ -86,7 +84,7 @@ SolverResult SolverLog::end(Vector x, Verdict verdict, std::string why) {
         } else if (largest(x) > 1e12 * largest(problem_.Le)) {
             verdict = Verdict::refused;
             why = fmt::format("it is {:.2g} times Le: I − K is singular to rounding", largest(x) / largest(problem_.Le));
-        } else if (problem_.Le.minCoeff() >= 0.0 && lowest < -std::max(1e-9, 10.0 * problem_.tolerance) * largest(x) &&
+        } else if (K().agreement().lowest(problem_.Le) >= 0.0 && lowest < -std::max(1e-9, 10.0 * problem_.tolerance) * largest(x) &&
                    !converges()) {
             verdict = Verdict::refused;
             why = fmt::format(

@@ -15,6 +15,10 @@ public:
     const Problem& problem() const { return problem_; }
     const ChannelOperator& K() const { return *problem_.K; }
 
+    // ‖x‖∞; 0 if x is empty; not a number if a value is not.
+    double largest(const Vector& x) const { return K().agreement().size(x); }
+    bool all_finite(const Vector& x) const { return K().agreement().all_finite(x); }
+
     void apply(const Vector& x, Vector& y);  // y = K x, counted
     double applications() const { return result_.applications; }
     void count(double applications) { result_.applications += applications; }
@@ -30,7 +34,7 @@ public:
     // known to be below 1, and otherwise `rate`.
     double rounding(double rate = 0.0) const;
     // Whether this residual or change consists of rounding errors, or is kept from falling by them alone.
-    static bool is_rounding(double change, const Vector& x, bool falling = true);
+    bool is_rounding(double change, const Vector& x, bool falling = true) const;
 
     // Records a step; returns true if the estimate is below the tolerance.
     bool record(double estimate, double error);
@@ -63,7 +67,5 @@ private:
     SolverResult result_;
     Stopwatch watch_;
 };
-
-double largest(const Vector& x);  // ‖x‖∞; 0 if x is empty; not a number if a value is not
 
 }  // namespace neumann

@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// Every use throws Stopped once watch.stop() returns true.
+// Every use throws Stopped once watch.stop() returns true, on one of the processes that share K.
 class StoppableChannel : public ChannelOperator {
 public:
     StoppableChannel(std::shared_ptr<const ChannelOperator> K, Watch watch) : K_(std::move(K)), watch_(std::move(watch)) {}
@@ -36,11 +36,15 @@ public:
         go_on();
         K_->add_column(u, a, y);
     }
+    void for_row(Eigen::Index u, const Entry& each) const override { K_->for_row(u, each); }
     const Vector& measure() const override { return K_->measure(); }
+    const Agreement& agreement() const override { return K_->agreement(); }
+    std::size_t first() const override { return K_->first(); }
+    std::size_t unknowns() const override { return K_->unknowns(); }
 
 private:
     void go_on() const {
-        if (watch_.stop()) throw Stopped();
+        if (K_->agreement().any(watch_.stop())) throw Stopped();
     }
     std::shared_ptr<const ChannelOperator> K_;
     Watch watch_;

@@ -1,8 +1,9 @@
 #include "operators/spectrum/closure.h"
 
+#include "operators/spectrum/fixed_numbers.h"
+
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace neumann {
 
@@ -10,16 +11,13 @@ namespace {
 
 template <class Other>
 double defect(const ChannelOperator& K, int pairs, const Other& other) {
-    std::mt19937_64 bits(1);
-    const auto fill = [&](Vector& x) {
-        for (double& value : x) value = static_cast<double>(bits() >> 11) * 0x1p-52 - 1.0;
-    };
-    const auto dot = [&](const Vector& f, const Vector& g) { return f.cwiseProduct(K.measure()).dot(g); };
+    FixedNumbers numbers;
+    const auto dot = [&](const Vector& f, const Vector& g) { return K.agreement().sum(f.cwiseProduct(K.measure()).dot(g)); };
     Vector f(K.size()), g(K.size()), Kf(K.size()), other_g(K.size());
     double largest = 0.0;
     for (int i = 0; i < pairs; ++i) {
-        fill(f);
-        fill(g);
+        numbers.fill(K, f);
+        numbers.fill(K, g);
         K.apply(f, Kf);
         other(g, other_g);
         const double size = std::sqrt(dot(Kf, Kf) * dot(g, g));
@@ -36,7 +34,7 @@ Vector row_sums(const ChannelOperator& F) {
     return sums;
 }
 
-double closure_defect(const ChannelOperator& F) { return F.size() == 0 ? 0.0 : (row_sums(F).array() - 1.0).abs().maxCoeff(); }
+double closure_defect(const ChannelOperator& F) { return F.agreement().size(row_sums(F) - Vector::Ones(F.size())); }
 
 double reciprocity_defect(const ChannelOperator& F, int pairs) {
     return defect(F, pairs, [&](const Vector& g, Vector& y) { F.apply(g, y); });

@@ -33,7 +33,7 @@ std::vector<SeriesRow> power_rows(const ChannelOperator& K, const Vector& Le, co
     for (int n = 0;; ++n) {
         SeriesRow row;
         row.bounce = n;
-        row.term = norms(term, K.measure());
+        row.term = norms(term, K.measure(), K.agreement());
         row.ratio = row.term.power / before;
         rows.push_back(row);
         sum += row.term.power;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <ranges>
 #include <vector>
 
 #include <fmt/format.h>
@@ -68,14 +69,21 @@ bool run(const std::function<bool()>& work) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const auto& writers = neumann::wavy::writers();
     std::vector<std::string> names(argv + 1, argv + argc);
     if (names.empty())
-        for (const auto& [name, writer] : neumann::wavy::writers()) names.push_back(name);
+        for (const auto& [name, writer] : writers) names.push_back(name);
+    for (const std::string& name : names)
+        if (!writers.contains(name)) {
+            const auto known = std::views::keys(writers);
+            fmt::print(stderr, "unknown language '{}', expected some of: {}\n", name, fmt::join(known.begin(), known.end(), ", "));
+            return 2;
+        }
     const std::string folder = std::filesystem::temp_directory_path() / fmt::format("neumann_bench_reading_{}", getpid());
     bool is_right = true;
     for (const std::string& name : names) {
         std::filesystem::create_directories(folder);
-        const std::string path = neumann::wavy::writers().at(name)(folder);
+        const std::string path = writers.at(name)(folder);
         is_right = run([&] { return measure(name, path); }) && is_right;
         std::filesystem::remove_all(folder);
     }

@@ -61,9 +61,11 @@ INSTANTIATE_TEST_SUITE_P(Seeds, VerdictsSlow, testing::Values(1));
 // The bounce is named for all twenty mistakes, and the kind for at least 15.
 TEST_P(VerdictsSlow, NameTheBounceAndTheKind) {
     const Scene room = blame_room(48);
+    ExpectedPictures expected(room, 512, 0.0, GetParam());
+    expected.keep_all();
     int named = 0;
     for (const Bug bug : all_bugs()) {
-        const Blame found = blame(room, pictures(room, bug, 256, GetParam()), settings(512, GetParam()));
+        const Blame found = blame(expected, pictures(room, bug, 256, GetParam()), Counting::pbrt);
         ASSERT_TRUE(found.first_wrong) << name(bug);
         EXPECT_EQ(found.terms[*found.first_wrong].bounces.first, first_wrong_bounce(bug)) << name(bug);
         const bool is_named = kinds().at(bug).contains(found.suspects.front().name);

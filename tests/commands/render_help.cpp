@@ -49,13 +49,13 @@ TEST_F(RenderHelp, OptionsOfCompare) {
 TEST_F(RenderHelp, OptionsOfSpectrum) {
     EXPECT_EQ(options(printed({"help", "spectrum"})),
               (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
-                                     "--json", "--eigenvalues", "--csv", "--time", "--most", "--memory"}));
+                                     "--json", "--eigenvalues", "--csv", "--time", "--most", "--memory", "--petsc"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSolve) {
     EXPECT_EQ(options(printed({"help", "solve"})),
               (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
-                                     "--json", "--channel", "--error", "--most", "--csv", "--memory"}));
+                                     "--json", "--channel", "--error", "--most", "--csv", "--memory", "--petsc"}));
 }
 
 TEST_F(RenderHelp, OptionsOfExport) {

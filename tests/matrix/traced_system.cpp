@@ -92,12 +92,13 @@ TEST(TracedSystem, RefusesWhatDoesNotFit) {
 }
 
 TEST(Refinement, FurnaceDoesNotMove) {
-    const auto rows = coarser_spectra(furnace(Rgb(0.9)), {160, 16, 0});
+    const Scene scene = furnace(Rgb(0.9));
+    const auto rows = coarser_spectra(TracedSystem(scene, {160, 16, 0}));
     ASSERT_EQ(rows.size(), 4u);
     for (const RefinementRow& row : rows) EXPECT_NEAR(std::abs(row.leading[0][0]), 0.9, 1e-12);
     EXPECT_LE(radius_shift(rows, 0, 0.9), 1e-12);
     EXPECT_NEAR(radius_shift(rows, 0, 0.95), 0.05, 1e-12);
-    EXPECT_EQ(coarser_spectra(furnace(Rgb(0.9)), {8, 8, 0}).size(), 2u);
+    EXPECT_EQ(coarser_spectra(TracedSystem(scene, {8, 8, 0})).size(), 2u);
     EXPECT_TRUE(std::isnan(radius_shift({}, 0, 0.9)));
 }
 

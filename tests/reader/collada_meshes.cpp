@@ -29,6 +29,35 @@ TEST_F(ColladaMeshes, Primitives) {
     EXPECT_EQ(read_changed({{"</polylist>", "</polylist><linestrips count='1'><p>0 1 2</p></linestrips>"}}).shapes.size(), 1u);
 }
 
+// Polygons that turn to both sides: an arrow head whose fan would cover what is outside, also begun elsewhere, turned around, and
+// with a corner that is no corner. The area of all triangles is that of the polygon, and all face its way.
+TEST_F(ColladaMeshes, ConcavePolygons) {
+    const auto areas = [&](const std::string& numbers, const std::string& order, int corners_of_it) {
+        const SceneParts parts =
+            read_changed({{"count=\"12\">-1 -1 0 1 -1 0 1 1 0 -1 1 0", fmt::format("count=\"{}\">{}", 3 * corners_of_it, numbers)},
+                          {"count=\"4\" stride", fmt::format("count=\"{}\" stride", corners_of_it)},
+                          {"<vcount>4</vcount><p>0 1 2 3", fmt::format("<vcount>{}</vcount><p>{}", corners_of_it, order)}});
+        std::pair<double, double> sums = {0.0, 0.0};  // of absolute values, and with the sign of z
+        const std::vector<Vec3> all = corners(mesh(parts));
+        for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
+            const Vec3 twice = glm::cross(all[i + 1] - all[i], all[i + 2] - all[i]);
+            sums.first += 0.5 * glm::length(twice);
+            sums.second += 0.5 * twice.z;
+        }
+        return sums;
+    };
+    using Areas = std::pair<double, double>;
+    // 2·2 less the triangle (2, 0), (1, 1), (2, 2); the node makes it four times as large.
+    const std::string arrow = "0 0 0 2 0 0 1 1 0 2 2 0 0 2 0";
+    for (const std::string order : {"0 1 2 3 4", "1 2 3 4 0", "2 3 4 0 1", "3 4 0 1 2", "4 0 1 2 3"})
+        EXPECT_EQ(areas(arrow, order, 5), Areas(12.0, 12.0)) << order;
+    EXPECT_EQ(areas(arrow, "4 3 2 1 0", 5), Areas(12.0, -12.0));
+    EXPECT_EQ(areas("0 0 0 1 0 0 2 0 0 1 1 0 2 2 0 0 2 0", "0 1 2 3 4 5", 6), Areas(12.0, 12.0));
+    // A comb with three teeth: 5 × 1, and three of 1 × 2.
+    EXPECT_EQ(areas("0 0 0 5 0 0 5 3 0 4 3 0 4 1 0 3 1 0 3 3 0 2 3 0 2 1 0 1 1 0 1 3 0 0 3 0", "0 1 2 3 4 5 6 7 8 9 10 11", 12),
+              Areas(44.0, 44.0));
+}
+
 // An accessor skips what has no name, begins at its offset and steps by its stride.
 TEST_F(ColladaMeshes, Accessors) {
     EXPECT_EQ(corners(mesh(read_changed(

@@ -90,6 +90,25 @@ TEST_F(ColladaScenes, NoCamera) {
     EXPECT_EQ(warnings(parts), std::vector<std::string>{"the file has no camera; the whole scene is seen from the front"});
 }
 
+TEST_F(ColladaScenes, WithoutLightsThereAreSurroundings) {
+    const Changes none = {{"<instance_light url=\"#lamp\"/>", ""}};
+    const SceneParts parts = read_changed(none);
+    ASSERT_TRUE(parts.lights.environment.has_value());
+    EXPECT_EQ(warnings(parts), std::vector<std::string>{
+                                   "the file has no light: everything is surrounded by white light of radiance 1, or of another "
+                                   "that -D surroundings gives"});
+    EXPECT_TRUE(read_dae(changed(none), {{"surroundings", "0.5"}}).lights.environment.has_value());
+    EXPECT_FALSE(read_changed({}).lights.environment.has_value());
+}
+
+// Some programs write the same element several times; where it differs, nobody knows which is meant.
+TEST_F(ColladaScenes, ElementsWithTheSameId) {
+    const std::string red = "<material id=\"red\"><instance_effect url=\"#paint-effect\"/></material>";
+    EXPECT_EQ(read_changed({{red, red + "\n" + red}}).shapes.size(), 1u);
+    EXPECT_EQ(error_with({{red, red + "<material id=\"red\"/>"}}),
+              "scene.dae:27:35: there are several <material> 'red', at scene.dae:13:20 and at scene.dae:13:88, expected one");
+}
+
 TEST_F(ColladaScenes, Lights) {
     const std::string point =
         "<point><color>1 2 "

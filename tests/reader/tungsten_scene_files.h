@@ -40,11 +40,11 @@ protected:
             all += what.substr(path("").size()) + "\n";
         return all;
     }
-    // All but that nothing emits, a line each.
+    // All but that there is no light, a line each.
     static std::string warnings(const SceneParts& parts) {
         std::string all;
         for (const auto& [text, count] : parts.warnings.counts())
-            if (!text.starts_with("nothing emits")) all += text + "\n";
+            if (!text.starts_with("the file has no light")) all += text + "\n";
         return all;
     }
 

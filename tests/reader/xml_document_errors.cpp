@@ -9,6 +9,11 @@ TEST_F(XmlDocumentErrors, MissingFile) { EXPECT_EQ(error_of(path("none.xml")), "
 
 TEST_F(XmlDocumentErrors, FolderInsteadOfFile) { EXPECT_EQ(error_of(path(".")), ".: is a folder, expected a scene file"); }
 
+TEST_F(XmlDocumentErrors, Utf16) {
+    EXPECT_EQ(file_error("\xFF\xFE<"), "scene.xml: is in UTF-16, expected UTF-8");
+    EXPECT_EQ(file_error("\xFE\xFF"), "scene.xml: is in UTF-16, expected UTF-8");
+}
+
 TEST_F(XmlDocumentErrors, EmptyFile) { EXPECT_EQ(file_error(""), "scene.xml:1:1: broken XML: No document element found"); }
 
 TEST_F(XmlDocumentErrors, BrokenXml) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 
 namespace neumann {
 
@@ -77,7 +78,44 @@ public:
 
     Traffic traffic() const override { return traffic_; }
 
+    void sum(std::span<double> values) override { reduce(values, MPI_SUM); }
+    void largest(std::span<double> values) override { reduce(values, MPI_MAX); }
+
+    Counts counts(std::vector<int> given) override {
+        Counts counts{std::move(given), std::vector<int>(static_cast<std::size_t>(size_))};
+        MPI_Alltoall(counts.given.data(), 1, MPI_INT, counts.taken.data(), 1, MPI_INT, all_);
+        return counts;
+    }
+    void exchange(std::span<const double> given, std::span<double> taken, const Counts& counts) override {
+        exchange(given.data(), taken.data(), counts, MPI_DOUBLE, sizeof(double));
+    }
+    void exchange(std::span<const std::uint32_t> given, std::span<std::uint32_t> taken, const Counts& counts) override {
+        exchange(given.data(), taken.data(), counts, MPI_UINT32_T, sizeof(std::uint32_t));
+    }
+
 private:
+    // MPI_Allreduce need not give the same bits everywhere.
+    void reduce(std::span<double> values, MPI_Op how) {
+        const int n = static_cast<int>(values.size());
+        MPI_Reduce(rank_ == 0 ? MPI_IN_PLACE : values.data(), values.data(), n, MPI_DOUBLE, how, 0, all_);
+        MPI_Bcast(values.data(), n, MPI_DOUBLE, 0, all_);
+    }
+    void exchange(const void* given, void* taken, const Counts& counts, MPI_Datatype type, std::size_t bytes) {
+        const auto begins = [](const std::vector<int>& n) {
+            std::vector<int> begin(n.size());
+            std::exclusive_scan(n.begin(), n.end(), begin.begin(), 0);
+            return begin;
+        };
+        MPI_Alltoallv(given, counts.given.data(), begins(counts.given).data(), type, taken, counts.taken.data(),
+                      begins(counts.taken).data(), type, all_);
+        for (const std::vector<int>* const each : {&counts.given, &counts.taken})
+            for (int p = 0; p < size_; ++p) {
+                const auto n = static_cast<std::size_t>((*each)[static_cast<std::size_t>(p)]);
+                if (p == rank_ || n == 0) continue;
+                traffic_.messages += 1;
+                traffic_.bytes += n * bytes;
+            }
+    }
     using Frame = std::array<std::uint64_t, 2>;  // bytes of the text and of the numbers
 
     void count(const Frame& frame) {

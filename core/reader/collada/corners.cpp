@@ -52,6 +52,11 @@ private:
         for (std::size_t i = 2; i < count; ++i) add(first, first + i - 1, first + i);
     }
 
+    void add_polygon(std::size_t first, std::size_t count) {
+        if (count > 3) corners_.polygons.push_back({first, count, corners_.triangles.size()});
+        add_fan(first, count);
+    }
+
     void check_count(std::size_t found) const {
         if (const Attribute* count = primitive_.find("count"); count && read_count(*count) != found)
             throw InputError(count->place,
@@ -81,7 +86,7 @@ private:
                 first = found + 1;
                 break;
             }
-            add_fan(first, size);
+            add_polygon(first, size);
             first += size;
         }
         if (first != found)
@@ -101,8 +106,10 @@ private:
             if (primitive_.tag == "tristrips")
                 for (std::size_t i = 2; i < count; ++i)
                     add(first + i - 2, first + i - 1 + i % 2, first + i - i % 2);  // every other one is turned
-            else
+            else if (primitive_.tag == "trifans")
                 add_fan(first, count);
+            else
+                add_polygon(first, count);
             ++lists;
             triangles += count - 2;
         }

@@ -43,6 +43,13 @@ bool is_course_profile(const Element& technique) {
     return technique.tag == "technique" && profile && (profile->value == "CMU462" || profile->value == "CGL");
 }
 
+bool is_same(const Element& a, const Element& b) {
+    return a.tag == b.tag && a.text == b.text &&
+           std::ranges::equal(a.attributes, b.attributes,
+                              [](const Attribute& x, const Attribute& y) { return x.name == y.name && x.value == y.value; }) &&
+           std::ranges::equal(a.children, b.children, is_same);
+}
+
 void check_root(const Element& root) {
     if (root.tag != "COLLADA")
         throw InputError(root.place, fmt::format("the outermost element is <{}>, expected <COLLADA>", root.tag));
@@ -108,10 +115,12 @@ const Element& File::find(const Attribute& url, const std::string& tag) const {
         for (const auto& [name, e] : ids) names.push_back(name);
         throw InputError(url.place, fmt::format("there is no <{}> '{}'{}", tag, given, did_you_mean(given, names)));
     }
-    if (std::next(first) != last)
+    // Some programs write the same element again.
+    const Element& found = *first->second;
+    if (std::any_of(std::next(first), last, [&](const auto& other) { return !is_same(*other.second, found); }))
         throw InputError(url.place, fmt::format("there are several <{}> '{}', at {} and at {}, expected one", tag, id,
-                                                to_string(first->second->place), to_string(std::next(first)->second->place)));
-    return *first->second;
+                                                to_string(found.place), to_string(std::next(first)->second->place)));
+    return found;
 }
 
 }  // namespace neumann::reader::collada

@@ -1,6 +1,7 @@
 #include "core/reader/collada/meshes.h"
 
 #include "core/reader/collada/corners.h"
+#include "core/reader/collada/polygons.h"
 #include "core/reader/collada/sources.h"
 #include "core/reader/collada/texts.h"
 
@@ -128,6 +129,24 @@ std::uint32_t index_of(const std::optional<Input>& input, const std::uint32_t* c
     return index;
 }
 
+Vec3 vector_at(const Source& s, std::size_t i) { return {s.at(i, 0), s.at(i, 1), s.at(i, 2)}; }
+
+// In place of fans.
+void cut_concave_polygons(Corners& corners, const std::optional<Input>& position, const Element& primitive) {
+    std::vector<Vec3> outline;
+    for (const Polygon& polygon : corners.polygons) {
+        outline.clear();
+        for (std::size_t i = polygon.first_corner; i < polygon.first_corner + polygon.count; ++i)
+            outline.push_back(
+                vector_at(position->source, index_of(position, corners.indices.data() + i * corners.stride, primitive)));
+        std::size_t at = polygon.first_triangle;
+        for (const auto& [a, b, c] : cut_ears(outline)) {
+            const auto corner = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon.first_corner + i); };
+            corners.triangles[at++] = {corner(a), corner(b), corner(c)};
+        }
+    }
+}
+
 const std::array<std::string, 6> parts_of_primitive = {"extra", "input", "p", "param", "ph", "vcount"};
 
 }  // namespace
@@ -136,8 +155,9 @@ std::shared_ptr<const MeshFile> read_mesh(const Element& mesh, const Element& pr
                                           Problems& problems) {
     check_children(primitive, parts_of_primitive, problems);
     const Inputs inputs = InputReader(mesh, primitive, coordinates).read();
-    const Corners corners = read_corners(primitive, inputs.stride);
+    Corners corners = read_corners(primitive, inputs.stride);
     if (corners.triangles.empty()) return nullptr;
+    cut_concave_polygons(corners, inputs.position, primitive);
 
     auto result = std::make_shared<MeshFile>();
     TriangleMesh& made = result->mesh;
@@ -150,11 +170,10 @@ std::shared_ptr<const MeshFile> read_mesh(const Element& mesh, const Element& pr
                                       index_of(inputs.coordinates, indices, primitive)});
         }
 
-    const auto triple = [](const Source& s, std::size_t i) { return Vec3(s.at(i, 0), s.at(i, 1), s.at(i, 2)); };
     made.vertices.reserve(vertices.keys.size());
     for (const auto& key : vertices.keys) {
-        made.vertices.push_back(triple(inputs.position->source, key[0]));
-        if (inputs.normal) result->normals.push_back(triple(inputs.normal->source, key[1]));
+        made.vertices.push_back(vector_at(inputs.position->source, key[0]));
+        if (inputs.normal) result->normals.push_back(vector_at(inputs.normal->source, key[1]));
         if (inputs.coordinates)
             made.uv.emplace_back(inputs.coordinates->source.at(key[2], 0), inputs.coordinates->source.at(key[2], 1));
     }

@@ -4,6 +4,7 @@
 #include "core/reader/collada/lights.h"
 #include "core/reader/collada/shapes.h"
 #include "core/reader/import/make_elements.h"
+#include "core/reader/import/surroundings.h"
 #include "core/reader/xml/parse_xml.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ RawScene read_collada(const std::string& path, const NamedValues& definitions, W
     const collada::SceneNodes nodes = collada::read_nodes(file, warnings, problems);
     const std::vector<collada::Lamp> lamps = collada::add_lights(nodes.lights, up, import);
     const Bounds bounds = collada::add_shapes(nodes.geometries, lamps, import);
+    if (nodes.lights.empty() && !has_emitters(scene.root)) add_surroundings(scene.root, warnings);
     if (!problems.attempt(root.place, [&] { collada::add_camera(nodes.cameras, bounds, up, import); }))
         add(scene.root, make_object("sensor", "perspective", root.place));
     return scene;

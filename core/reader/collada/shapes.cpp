@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 namespace neumann::reader::collada {
 
@@ -45,13 +46,18 @@ public:
 
     // Adds all of these to the scene: meshes that stand at several places with the same material as instances.
     void finish() {
-        using Part = std::pair<std::string, std::string>;
+        read_meshes();
+        std::vector<Placed> all;
+        for (Placed& placed : placed_)
+            if (!placed.mesh || (placed.mesh->file && complete(placed))) all.push_back(std::move(placed));
+
+        using Part = std::pair<const Mesh*, std::string>;
         const auto part = [](const Placed& placed) { return Part(placed.mesh, placed.bound.bsdf); };
         std::map<Part, int> places;
-        for (const Placed& placed : placed_) ++places[part(placed)];
+        for (const Placed& placed : all) ++places[part(placed)];
         std::set<Part> groups;
-        for (Placed& placed : placed_)
-            if (placed.mesh.empty() || placed.bound.emitter || places[part(placed)] == 1) {
+        for (Placed& placed : all)
+            if (!placed.mesh || placed.bound.emitter || places[part(placed)] == 1) {
                 add_alone(std::move(placed));
             } else {
                 const bool is_first = groups.insert(part(placed)).second;
@@ -62,17 +68,20 @@ public:
     Bounds bounds;
 
 private:
+    struct Mesh {
+        const Element *mesh, *primitive;
+        Coordinates coordinates;
+        std::shared_ptr<const MeshFile> file = {};  // null if it has no triangles, or its problem is told
+        std::string name = {};                      // once it is in the scene
+
+        bool is_flat() const { return file->normals.empty(); }
+    };
     // A shape without its place and material.
     struct Placed {
         Element shape;
         const Instance* instance;
         Bound bound;
-        std::string mesh = {};  // empty: a sphere
-        bool is_flat = false;   // a mesh without normals
-    };
-    struct Mesh {
-        std::string name;
-        std::shared_ptr<const MeshFile> file;  // null if it has no triangles, or its problem is told
+        Mesh* mesh = nullptr;  // null: a sphere
     };
 
     static const Element* radius_of_sphere(const Element& geometry) {
@@ -95,27 +104,53 @@ private:
 
     void add_part(const Instance& instance, const Element& mesh, const Element& primitive) {
         const Bound bound = materials_.bound(*instance.use, primitive.find("material"));
-        const Mesh& made = make(*instance.element, mesh, primitive, bound.coordinates);
-        if (!made.file) return;
+        Mesh& made = meshes_.try_emplace({&primitive, bound.coordinates}, Mesh{&mesh, &primitive, bound.coordinates}).first->second;
+        placed_.push_back({make_object("shape", "ply", instance.use->place), &instance, bound, &made});
+    }
+
+    // Most of the time of a large file.
+    void read_meshes() {
+        std::vector<Mesh*> meshes;
+        for (auto& [key, mesh] : meshes_) meshes.push_back(&mesh);
+        oneapi::tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
+            Mesh& m = *meshes[i];
+            import_.problems.attempt(m.primitive->place,
+                                     [&] { m.file = read_mesh(*m.mesh, *m.primitive, m.coordinates, import_.problems); });
+        });
+    }
+
+    // Of a part whose mesh has been read. Returns whether it is in the scene.
+    bool complete(Placed& part) {
+        const Instance& instance = *part.instance;
+        Mesh& made = *part.mesh;
+        const Location& place = made.primitive->place;
+        if (made.name.empty()) add_to_files(made, required_attribute(*instance.element, "id").value);
         const TriangleMesh& triangles = made.file->mesh;
 
-        if (bound.emitter && is_on_a_lamp(triangles, instance)) {
+        if (part.bound.emitter && is_on_a_lamp(triangles, instance)) {
             import_.warnings.add(fmt::format(
                 "the geometry '{}' gives off light and lies on an area light: its light counts once, and the geometry is left out",
                 required_attribute(*instance.element, "id").value));
-            return;
+            return false;
         }
-        Placed part{make_object("shape", "ply", instance.use->place), &instance, bound, made.name, made.file->normals.empty()};
-        add_string(part.shape, "filename", made.name, primitive.place);
-        if (part.is_flat) add_boolean(part.shape, "face_normals", true, primitive.place);
-        if (!triangles.uv.empty()) add_boolean(part.shape, "flip_tex_coords", true, primitive.place);
-        placed_.push_back(std::move(part));
+        add_string(part.shape, "filename", made.name, place);
+        if (made.is_flat()) add_boolean(part.shape, "face_normals", true, place);
+        if (!triangles.uv.empty()) add_boolean(part.shape, "flip_tex_coords", true, place);
         for (const Vec3& v : triangles.vertices) bounds.add(transformed_point(instance.to_world, v));
+        return true;
+    }
+
+    void add_to_files(Mesh& made, const std::string& id) const {
+        auto& files = import_.scene.in_memory.meshes;
+        for (std::size_t number = 0; made.name.empty() || files.contains(made.name); ++number) made.name = file_name(id, number);
+        files[made.name] = made.file;
+        if (has_vertex_colors(*made.mesh, *made.primitive))
+            import_.warnings.add("colours of vertices are left out: no material of COLLADA uses them");
     }
 
     void add_alone(Placed placed) const {
         const Instance& instance = *placed.instance;
-        if (placed.is_flat && is_mirroring(instance.to_world))
+        if (placed.mesh && placed.mesh->is_flat() && is_mirroring(instance.to_world))
             add_boolean(placed.shape, "flip_normals", true, instance.node->place);
         add_to_world(placed.shape, instance);
         add_surface(placed);
@@ -124,7 +159,7 @@ private:
 
     void add_of_group(Placed placed, bool is_first) const {
         const Instance& instance = *placed.instance;
-        const std::string group = fmt::format("instances of {}, {}", placed.mesh, placed.bound.bsdf);
+        const std::string group = fmt::format("instances of {}, {}", placed.mesh->name, placed.bound.bsdf);
         if (is_first) {
             add_surface(placed);
             Element e = make_object("shape", "shapegroup", instance.use->place);
@@ -148,21 +183,6 @@ private:
         else if (!placed.bound.emitter)
             reader::add(placed.shape, default_bsdf(place));
         if (placed.bound.emitter) reader::add(placed.shape, *placed.bound.emitter);
-    }
-
-    const Mesh& make(const Element& geometry, const Element& mesh, const Element& primitive, const Coordinates& coordinates) {
-        const auto [known, is_new] = meshes_.try_emplace({&primitive, coordinates});
-        Mesh& made = known->second;
-        if (!is_new) return made;
-        import_.problems.attempt(primitive.place, [&] { made.file = read_mesh(mesh, primitive, coordinates, import_.problems); });
-        if (!made.file) return made;
-        auto& files = import_.scene.in_memory.meshes;
-        const std::string id = required_attribute(geometry, "id").value;
-        for (std::size_t number = 0; made.name.empty() || files.contains(made.name); ++number) made.name = file_name(id, number);
-        files[made.name] = made.file;
-        if (has_vertex_colors(mesh, primitive))
-            import_.warnings.add("colours of vertices are left out: no material of COLLADA uses them");
-        return made;
     }
 
     bool is_on_a_lamp(const TriangleMesh& mesh, const Instance& instance) const {

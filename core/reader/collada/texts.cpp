@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-bool is_blank(char c) { return blanks.find(c) != std::string_view::npos; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 // The offset behind a comment or the like that begins at `at`, or `at` itself.
 std::size_t behind_markup(const std::string& text, std::size_t at) {

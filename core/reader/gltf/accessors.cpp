@@ -1,5 +1,6 @@
 #include "core/reader/gltf/accessors.h"
 
+#include "core/reader/gltf/extensions.h"
 #include "core/reader/gltf/uri.h"
 
 #include <algorithm>
@@ -142,6 +143,10 @@ std::string_view Accessors::bytes_of_view(std::size_t view) {
     if (!buffer) object.fail_missing("buffer", "the index of one");
     const std::size_t begin = offset(object), length = required(object, "byteLength", 1);
     object.ignore({"name", "target", "byteStride"});
+    // Beside what is compressed there may be the same as it is.
+    const bool is_there = buffers_.object(*buffer).has("uri") || (*buffer == 0 && file_.binary());
+    for (const char* compression : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (object.extension(compression) && !is_there) fail_compressed(compression, object.place(), object.notes());
     object.finish();
     const std::string_view all = bytes_of_buffer(*buffer);
     if (begin > all.size() || length > all.size() - begin)
@@ -195,6 +200,11 @@ void Accessors::read(std::size_t accessor, const std::vector<std::string>& types
         elements_in(bytes_of_view(view_of(*values, views_)), offset(*values), places.size(), size, size, values->place());
     s.decode(
         bytes, places.size(), size, [&](std::size_t i) { return places[i]; }, put);
+}
+
+bool Accessors::has_numbers(std::size_t accessor) const {
+    const JsonObject object = accessors_.object(accessor);
+    return object.has("bufferView") || object.has("sparse");
 }
 
 std::vector<std::size_t> Accessors::read_sparse_places(JsonObject& sparse, std::size_t count) {

@@ -39,6 +39,7 @@ public:
     // Whole numbers, such as the vertices of triangles.
     std::vector<std::uint32_t> indices(std::size_t accessor);
     // Without reading it.
+    bool has_numbers(std::size_t accessor) const;  // or only zeros
     std::size_t count(std::size_t accessor) const;
 
 private:

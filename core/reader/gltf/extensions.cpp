@@ -23,17 +23,18 @@ constexpr std::array<std::string_view, 9> without_effect = {
     "KHR_xmp_json_ld",       "EXT_texture_webp",       "EXT_texture_avif",      "MSFT_texture_dds"};
 
 struct Refused {
-    std::string_view name, remedy;
+    std::string_view name, remedy = "", instead = "left out";
 };
 constexpr std::string_view uncompressed = "; export the scene without the compression of meshes",
-                           as_png = "; export the pictures as PNG or JPEG";
-constexpr std::array refused = {Refused{"KHR_draco_mesh_compression", uncompressed},
-                                Refused{"EXT_meshopt_compression", uncompressed},
-                                Refused{"KHR_meshopt_compression", uncompressed},
-                                Refused{"KHR_texture_basisu", as_png},
-                                Refused{"EXT_texture_webp", as_png},
-                                Refused{"EXT_texture_avif", as_png},
-                                Refused{"MSFT_texture_dds", as_png}};
+                           as_png = "; export the pictures as PNG or JPEG", no_mesh = "what it compresses is left out",
+                           no_picture = "its pictures are not read";
+constexpr std::array refused = {Refused{"KHR_draco_mesh_compression", uncompressed, no_mesh},
+                                Refused{"EXT_meshopt_compression", uncompressed, no_mesh},
+                                Refused{"KHR_meshopt_compression", uncompressed, no_mesh},
+                                Refused{"KHR_texture_basisu", as_png, no_picture},
+                                Refused{"EXT_texture_webp", as_png, no_picture},
+                                Refused{"EXT_texture_avif", as_png, no_picture},
+                                Refused{"MSFT_texture_dds", as_png, no_picture}};
 
 bool is_known(const std::string& extension) { return std::find(known.begin(), known.end(), extension) != known.end(); }
 
@@ -60,15 +61,20 @@ void check_extensions(JsonObject& root) {
         const auto found = std::find_if(refused.begin(), refused.end(), [&](const Refused& r) { return r.name == name; });
         if (found == refused.end() && (is_known(name) || has_no_effect(name))) return;
         notes.extensions.insert(name);
-        const std::string what = fmt::format("the file requires the extension {}, which is not supported", name);
-        if (found == refused.end())
-            notes.problems.add(Unknown(place, what, "", "left out"), place);
-        else
-            notes.problems.add(InputError(place, what + std::string(found->remedy)), place);
+        notes.refused.insert(name);
+        const Refused how = found == refused.end() ? Refused{name} : *found;
+        notes.problems.add(Unknown(place, fmt::format("the file requires the extension {}, which is not supported", name),
+                                   std::string(how.remedy), std::string(how.instead)),
+                           place);
     });
     names("extensionsUsed", [&](const std::string& name, const Location&) {
         if (!required.count(name) && !is_known(name) && !has_no_effect(name)) notes.left_out(name);
     });
+}
+
+void fail_compressed(const std::string& extension, const Location& place, const Notes& notes) {
+    if (notes.refused.contains(extension) && !notes.problems.lenient()) throw Told();
+    throw Unknown(place, fmt::format("compressed by {}, which is not supported", extension), std::string(uncompressed), "left out");
 }
 
 }  // namespace neumann::reader::gltf

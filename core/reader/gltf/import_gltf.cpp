@@ -5,6 +5,7 @@
 #include "core/reader/gltf/lights.h"
 #include "core/reader/gltf/shapes.h"
 #include "core/reader/import/make_elements.h"
+#include "core/reader/import/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -40,15 +41,6 @@ std::vector<std::vector<Placed>> by_mesh(const std::vector<Placed>& all) {
     return result;
 }
 
-void add_surroundings(Element& scene, Warnings& warnings) {
-    warnings.add(
-        "the file has no light: everything is surrounded by white light of radiance 1, or of another that -D surroundings "
-        "gives");
-    Element emitter = make_object("emitter", "constant", scene.place);
-    add_defined(scene, emitter, "rgb", "radiance", "surroundings", "1", scene.place);
-    add(scene, std::move(emitter));
-}
-
 JsonList list_of_lights(JsonObject& root) {
     if (auto extension = root.extension("KHR_lights_punctual")) return extension->list("lights");
     return {nullptr, root.place(), root.notes()};
@@ -73,7 +65,7 @@ RawScene read(const std::string& path, const NamedValues& definitions, Warnings&
         problems.attempt(places.front().place, [&] { shapes.add(scene, places.front().what, places); });
     for (const Placed& placed : nodes.lights)
         problems.attempt(placed.place, [&] { add(scene, make_light(placed, lights.object(placed.what))); });
-    if (nodes.lights.empty() && !shapes.has_emitters()) add_surroundings(scene, warnings);
+    if (nodes.lights.empty() && !has_emitters(scene)) add_surroundings(scene, warnings);
     if (nodes.cameras.empty())
         warnings.add("the file has no camera: everything is seen from the front, from the right and from above");
     if (nodes.cameras.empty() ||

@@ -105,6 +105,7 @@ private:
 
     Element perturbed(Element inner) {
         const Texture& t = *m_.normals;
+        if (!pictures_.is_known(t.image)) return inner;
         Element e = make_object("bsdf", "normalmap", m_.place);
         add(e, make_bitmap(t, "normalmap", pictures_.normals(t.image, t.amount, mesh_.is_mirrored), true));
         add(e, std::move(inner));
@@ -150,7 +151,9 @@ Element make_emitter(const Material& m, Pictures& pictures, Warnings& warnings) 
     if (m.alpha_mode != Material::Alpha::opaque)
         warnings.add("a material that emits and has an alphaMode: it emits where it is transparent, too");
     Element e = make_object("emitter", "area", m.place);
-    if (m.emission_texture)
+    if (m.emission_texture && !pictures.is_known(m.emission_texture->image))
+        add_rgb(e, "radiance", Rgb(0.0), m.place);
+    else if (m.emission_texture)
         add(e, make_bitmap(*m.emission_texture, "radiance", pictures.colors(m.emission_texture->image, m.emission), false));
     else
         add_rgb(e, "radiance", m.emission, m.place);

@@ -127,7 +127,7 @@ private:
         const auto put = [&](std::vector<Placed>& list, std::size_t what) { list.emplace_back(placed).what = what; };
         const auto mesh = node.index("mesh", meshes_, "mesh"), skin = node.index("skin", skins_, "skin"),
                    camera = node.index("camera", cameras_, "camera");
-        if (node.has("weights")) refuse_morphs(node.list("weights"));
+        if (node.has("weights")) refuse_morphs(node.list("weights"), notes_.problems);
         if (mesh && skin)
             skinned_.push_back({{*mesh, node.place(), placed.name, Mat4(1.0)}, *skin});
         else if (mesh && is_flat(world))
@@ -141,14 +141,6 @@ private:
         }
     }
 
-    void refuse_morphs(const JsonList& weights) const {
-        for (std::size_t i = 0; i < weights.size(); ++i)
-            if (!(weights[i].is_number() && weights[i] == 0.0))
-                throw InputError(weights.place_of(i),
-                                 "morph targets are not supported, expected all weights to be 0; apply them "
-                                 "before the export");
-    }
-
     // Only where all joints have moved the mesh alike since it was bound, as in the pose in which it was.
     void place_skinned(Placed placed, std::size_t skin_index) {
         JsonObject skin = skins_.object(skin_index);
@@ -159,6 +151,7 @@ private:
         if (inverse && inverse->count() < joints.size())
             throw InputError(skin.place_of("inverseBindMatrices"),
                              fmt::format("{} matrices, expected one for each of the {} joints", inverse->count(), joints.size()));
+        bool is_bent = false;
         for (std::size_t i = 0; i < joints.size(); ++i) {
             const auto world = world_.find(joints[i]);
             if (world == world_.end()) throw InputError(skin.place(), fmt::format("joint {} is not in the scene", joints[i]));
@@ -169,10 +162,12 @@ private:
             if (i == 0) placed.to_world = moved;
             for (int column = 0; column < 4; ++column)
                 if (!(glm::length(moved[column] - placed.to_world[column]) <= 1e-4 * (1.0 + glm::length(moved[column]))))
-                    throw InputError(placed.place,
-                                     "the mesh is bent by its skin, which is not supported; apply the armature before "
-                                     "the export");
+                    is_bent = true;
         }
+        if (is_bent)
+            notes_.problems.replace(Unknown(placed.place, "the mesh is bent by its skin, which is not supported",
+                                            "; apply the armature before the export", "taken unbent, as its first joint moves it"),
+                                    placed.place);
         if (is_flat(placed.to_world)) throw InputError(placed.place, "the joints of the skin flatten the mesh");
         result_.meshes.push_back(placed);
     }
@@ -191,6 +186,14 @@ private:
 
 Nodes read_nodes(JsonObject& root, const JsonList& lights, Accessors& accessors) {
     return NodeReader(root, lights, accessors).read();
+}
+
+void refuse_morphs(const JsonList& weights, Problems& problems) {
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (!(weights[i].is_number() && weights[i] == 0.0))
+            return problems.replace(Unknown(weights.place_of(i), "morph targets are not supported",
+                                            ", expected all weights to be 0; apply them before the export", "left out"),
+                                    weights.place_of(i));
 }
 
 Mat4 without_scale(const Placed& placed) {

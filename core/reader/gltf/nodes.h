@@ -22,6 +22,9 @@ struct Nodes {
 // `lights`: those of KHR_lights_punctual. Problems are told, and what they are about is left out.
 Nodes read_nodes(JsonObject& root, const JsonList& lights, Accessors& accessors);
 
+// Of a node or a mesh: adds a problem unless all are 0.
+void refuse_morphs(const JsonList& weights, Problems& problems);
+
 // Rotations and translations alone, for what has no size. Throws InputError where a map flattens space.
 Mat4 without_scale(const Placed& placed);
 

@@ -23,6 +23,9 @@ double value_of(const Texels& t, std::size_t texel, int channel) {
     return t.bytes.empty() ? static_cast<double>(t.values[i]) : t.bytes[i] / 255.0;
 }
 
+// In place of a picture that is not known.
+const auto grey = std::make_shared<const Texels>(Texels{1, 1, 4, {}, {0.5f, 0.5f, 0.5f, 1.0f}});
+
 std::size_t texel_count(const Texels& t) { return static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height); }
 
 // A picture of the same size, by value(texel, channel).
@@ -78,11 +81,14 @@ const Texels& Pictures::texels(std::size_t image) {
     if (is_new) {
         JsonObject object = images_.object(image);
         const std::string bytes = bytes_of(object);
-        if (!bytes.starts_with("\x89PNG") && !bytes.starts_with("\xff\xd8\xff"))
-            throw InputError(object.place(), "the picture is neither a PNG nor a JPEG file");
+        const bool is_known = bytes.starts_with("\x89PNG") || bytes.starts_with("\xff\xd8\xff");
+        if (!is_known)
+            object.notes().problems.replace(Unknown(object.place(), "the picture is neither a PNG nor a JPEG file", "",
+                                                    "taken as 0.5, opaque and flat, and as black in lights"),
+                                            object.place());
         object.ignore({"mimeType", "name", "bufferView", "uri"});
         object.finish();
-        found->second = std::make_shared<const Texels>(decode_texels(bytes, to_string(object.place())));
+        found->second = is_known ? std::make_shared<const Texels>(decode_texels(bytes, to_string(object.place()))) : grey;
     }
     if (!found->second) throw Told();
     return *found->second;
@@ -98,6 +104,8 @@ std::string Pictures::made(std::size_t image, const std::string& kind, const Mak
     in_memory_.pictures[name] = std::move(result);
     return name;
 }
+
+bool Pictures::is_known(std::size_t image) { return &texels(image) != grey.get(); }
 
 std::string Pictures::colors(std::size_t image, const Rgb& factor) {
     return made(image, fmt::format("colors {} {} {}", factor.r, factor.g, factor.b), [&](const Texels& t) {

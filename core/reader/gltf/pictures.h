@@ -21,6 +21,9 @@ public:
 
     const JsonList& list() const { return images_; }
 
+    // If it is neither PNG nor JPEG, a lenient reader takes it as grey and opaque.
+    bool is_known(std::size_t image);
+
     // These return the name of a picture in memory. A colour is sRGB where the factor is 1, and linear otherwise; the factor is
     // linear. Throw InputError, at the image's place, where the picture cannot be read.
     std::string colors(std::size_t image, const Rgb& factor);

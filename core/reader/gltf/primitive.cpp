@@ -1,5 +1,7 @@
 #include "core/reader/gltf/primitive.h"
 
+#include "core/reader/gltf/extensions.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -95,6 +97,9 @@ public:
             return {};
         }
         if (!position) attributes->fail_missing("POSITION", "the index of an accessor");
+        if (const std::string draco = "KHR_draco_mesh_compression";
+            primitive_.extension(draco) && !accessors_.has_numbers(*position))
+            fail_compressed(draco, primitive_.place(), primitive_.notes());
         const Vertices vertices = read_vertices(*attributes, *position);
         const std::vector<Corners> corners = triangles_of(read_corners(mode, vertices.positions->count()), mode);
         primitive_.finish();
@@ -178,14 +183,17 @@ private:
     }
 
     // Which texture coordinates the material uses.
-    std::optional<int> coordinate_set() const {
+    std::optional<int> coordinate_set() {
         std::optional<int> set;
         for (const Texture* t : material_.textures()) {
-            if (set && *set != t->coordinates)
-                throw InputError(t->place, fmt::format("the texture is at TEXCOORD_{} and another of the material at TEXCOORD_{}, "
-                                                       "expected one set of texture coordinates",
-                                                       t->coordinates, *set));
-            set = t->coordinates;
+            if (!set) set = t->coordinates;
+            if (*set != t->coordinates)
+                primitive_.notes().problems.replace(
+                    Unknown(t->place,
+                            fmt::format("the texture is at TEXCOORD_{} and another of the material at TEXCOORD_{}", t->coordinates,
+                                        *set),
+                            ", expected one set of texture coordinates", fmt::format("taken at TEXCOORD_{}", *set)),
+                    t->place);
         }
         return set;
     }

@@ -89,11 +89,8 @@ void Shapes::expect_memory_for(const MeshFile& file, const Location& place) {
 std::vector<Shapes::Part> Shapes::read_parts(Element& scene, std::size_t mesh) {
     JsonObject object = meshes_.object(mesh);
     const std::string name = object.text("name").value_or(fmt::format("mesh_{}", mesh));
-    const JsonList primitives = object.list("primitives"), weights = object.list("weights");
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        if (!(weights[i].is_number() && weights[i] == 0.0))
-            throw InputError(weights.place_of(i),
-                             "morph targets are not supported, expected all weights to be 0; apply them before the export");
+    const JsonList primitives = object.list("primitives");
+    refuse_morphs(object.list("weights"), notes_.problems);
     object.finish();
     std::vector<Part> parts;
     const auto keep = [&](MeshFile file, const Part& like) {
@@ -128,10 +125,7 @@ Element Shapes::make_shape(const Part& part, const Placed* placed) {
         if (is_flat && glm::determinant(glm::dmat3(placed->to_world)) < 0.0) add_boolean(e, "flip_normals", true, placed->place);
     }
     add_reference(e, part.bsdf, part.place);
-    if (part.material->emits()) {
-        neumann::reader::add(e, make_emitter(*part.material, pictures_, notes_.warnings));
-        has_emitters_ = true;
-    }
+    if (part.material->emits()) neumann::reader::add(e, make_emitter(*part.material, pictures_, notes_.warnings));
     return e;
 }
 

@@ -20,7 +20,6 @@ public:
     void add(Element& scene, std::size_t mesh, const std::vector<Placed>& places);
 
     const Bounds& bounds() const { return bounds_; }
-    bool has_emitters() const { return has_emitters_; }
 
 private:
     // A mesh of one material.
@@ -48,7 +47,6 @@ private:
     const Material default_material_;
     std::map<std::pair<const Material*, OnMesh>, std::string> bsdfs_;  // ids; empty: has been told
     Bounds bounds_;
-    bool has_emitters_ = false;
     double triangles_ = 0.0;
 };
 

@@ -61,7 +61,9 @@ std::optional<Texture> Textures::read(JsonObject info) const {
     info.finish();
     JsonObject texture = textures_.object(*index);
     if (const auto sampler = texture.index("sampler", samplers_, "sampler")) read_sampler(samplers_.object(*sampler), result);
-    const auto image = texture.index("source", images_, "image");
+    auto image = texture.index("source", images_, "image");
+    for (const char* coding : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"})
+        if (auto other = texture.extension(coding); other && !image) image = other->index("source", images_, "image");
     if (!image) texture.fail_missing("source", "the index of an image, a PNG or a JPEG");
     texture.ignore({"name"});
     texture.finish();

@@ -26,6 +26,7 @@ struct Notes {
     // Of glTF, whose objects may have `extensions` and `extras`: whether an extension changes no picture. Null for other languages.
     bool (*has_no_effect)(const std::string& extension) = nullptr;
     std::set<std::string> extensions = {};  // unknown ones that have been told
+    std::set<std::string> refused = {};     // those that the file requires, among them
 
     void left_out(const std::string& extension);
 };

@@ -2,6 +2,7 @@
 
 #include "core/reader/import/json_file.h"
 #include "core/reader/import/make_elements.h"
+#include "core/reader/import/surroundings.h"
 #include "core/reader/tungsten/camera.h"
 #include "core/reader/tungsten/integrator.h"
 #include "core/reader/tungsten/lights.h"
@@ -25,7 +26,7 @@ RawScene import_tungsten(const std::string& path, const NamedValues& definitions
     bsdfs.add_all();
     Primitives primitives(root, bsdfs, textures, importing);
     primitives.add_all();
-    if (!primitives.emit()) add_surroundings(importing);
+    if (!primitives.emit()) add_surroundings(scene.root, warnings);  // as in Tungsten
     // Media count where something names them, and the command line says how to render.
     root.ignore({"media", "renderer", "name"});
     root.finish();

@@ -52,12 +52,4 @@ bool add_infinite_sphere(JsonObject& primitive, Textures& textures, Importing& i
     return true;
 }
 
-void add_surroundings(Importing& importing) {
-    const Location& place = importing.scene.root.place;
-    importing.notes.warnings.add("nothing emits: everything is surrounded by white light of radiance 1, as in Tungsten");
-    Element e = make_object("emitter", "constant", place);
-    add_rgb(e, "radiance", Rgb(1.0), place);
-    add(importing.scene.root, std::move(e));
-}
-
 }  // namespace neumann::reader::tungsten

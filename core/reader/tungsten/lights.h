@@ -10,7 +10,4 @@ bool add_point(JsonObject& primitive, Textures& textures, Importing& importing);
 // Light from everywhere, or a picture around the scene.
 bool add_infinite_sphere(JsonObject& primitive, Textures& textures, Importing& importing);
 
-// For scenes in which nothing emits: white light of radiance 1, from everywhere.
-void add_surroundings(Importing& importing);
-
 }  // namespace neumann::reader::tungsten

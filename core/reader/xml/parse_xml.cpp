@@ -18,10 +18,12 @@ Element element_of(const SourceText& source, pugi::xml_node node, int depth) {
     for (const pugi::xml_attribute a : node.attributes())
         e.attributes.push_back({a.name(), a.value(), source.attribute_place(offset, index++)});
     for (const pugi::xml_node child : node.children()) {
-        if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-            e.text += (e.text.empty() ? "" : "\n") + std::string(child.value());
-        else if (child.type() == pugi::node_element && depth <= max_element_depth)
+        if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
+            if (!e.text.empty()) e.text += '\n';
+            e.text += child.value();
+        } else if (child.type() == pugi::node_element && depth <= max_element_depth) {
             e.children.push_back(element_of(source, child, depth + 1));
+        }
     }
     return e;
 }

@@ -13,13 +13,19 @@ SourceText::SourceText(const std::string& path) : path_(path), line_starts_{0} {
     if (!std::filesystem::exists(path, error)) throw InputError(file, "there is no such file");
     if (std::filesystem::is_directory(path, error)) throw InputError(file, "is a folder, expected a scene file");
     std::ifstream stream(path, std::ios::binary);
-    std::ostringstream content;
-    if (stream && stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
+    if (const auto size = std::filesystem::file_size(path, error); !error) {
+        text_.resize(static_cast<std::size_t>(size));
+        stream.read(text_.data(), static_cast<std::streamsize>(text_.size()));
+        text_.resize(static_cast<std::size_t>(stream.gcount()));
+    } else {  // a pipe
+        std::ostringstream content;
+        if (stream && stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
+        text_ = content.str();
+    }
     if (stream.bad() || !stream.is_open()) throw InputError(file, "cannot be read");
-    text_ = content.str();
     if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
-    for (std::size_t i = 0; i < text_.size(); ++i)
-        if (text_[i] == '\n') line_starts_.push_back(i + 1);
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) throw InputError(file, "is in UTF-16, expected UTF-8");
+    for (std::size_t i = text_.find('\n'); i != std::string::npos; i = text_.find('\n', i + 1)) line_starts_.push_back(i + 1);
 }
 
 Location SourceText::place(std::size_t offset) const {

@@ -157,7 +157,7 @@ void boxes_at_random(Figures& figures, std::uint64_t seed, const Mat4& to_world)
         for (const Box& b : boxes) bodies.emplace_back(box(b.low, b.high));
         const Scene scene = furnace_with(bodies, to_world);
         const Statistic found = probe(scene, beside_edges(scene, boxes, to_world), Technique::bsdf,
-                                      {.samples = 8, .sampler = SamplerKind::independent, .seed = seed + i})
+                                      {.samples = 2, .sampler = SamplerKind::independent, .seed = seed + i})
                                     .terms[8];
         wrong += std::abs(found.mean.r - bounce_8) > 64 * eps || found.standard_error.r != 0.0;
     }
@@ -170,7 +170,7 @@ Cases extreme_close_cases() {
     Cases cases;
     for (const Place& place : places) {
         const Mat4 to_world = turned_and_moved(place.to);
-        for (const double half_length : {20.0, 2e3, 2e4})
+        for (const double half_length : {20.0, 2e4})
             for (const double p : {1e-3, 1e-6})
                 cases.push_back({fmt::format("extreme/close/groove-{:g}-{:g}-{}", half_length, p, place.name),
                                  "rho^i s (1-s)^(i-1), s = sin^2(a/2)",
