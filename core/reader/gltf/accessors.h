@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/reader/gltf/gltf_file.h"
-#include "core/reader/gltf/json_object.h"
+#include "core/reader/import/json_object.h"
 
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 // The extensions of glTF that files may use.
 #pragma once
 
-#include "core/reader/gltf/json_object.h"
+#include "core/reader/import/json_object.h"
 
 namespace neumann::reader::gltf {
 

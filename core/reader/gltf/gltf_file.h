@@ -32,7 +32,4 @@ private:
     std::size_t binary_at_ = 0, binary_size_ = 0;
 };
 
-// Throws InputError at the place: no such file, a folder or a device, not readable.
-std::string read_bytes(const std::string& path, const Location& place);
-
 }  // namespace neumann::reader::gltf

@@ -48,7 +48,7 @@ JsonList list_of_lights(JsonObject& root) {
 
 RawScene read(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     const GltfFile file(path);
-    Notes notes{warnings, problems};
+    Notes notes{warnings, problems, has_no_effect};
     JsonObject root(file.root(), {path}, notes);
     check_version(root);
     check_extensions(root);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/reader/gltf/accessors.h"
-#include "core/reader/gltf/json_object.h"
+#include "core/reader/import/json_object.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include "core/image/texels.h"
 #include "core/reader/gltf/accessors.h"
-#include "core/reader/gltf/names.h"
+#include "core/reader/import/names.h"
 #include "core/reader/raw_scene.h"
 
 #include <functional>

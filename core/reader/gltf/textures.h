@@ -1,8 +1,8 @@
 // What a material says of its textures: which picture, at which texture coordinates.
 #pragma once
 
-#include "core/reader/gltf/json_object.h"
 #include "core/reader/gltf/pictures.h"
+#include "core/reader/import/json_object.h"
 #include "core/reader/xml/element.h"
 
 #include <string>

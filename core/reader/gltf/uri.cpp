@@ -1,6 +1,6 @@
 #include "core/reader/gltf/uri.h"
 
-#include "core/reader/gltf/gltf_file.h"
+#include "core/reader/import/json_file.h"
 #include "core/reader/import/percent_encoding.h"
 
 #include <algorithm>

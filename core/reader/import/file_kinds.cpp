@@ -24,6 +24,7 @@ struct Kind {
 
 constexpr std::string_view
     in_a_scene = "name it in a scene file: <shape type=\"{0}\"><string name=\"filename\" value=\"{1}\"/></shape>",
+    in_tungsten = "name it in a scene of Tungsten: {{\"type\": \"mesh\", \"file\": \"{1}\"}}",
     as_gltf = "export the scene as glTF 2.0 (.glb) from the program that made it",
     as_picture = "a scene file names it as a texture, <texture type=\"bitmap\">, or as light from afar, <emitter type=\"envmap\">",
     unpacked = "unpack it first";
@@ -33,6 +34,7 @@ constexpr std::array other_kinds = {
     Kind{".obj", "", "a mesh", in_a_scene},
     Kind{".ply", "ply\n", "a mesh", in_a_scene},
     Kind{".serialized", "", "a mesh", in_a_scene},
+    Kind{".wo3", "", "a mesh", in_tungsten},
     Kind{".stl", "solid ", "a mesh", as_gltf},
     Kind{".fbx", "Kaydara FBX", "an FBX file", as_gltf},
     Kind{".3ds", "", "a 3ds file", as_gltf},
@@ -97,6 +99,7 @@ SceneFormat scene_format(const std::string& path) {
     if (ending == ".dae") return SceneFormat::collada;
     if (ending == ".gltf" || ending == ".glb") return SceneFormat::gltf;
     if (ending == ".pbrt") return SceneFormat::pbrt;
+    if (ending == ".json") return SceneFormat::tungsten;
     // Of the others, and of XML, what it begins with says more.
     if (beginning.starts_with("glTF")) return SceneFormat::gltf;
     if (beginning.find("<COLLADA") != std::string::npos) return SceneFormat::collada;

@@ -5,7 +5,7 @@
 
 namespace neumann::reader {
 
-enum class SceneFormat { mitsuba, collada, gltf, pbrt };
+enum class SceneFormat { mitsuba, collada, gltf, pbrt, tungsten };
 
 // Throws InputError, with what the file is and what can be done about it, where it is known to be something else than a scene.
 SceneFormat scene_format(const std::string& path);

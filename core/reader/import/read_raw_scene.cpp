@@ -4,6 +4,7 @@
 #include "core/reader/gltf/import_gltf.h"
 #include "core/reader/import/file_kinds.h"
 #include "core/reader/pbrt/import_pbrt.h"
+#include "core/reader/tungsten/import_tungsten.h"
 #include "core/reader/xml/parse_xml.h"
 
 namespace neumann::reader {
@@ -16,6 +17,8 @@ RawScene read_raw_scene(const std::string& path, const NamedValues& definitions,
             return import_gltf(path, definitions, warnings, problems);
         case SceneFormat::pbrt:
             return import_pbrt(path, definitions, warnings, problems);
+        case SceneFormat::tungsten:
+            return import_tungsten(path, definitions, warnings, problems);
         default:
             return {parse_xml(path), {path}};
     }

@@ -1,5 +1,6 @@
-// Readers of OBJ, PLY and Mitsuba's serialized files. They are written by hand because vertices must be in double precision and
-// errors need file:line:column; the available libraries (tinyobjloader as packaged, assimp) read floats and report no position.
+// Readers of OBJ, PLY, Mitsuba's serialized and Tungsten's wo3 files. They are written by hand because vertices must be in double
+// precision and errors need file:line:column; the available libraries (tinyobjloader as packaged, assimp) read floats and report no
+// position.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -36,5 +37,11 @@ struct SerializedMesh : MeshFile {
     bool face_normals = false;  // the file asks for a flat look
 };
 SerializedMesh read_serialized(const std::string& path, std::uint64_t index);
+
+// Tungsten's meshes: .wo3. Normals of no length are kept; v grows upwards. Errors are as above, without the mesh.
+struct Wo3Mesh : MeshFile {
+    std::vector<std::int32_t> materials;  // of the triangles; -1 for none
+};
+Wo3Mesh read_wo3(const std::string& path);
 
 }  // namespace neumann

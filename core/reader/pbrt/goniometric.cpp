@@ -1,8 +1,8 @@
 #include "core/reader/pbrt/goniometric.h"
 
+#include "core/reader/import/find_file.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
-#include "core/reader/pbrt/find_file.h"
 #include "core/reader/pbrt/octahedral.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "core/reader/pbrt/lights.h"
 
 #include "core/base/frame.h"
+#include "core/reader/import/find_file.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
-#include "core/reader/pbrt/find_file.h"
 #include "core/reader/pbrt/goniometric.h"
 #include "core/reader/pbrt/light_scale.h"
 #include "core/reader/pbrt/octahedral.h"

@@ -1,7 +1,7 @@
 #include "core/reader/pbrt/meshes.h"
 
+#include "core/reader/import/find_file.h"
 #include "core/reader/meshes/mesh_ply_header.h"
-#include "core/reader/pbrt/find_file.h"
 #include "core/reader/pbrt/unpack.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/colour/spectrum_to_rgb.h"
 #include "core/image/image_io.h"
+#include "core/reader/import/find_file.h"
 #include "core/reader/import/make_elements.h"
-#include "core/reader/pbrt/find_file.h"
 
 #include <algorithm>
 #include <cctype>

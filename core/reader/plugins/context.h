@@ -12,9 +12,6 @@
 
 namespace neumann::reader {
 
-// Of textures, and of materials, inside each other: as deep as elements in a file may stand, but by references as well.
-inline constexpr std::size_t max_nesting = 100;
-
 // Data shared by textures, and by the meshes on which they are.
 struct TextureStore {
     std::map<std::string, std::shared_ptr<const Texels>> images;  // by path

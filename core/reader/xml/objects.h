@@ -9,6 +9,9 @@
 
 namespace neumann::reader {
 
+// Of textures, and of materials, inside each other: as deep as elements in a file may stand, but by references as well.
+inline constexpr std::size_t max_nesting = 100;
+
 // Ids of what could not be read.
 struct LostIds {
     std::set<std::string> ids;

@@ -1,5 +1,5 @@
-"""Writes one room in the four languages that neumann reads, each in its own words: room.xml has rectangles and a cube where the others
-have meshes. Run it in this folder."""
+"""Writes one room in the five languages that neumann reads, each in its own words: room.xml and room.json have rectangles and a cube
+where the others have meshes. Run it in this folder."""
 
 import base64
 import json
@@ -278,5 +278,38 @@ def write_dae():
 """)
 
 
-for write in (write_xml, write_gltf, write_pbrt, write_dae):
+# The floor is the top of a slab, of which the rest is not seen: a quad's picture would lie the other way round.
+def write_tungsten():
+    def quad(name, position, scale, rotation, **more):
+        return {"name": name, "type": "quad", "transform": {"position": position, "scale": scale, "rotation": rotation}, "bsdf": name, **more}
+
+    area = 1
+    scene = {
+        "media": [],
+        "bsdfs": [{"name": name, "type": "lambert", "albedo": "tiles.png" if color == "tiles" else color[0] if color == WHITE else color}
+                  for name, (_, color) in PARTS.items() if name != "lamp"] + [{"name": "lamp", "type": "null"}],
+        "primitives": [
+            {"name": "floor", "type": "cube", "transform": {"position": [2, -0.05, 2], "scale": [4, 0.1, 4], "rotation": [0, -90, 0]},
+             "bsdf": "floor"},
+            quad("ceiling", [2, 3, 2], 4, [180, 0, 0]),
+            quad("back", [2, 1.5, 0], [4, 1, 3], [90, 0, 0]),
+            quad("left", [0, 1.5, 2], [3, 1, 4], [0, 0, -90]),
+            quad("right", [4, 1.5, 2], [3, 1, 4], [0, 0, 90]),
+            quad("lamp", [1.5, 2.9, 1.5], 1, [0, 0, 180], power=[math.pi * area * c for c in RADIANCE]),
+            {"name": "box", "type": "cube", "transform": {"position": [2.9, 0.6, 1.6], "scale": [1, 1.2, 1], "rotation": [0, -30, 0]},
+             "bsdf": "box"},
+            {"name": "screen", "type": "mesh", "file": "screen.obj", "smooth": True, "bsdf": "screen"},
+            {"name": "bulb", "type": "point", "transform": {"position": BULB}, "power": [4 * math.pi * c for c in INTENSITY]},
+        ],
+        "camera": {"type": "pinhole", "fov": 2 * math.degrees(math.atan(math.tan(math.radians(FOV / 2)) * WIDTH / HEIGHT)),
+                   "resolution": [WIDTH, HEIGHT], "reconstruction_filter": "box", "tonemap": "filmic",
+                   "transform": {"position": EYE, "look_at": [2, 1.5, 0], "up": [0, 1, 0]}},
+        "integrator": {"type": "path_tracer", "max_bounces": 64},
+        "renderer": {"spp": 64},
+    }
+    with open("room.json", "w") as file:
+        json.dump(scene, file, indent=1)
+
+
+for write in (write_xml, write_gltf, write_pbrt, write_dae, write_tungsten):
     write()

@@ -1,4 +1,4 @@
-#include "core/reader/pbrt/find_file.h"
+#include "core/reader/import/find_file.h"
 
 #include "core/reader/meshes/mesh_text.h"
 
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann::reader::pbrt {
+namespace neumann::reader {
 
 namespace fs = std::filesystem;
 
@@ -40,4 +40,4 @@ std::string name_for_elements(const std::string& path, const std::string& main_f
     return name.empty() || name.starts_with("..") ? path : name;
 }
 
-}  // namespace neumann::reader::pbrt
+}  // namespace neumann::reader

@@ -1,6 +1,5 @@
-#include "core/reader/gltf/json_object.h"
+#include "core/reader/import/json_object.h"
 
-#include "core/reader/gltf/extensions.h"
 #include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace neumann::reader::gltf {
+namespace neumann::reader {
 
 namespace {
 
@@ -17,12 +16,6 @@ std::string escaped(const std::string& name) {
     std::string result;
     for (const char c : name) result += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
     return result;
-}
-
-std::string with_article(const nlohmann::json& value) {
-    if (value.is_null()) return "null";
-    const std::string kind = value.type_name();
-    return (kind == "array" || kind == "object" ? "an " : "a ") + kind;
 }
 
 std::string expected_in(const Range& range) {
@@ -34,6 +27,12 @@ std::string expected_in(const Range& range) {
 bool is_within(double value, const Range& range) { return value >= range.least && value <= range.most; }
 
 }  // namespace
+
+std::string with_article(const nlohmann::json& value) {
+    if (value.is_null()) return "null";
+    const std::string kind = value.type_name();
+    return (kind == "array" || kind == "object" ? "an " : "a ") + kind;
+}
 
 void Notes::left_out(const std::string& extension) {
     if (extensions.insert(extension).second) warnings.add(fmt::format("the extension {} is not known and left out", extension));
@@ -119,6 +118,12 @@ Rgb JsonObject::color(const std::string& name, double missing, Range range) {
     return {c[0], c[1], c[2]};
 }
 
+const nlohmann::json* JsonObject::value(const std::string& name) {
+    asked_.push_back(name);
+    const auto found = value_->find(name);
+    return found == value_->end() ? nullptr : &*found;
+}
+
 std::optional<JsonObject> JsonObject::object(const std::string& name) {
     const nlohmann::json* found = find(name, &nlohmann::json::is_object, "an object");
     return found ? std::optional(JsonObject(*found, place_of(name), *notes_)) : std::nullopt;
@@ -195,8 +200,8 @@ void JsonObject::finish() {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
     for (const auto& [name, value] : value_->items()) {
-        if (name == "extras" || is_asked(asked_, name)) continue;
-        if (name != "extensions") {
+        if (is_asked(asked_, name) || (notes_->has_no_effect && name == "extras")) continue;
+        if (!notes_->has_no_effect || name != "extensions") {
             const std::string meant = did_you_mean(name, asked_);
             if (meant.empty())
                 notes_->warnings.add(fmt::format("the unknown property '{}' left out", name));
@@ -210,8 +215,8 @@ void JsonObject::finish() {
             continue;
         }
         for (const auto& [extension, what] : value.items())
-            if (!is_asked(asked_extensions_, extension) && !has_no_effect(extension)) notes_->left_out(extension);
+            if (!is_asked(asked_extensions_, extension) && !notes_->has_no_effect(extension)) notes_->left_out(extension);
     }
 }
 
-}  // namespace neumann::reader::gltf
+}  // namespace neumann::reader

@@ -1,4 +1,4 @@
-// The objects and arrays of a glTF file's JSON, with their places. Whoever reads an object asks for the properties that it knows;
+// The objects and arrays of a JSON file, with their places. Whoever reads an object asks for the properties that it knows;
 // finish() then tells of the others, so that nothing is skipped in silence. A property that is wrong is added to the problems and
 // counts as missing, and the others are read as well.
 #pragma once
@@ -17,12 +17,14 @@
 
 #include <nlohmann/json.hpp>
 
-namespace neumann::reader::gltf {
+namespace neumann::reader {
 
 // Where problems and warnings of a file go.
 struct Notes {
     Warnings& warnings;
     Problems& problems;
+    // Of glTF, whose objects may have `extensions` and `extras`: whether an extension changes no picture. Null for other languages.
+    bool (*has_no_effect)(const std::string& extension) = nullptr;
     std::set<std::string> extensions = {};  // unknown ones that have been told
     std::set<std::string> refused = {};     // those that the file requires, among them
 
@@ -32,6 +34,9 @@ struct Notes {
 // A place below another: its pointer, and this name or index in it.
 Location below(const Location& place, const std::string& name);
 Location below(const Location& place, std::size_t index);
+
+// "a number", "an array", "null": what a value is.
+std::string with_article(const nlohmann::json& value);
 
 struct Range {
     double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
@@ -80,6 +85,8 @@ public:
     std::vector<double> numbers(const std::string& name, std::vector<double> missing, Range range = {});
     Rgb color(const std::string& name, double missing, Range range);
 
+    // Of any kind, or null.
+    const nlohmann::json* value(const std::string& name);
     std::optional<JsonObject> object(const std::string& name);
     JsonList list(const std::string& name);
     std::optional<JsonObject> extension(const std::string& name);
@@ -90,6 +97,7 @@ public:
 
     // Throws InputError, or Told if the property is there and wrong.
     [[noreturn]] void fail_missing(const std::string& name, const std::string& expected) const;
+    bool is_wrong(const std::string& name) const { return wrong_.count(name) > 0; }
     // Adds the problem at the property.
     void complain(const std::string& name, const std::string& what);
     // Properties that have no effect on a picture.
@@ -111,4 +119,4 @@ private:
 // Whether an index is one of a list's; otherwise adds the problem, unless the list itself has one.
 bool is_index(const nlohmann::json& value, const JsonList& list, const std::string& what, const Location& place, Notes& notes);
 
-}  // namespace neumann::reader::gltf
+}  // namespace neumann::reader

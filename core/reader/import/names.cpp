@@ -1,11 +1,11 @@
-#include "core/reader/gltf/names.h"
+#include "core/reader/import/names.h"
 
 #include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
 
-namespace neumann::reader::gltf {
+namespace neumann::reader {
 
 std::string Names::unique(const std::string& wished) {
     std::string name = wished;
@@ -17,4 +17,4 @@ std::string Names::unique(const std::string& wished) {
     return result;
 }
 
-}  // namespace neumann::reader::gltf
+}  // namespace neumann::reader

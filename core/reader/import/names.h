@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace neumann::reader::gltf {
+namespace neumann::reader {
 
 class Names {
 public:
@@ -17,4 +17,4 @@ private:
     std::map<std::string, int> numbers_;  // the last of each name
 };
 
-}  // namespace neumann::reader::gltf
+}  // namespace neumann::reader

@@ -1,0 +1,57 @@
+#include "core/reader/import/json_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace neumann::reader {
+
+namespace {
+
+Location place_in(const std::string& path, std::string_view text, std::size_t offset) {
+    const std::string_view before = text.substr(0, std::min(offset, text.size()));
+    const std::size_t line_start = before.rfind('\n') + 1;  // 0 where there is none
+    return {path, static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+            static_cast<int>(before.size() - line_start) + 1};
+}
+
+// What the library says beside its own name and the place.
+std::string reason(const std::exception& e) {
+    const std::string_view what = e.what(), mark = ": ";
+    const std::size_t at = what.find(mark);
+    return std::string(at == std::string_view::npos ? what : what.substr(at + mark.size()));
+}
+
+}  // namespace
+
+nlohmann::json parse_json(const std::string& path, std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    try {
+        return nlohmann::json::parse(text.begin(), text.end());
+    } catch (const nlohmann::json::parse_error& e) {
+        throw InputError(place_in(path, text, e.byte > 0 ? e.byte - 1 : 0), "broken JSON: " + reason(e));
+    } catch (const nlohmann::json::exception& e) {
+        throw InputError(Location{path}, fmt::format("broken JSON: {}", e.what()));
+    }
+}
+
+std::string read_bytes(const std::string& path, const Location& place) {
+    namespace fs = std::filesystem;
+    // The scene file itself needs no name beside its place.
+    const std::string name = place.pointer.empty() ? "" : fmt::format("'{}' ", path);
+    std::error_code error;
+    if (!fs::exists(path, error))
+        throw InputError(place, name.empty() ? "there is no such file" : fmt::format("there is no file '{}'", path));
+    if (!fs::is_regular_file(path, error))
+        throw InputError(place, fmt::format("{}is a {}, expected a {}file", name,
+                                            fs::is_directory(path, error) ? "folder" : "device", name.empty() ? "scene " : ""));
+    std::ifstream stream(path, std::ios::binary);
+    std::string bytes(fs::file_size(path, error), '\0');
+    if (error || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+        throw InputError(place, name + "cannot be read");
+    return bytes;
+}
+
+}  // namespace neumann::reader

@@ -1,0 +1,36 @@
+#include "core/reader/tungsten/import_tungsten.h"
+
+#include "core/reader/import/json_file.h"
+#include "core/reader/import/make_elements.h"
+#include "core/reader/import/surroundings.h"
+#include "core/reader/tungsten/camera.h"
+#include "core/reader/tungsten/integrator.h"
+#include "core/reader/tungsten/lights.h"
+#include "core/reader/tungsten/primitives.h"
+
+namespace neumann::reader {
+
+RawScene import_tungsten(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
+    using namespace tungsten;
+    const nlohmann::json json = parse_json(path, read_bytes(path, {path}));
+    RawScene scene{make_scene_element({path}), {path}};
+    Importing importing{scene, definitions, {warnings, problems}};
+    JsonObject root(json, {path}, importing.notes);
+    if (!root.has("primitives") && !root.has("bsdfs") && !root.has("camera"))
+        throw InputError(root.place(), "the file has no primitives, bsdfs nor camera, expected a scene of Tungsten");
+    problems.attempt(root.place(), [&] { read_integrator(root, importing); });
+    if (!problems.attempt(root.place(), [&] { read_camera(root, importing); }))
+        add(scene.root, make_object("sensor", "perspective", root.place()));  // so that it is not told twice
+    Textures textures(importing);
+    Bsdfs bsdfs(root, textures, importing);
+    bsdfs.add_all();
+    Primitives primitives(root, bsdfs, textures, importing);
+    primitives.add_all();
+    if (!primitives.emit()) add_surroundings(scene.root, warnings);  // as in Tungsten
+    // Media count where something names them, and the command line says how to render.
+    root.ignore({"media", "renderer", "name"});
+    root.finish();
+    return scene;
+}
+
+}  // namespace neumann::reader
