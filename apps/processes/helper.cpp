@@ -22,6 +22,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// How often messages are looked for. It takes time from the thread that samples, which has the next share by then.
+constexpr std::chrono::milliseconds moment(2);
+
 class Helper {
 public:
     explicit Helper(Processes& processes) : processes_(processes) {}
@@ -38,7 +41,7 @@ public:
                 }
             }
             waits = !answer() && waits;
-            if (waits) std::this_thread::sleep_for(std::chrono::microseconds(500));
+            if (waits) std::this_thread::sleep_for(moment);
         }
     }
 

@@ -10,6 +10,7 @@ namespace {
 
 class Writer {
 public:
+    explicit Writer(std::size_t expected) { bytes_.reserve(expected); }
     template <class T>
     void number(const T& x) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -60,7 +61,8 @@ private:
 
 std::vector<std::byte> as_bytes(const SampledShare& sampled) {
     const Tally& tally = sampled.tally;
-    Writer out;
+    constexpr std::size_t room_for_tally = 1 << 16;
+    Writer out(std::span(sampled.data).size_bytes() + std::span(sampled.ranges.of).size_bytes() + room_for_tally);
     out.numbers(sampled.data);
     out.numbers(sampled.ranges.of);
     out.numbers(tally.rays);

@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t pieces_each = 8;
 // One that is sampled, and one for when that is done.
 constexpr std::size_t shares_here = 2;
-// How often messages are looked for.
-constexpr std::chrono::microseconds moment(500);
+// How often messages are looked for. It takes time from the thread that samples.
+constexpr std::chrono::milliseconds moment(2);
 
 }  // namespace
 
