@@ -2,22 +2,21 @@
 
 #include "core/base/module.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 
 namespace neumann {
 
 namespace {
 
-// What launchers tell the processes that they start: Open MPI, MPICH and its relatives, and whoever starts by PMIx, like Slurm.
+int number_in(const char* variable) {
+    const char* const text = std::getenv(variable);
+    return text == nullptr ? 0 : std::atoi(text);
+}
+
+// What launchers tell the processes that they start: Open MPI, MPICH and its relatives, and Slurm where it starts them by PMIx.
 bool was_launched_with_others() {
-    constexpr std::array sizes = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
-    const bool several = std::ranges::any_of(sizes, [](const char* name) {
-        const char* const size = std::getenv(name);
-        return size != nullptr && std::atoi(size) > 1;
-    });
-    return several || std::getenv("PMIX_RANK") != nullptr;
+    return number_in("OMPI_COMM_WORLD_SIZE") > 1 || number_in("PMI_SIZE") > 1 ||
+           (std::getenv("PMIX_RANK") != nullptr && number_in("SLURM_STEP_NUM_TASKS") > 1);
 }
 
 }  // namespace
