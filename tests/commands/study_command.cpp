@@ -1,56 +1,10 @@
-// neumann study: what it writes, what it refuses, and that it goes on where it was cut off.
-#include "tests/commands/render_output.h"
-
-#include <cstdlib>
-#include <random>
+// neumann study: what it writes, and what it refuses.
+#include "tests/commands/study_output.h"
 
 namespace neumann::study_command_test {
 
-using Strings = std::vector<std::string>;
-
-class StudyCommand : public RenderTest {
+class StudyCommand : public StudyTest {
 protected:
-    StudyCommand() {
-        write("scene.xml", plates("width=\"41\" height=\"3\""));
-        setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);  // of the processes that are started from here
-    }
-    ~StudyCommand() override { unsetenv("XDG_CACHE_HOME"); }
-
-    static Strings joined(Strings a, const Strings& b) {
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
-    }
-    Finished study(const std::string& output, const Strings& options) const {
-        const Finished done = run(joined({"study", "scene.xml", "-o", output, "--quiet"}, options));
-        EXPECT_EQ(done.exit_code, 0) << done.err;
-        return done;
-    }
-    nlohmann::json study_json(const std::string& output) const {
-        return nlohmann::json::parse(text_of(path(output) / "study.json"));
-    }
-    // Of a picture of study.json, by its bounce.
-    static nlohmann::json picture(const nlohmann::json& study, const std::string& bounce) {
-        for (const nlohmann::json& p : study.at("pictures"))
-            if (p.at("bounce") == bounce) return p;
-        return nullptr;
-    }
-    static nlohmann::json method(const nlohmann::json& study, const std::string& bounce, const std::string& name) {
-        const nlohmann::json methods = picture(study, bounce).at("methods");
-        for (const nlohmann::json& m : methods)
-            if (m.at("method") == name) return m;
-        return nullptr;
-    }
-    // The rows without what the clock says.
-    std::string figures(const std::string& output) const {
-        const Table table(path(output) / "study.csv");
-        std::string all;
-        for (std::size_t row = 0; row < table.size(); ++row) {
-            for (const std::string& column : table.columns())
-                if (!column.ends_with("_seconds") && column != "peak_memory") all += table.text(row, column) + ",";
-            all += "\n";
-        }
-        return all;
-    }
     const Strings small{
         "--methods", "walk,walk:direct=light:sampler=independent,matrix", "--samples", "4,16", "--repeats", "4", "-n", "2"};
 };
@@ -289,77 +243,6 @@ TEST_F(StudyCommand, Refused) {
     render("scene.xml", "single", {"-n", "1", "--spp", "1", "--quiet"});
     EXPECT_EQ(refusal({"--methods", "walk", "--samples", "4", "--reference", "single"}),
               "the reference does not know its error: it is of a single replicate; take one of more samples\n");
-}
-
-// Killed or interrupted, and gone on with, it finds what it would have found at once.
-TEST_F(StudyCommand, Resumed) {
-    const Strings options = joined({"--methods", "walk,patches:patches=100:directions=64", "--samples", "1024,4096"},
-                                   {"--repeats", "6", "-n", "1", "--reference-spp", "1024"});
-    const auto begun = [&] {
-        for (int i = 0; i < 3000; ++i) {
-            if (text_of(path("a/study.journal")).find("\"run\"") != std::string::npos) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        return false;
-    };
-    const Strings arguments = joined({"study", "scene.xml", "-o", "a", "--quiet"}, options);
-    {
-        RunningCommand command = start(arguments);
-        ASSERT_TRUE(begun());
-        command.signal(SIGKILL);
-        EXPECT_EQ(command.wait().exit_code, 128 + SIGKILL);
-    }
-    EXPECT_FALSE(std::filesystem::exists(path("a/study.csv")));
-    EXPECT_EQ(refused(arguments),
-              "a: holds a study that was not finished; --resume goes on with it, and to begin another one there, "
-              "remove study.journal\n");
-    EXPECT_EQ(refused(joined(arguments, {"--resume", "--seed", "5"})),
-              "--resume: seed is 5, and the study that was cut off has 0\n");
-    EXPECT_EQ(refused(joined(arguments, {"--resume", "-D", "height=4"})),
-              "--resume: definitions is {\"height\":\"4\"}, and the study that was cut off has {}\n");
-    // A line that was being written does not count.
-    std::ofstream(path("a/study.journal"), std::ios::app) << "{\"run\":{\"meth";
-    {
-        RunningCommand command = start(joined(arguments, {"--resume"}));
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        command.signal(SIGINT);
-        const int code = command.wait().exit_code;
-        // The signal ends it before it is caught, or while nothing is done yet, or later.
-        EXPECT_TRUE(code == 0 || code == 1 || code == 128 + SIGINT) << code;
-    }
-    if (std::filesystem::exists(path("a/study.journal"))) {
-        EXPECT_EQ(run(joined(arguments, {"--resume"})).exit_code, 0);
-    }
-    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
-    EXPECT_EQ(study_json("a").at("complete"), true);
-    study("whole", options);
-    EXPECT_EQ(figures("a"), figures("whole"));
-}
-
-// A run that takes longer than the study is let live: wherever it dies, 20 moments, it goes on from what is on the disk.
-using StudyCommandSlow = StudyCommand;
-TEST_F(StudyCommandSlow, ResumedAfterTwentyDeaths) {
-    const Strings options = joined({"--methods", "walk,corrected:patches=100:directions=64", "--samples", "8192,16384"},
-                                   {"--repeats", "2", "-n", "1", "--reference-spp", "256", "--checkpoint", "0.05", "-t", "1"});
-    study("whole", options);
-    const Strings arguments = joined({"study", "scene.xml", "-o", "a", "--quiet"}, options);
-    const auto begun = [&] { return text_of(path("a/study.journal")).find('\n') != std::string::npos; };
-    std::mt19937 random(1);
-    std::uniform_int_distribution<int> wait(300, 1500);
-    int deaths = 0, within_runs = 0;
-    for (; deaths < 20; ++deaths) {
-        RunningCommand command = start(deaths > 0 ? joined(arguments, {"--resume"}) : arguments);
-        for (int i = 0; i < 3000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        std::this_thread::sleep_for(std::chrono::milliseconds(wait(random)));
-        command.signal(SIGKILL);
-        if (command.wait().exit_code == 0) break;
-        within_runs += std::filesystem::exists(path("a/study.unfinished"));
-    }
-    EXPECT_GT(deaths, 5);
-    EXPECT_GT(within_runs, 3);
-    if (begun()) run(joined(arguments, {"--resume"}));
-    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
-    EXPECT_EQ(figures("a"), figures("whole"));
 }
 
 // A light that touches a wall: asked for alone, it gives bounce 1 an infinite variance.
