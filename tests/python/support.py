@@ -1,5 +1,6 @@
 """What the tests share: scenes, the command, and an empty folder for each."""
 
+import io
 import os
 import subprocess
 import tempfile
@@ -26,6 +27,13 @@ def furnace(albedo=0.5, res=8):
 
 def command(*arguments, folder):
     return subprocess.run([os.environ["NEUMANN"], *map(str, arguments)], cwd=folder, capture_output=True, text=True)
+
+
+class Terminal(io.StringIO):
+    """What a terminal was shown, in place of stderr."""
+
+    def isatty(self):
+        return True
 
 
 class Case(unittest.TestCase):

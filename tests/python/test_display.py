@@ -14,7 +14,7 @@ from unittest import mock
 
 import neumann
 import numpy as np
-from support import Case, cornell, furnace
+from support import Case, Terminal, cornell, furnace
 
 
 class Tags(html.parser.HTMLParser):
@@ -78,10 +78,6 @@ class Display(Case):
         self.assertRegex(repr(furnace().render(bounces=1, spp=2)), "bounces 0 to 1, 8 × 8 pixels, 2 samples a pixel, samples reached")
 
     def test_progress_in_a_terminal(self):
-        class Terminal(io.StringIO):
-            def isatty(self):
-                return True
-
         for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
             with contextlib.redirect_stderr(stream), mock.patch.dict(os.environ, COLUMNS="200"):
                 cornell(32).render(bounces=4, time=1.0)

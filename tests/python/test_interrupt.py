@@ -1,6 +1,8 @@
 """Ctrl-C ends work early and keeps what there is; meanwhile other threads of Python run."""
 
+import contextlib
 import os
+import re
 import signal
 import threading
 import time
@@ -8,7 +10,7 @@ import unittest
 
 import neumann
 import numpy as np
-from support import Case, cornell, furnace
+from support import Case, Terminal, cornell, furnace
 
 
 class Interrupt(Case):
@@ -32,7 +34,12 @@ class Interrupt(Case):
         return caught.exception, time.monotonic() - sent[0]
 
     def test_render(self):
-        stop, seconds = self.interrupted(lambda: cornell(32).render(bounces=4, time=60), 1.0)
+        # Before the first samples, while methods are tried, there would be nothing to keep.
+        with contextlib.redirect_stderr(Terminal()) as shown:
+            stop, seconds = self.interrupted(
+                lambda: cornell(32).render(bounces=4, time=60),
+                when=lambda: re.search(r"\b[1-9]\d* samples a pixel", shown.getvalue()),
+            )
         self.assertLess(seconds, 2.0)
         self.assertEqual(stop.result.run.samples.outcome, "interrupted")
         self.assertEqual(stop.result.terms.shape, (5, 32, 32, 3))
