@@ -28,19 +28,23 @@ public:
           keeps_(keeps),
           tell_(std::move(tell)) {}
 
-    double seconds() const { return seconds_; }
-
-    // As Saving::keep. Throws RunError, which tells what to do, if the state cannot be written.
-    void keep(const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series, bool is_last);
+    // For a render that goes on from there, or begins. What it keeps is written here, and RunError, thrown if that fails, tells what
+    // to do. Refers to this object.
+    Saving saving(std::optional<RenderState> from);
 
 private:
-    bool is_wanted(const RenderedSeries& series);
+    void keep(const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series, bool is_last);
+    void keep_fields(const RecordedRender& render, const std::optional<MethodChoice>& choice, const FieldProgress& progress);
+    bool is_wanted(double bytes);
+    // Whether a state is due, from the time since the last.
+    bool is_due() const;
+    void save(const std::function<void()>& write, const std::string& before);
 
     OutputFolder& folder_;
     RequestOnDisk request_;
     std::string resuming_;
     double seconds_;
-    bool is_asked_, keeps_, has_told_ = false;
+    bool is_asked_, keeps_, has_told_ = false, has_saved_ = false;
     std::function<void(const std::string&)> tell_;
     std::uint64_t samples_on_disk_ = 0;
     std::size_t rows_on_disk_ = 0;

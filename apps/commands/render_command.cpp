@@ -45,6 +45,7 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
     const auto file = saved_render_in(request.resume);
     if (!file) return std::nullopt;
     RenderState state = read_saved_render(*file);
+    if (state.fields) return state;
     if (!state.series.merged.empty())
         throw InputError(
             fmt::format("--resume {}: was merged of several seeds; render another seed and merge that, too", request.resume));
@@ -127,9 +128,16 @@ int render_command(const RenderRequest& given) {
     };
     Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
                             request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
-    Saving saving{std::move(state), {}, 0.5 * checkpoints.seconds()};
-    saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
-    const auto rendering = render(request, scene, watch, std::move(saving));
+    const auto rendering = [&] {
+        try {
+            return render(request, scene, watch, checkpoints.saving(std::move(state)));
+        } catch (const RunError& error) {
+            if (!interrupted() || !std::filesystem::exists(folder->saved())) throw;
+            throw RunError(fmt::format("{}; neumann render --resume {} goes on", error.what(), request.output));
+        }
+    }();
+    // Of fields, only what is not yet read is worth keeping.
+    if (fields && rendering->series.outcome != Outcome::interrupted) folder->forget();
     line.clear();
     rendering->seconds += reading_seconds;
     if (const Processes* const processes = launched()) {

@@ -47,10 +47,8 @@ void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const
         const Json number = {{"run", at}};
         Checkpoints checkpoints(folder, {number, data.scene.hash}, "the same command with --resume", data.request.checkpoint, false,
                                 [](const std::string&) {});
-        Saving saving{begun(folder, number), {}, 0.5 * checkpoints.seconds()};
-        saving.keep = [&](const auto&... so_far) { checkpoints.keep(so_far...); };
         const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot,
-                                       {.stop = interrupted, .crew = data.request.crew}, std::move(saving));
+                                       {.stop = interrupted, .crew = data.request.crew}, checkpoints.saving(begun(folder, number)));
         if (!result) return;
         StudyRun run = study_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();

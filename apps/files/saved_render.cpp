@@ -122,6 +122,33 @@ std::vector<Checkpoint> checkpoints_from(std::span<const double> numbers, std::s
     return checkpoints;
 }
 
+Json as_json(const FieldSettings& s) {
+    return {{"reading", s.reading},
+            {"bounces", s.bounces},
+            {"patches", s.patching.patches},
+            {"grading", s.patching.grading},
+            {"rays", s.rays},
+            {"light_samples", s.light_samples},
+            {"samples", s.samples},
+            {"gather_rays", s.gather_rays},
+            {"replicates", s.replicates},
+            {"seed", s.seed},
+            {"rest", s.rest}};
+}
+
+FieldSettings settings_from(const Json& json) {
+    return {.reading = json.at("reading").get<FieldReading>(),
+            .bounces = json.at("bounces"),
+            .patching = {json.at("patches"), json.at("grading")},
+            .rays = json.at("rays"),
+            .light_samples = json.at("light_samples"),
+            .samples = json.at("samples"),
+            .gather_rays = json.at("gather_rays"),
+            .replicates = json.at("replicates"),
+            .seed = json.at("seed"),
+            .rest = json.at("rest")};
+}
+
 std::string program() { return fmt::format("{}, {}", NEUMANN_VERSION, embree_version()); }
 
 [[noreturn]] void damaged(const std::filesystem::path& file, const std::string& why) {
@@ -183,13 +210,8 @@ Json read_header(HashedFile& file, const std::filesystem::path& path) {
     }
 }
 
-}  // namespace
-
-void save_render(OutputFolder& folder, const RequestOnDisk& request, const RecordedRender& render,
-                 const std::optional<MethodChoice>& choice, const RenderedSeries& series) {
-    const SeriesMoments& moments = series.moments;
-    const std::size_t terms = series.convergence.empty() ? 0 : series.convergence.front().term_error.size();
-    const std::vector<double> convergence = convergence_of(series.convergence, terms);
+// What the header of every state tells.
+Json header_of(const RequestOnDisk& request, const RecordedRender& render, const std::optional<MethodChoice>& choice) {
     Json header = {{"program", program()},
                    {"request", request.options},
                    {"scene_hash", request.scene_hash},
@@ -197,30 +219,99 @@ void save_render(OutputFolder& folder, const RequestOnDisk& request, const Recor
                    {"seed", render.seed},
                    {"bounces", render.bounces},
                    {"rest_probability", render.rest_probability},
-                   {"replicate_size", render.replicate_size},
-                   {"picture", {moments.width(), moments.height(), moments.quantities()}},
-                   {"samples", series.samples},
-                   {"seconds", series.seconds},
-                   {"tally", as_json(series.tally)},
-                   {"merged", as_json(series.merged)},
-                   {"checkpoints", {series.convergence.size(), terms}},
-                   {"ranges", moments.ranges().of.size()},
-                   {"nodes", Json::array()}};
+                   {"replicate_size", render.replicate_size}};
     if (choice) header["choice"] = as_json(*choice);
-    for (const SeriesMoments::Node& node : moments.nodes()) header["nodes"].push_back({node.first, node.count, node.data->size()});
+    return header;
+}
 
+void save_pieces(OutputFolder& folder, const Json& header, std::vector<std::string_view> pieces) {
     const std::string text = header.dump();
     const std::uint64_t size = text.size();
-    std::vector<std::string_view> pieces = {magic, bytes_of(&size, 1), text};
-    for (const SeriesMoments::Node& node : moments.nodes()) pieces.push_back(bytes_of(node.data->data(), node.data->size()));
-    pieces.push_back(bytes_of(moments.ranges().of.data(), moments.ranges().of.size()));
-    pieces.push_back(bytes_of(convergence.data(), convergence.size()));
+    pieces.insert(pieces.begin(), {magic, bytes_of(&size, 1), text});
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
     XXH3_64bits_reset(state.get());
     for (const std::string_view piece : pieces) XXH3_64bits_update(state.get(), piece.data(), piece.size());
     const std::uint64_t hash = XXH3_64bits_digest(state.get());
     pieces.push_back(bytes_of(&hash, 1));
     folder.save(pieces);
+}
+
+FieldProgress read_fields(HashedFile& file, const Json& fields) {
+    FieldProgress progress;
+    progress.settings = settings_from(fields.at("settings"));
+    fields.at("seconds").get_to(progress.seconds);
+    for (const Json& of : fields.at("series")) {
+        SavedSeries series;
+        of.at("has_links").get_to(series.has_links);
+        of.at("rest_converges").get_to(series.rest_converges);
+        of.at("rays").get_to(series.rays);
+        of.at("light_rays").get_to(series.light_rays);
+        for (const Json& p : of.at("power")) series.power.push_back({p.at(0), p.at(1), p.at(2), p.at(3)});
+        series.fields = file.numbers<float>(of.at("floats").get<std::uint64_t>());
+        progress.series.push_back(std::move(series));
+    }
+    std::uint64_t size = 0;
+    for (const Json& read : fields.at("read")) size += read.at(3).get<std::uint64_t>();
+    progress.values = file.numbers<float>(size);
+    const float* next = progress.values.data();
+    for (const Json& read : fields.at("read")) {
+        const auto count = read.at(3).get<std::size_t>();
+        progress.read.push_back({read.at(0), read.at(1), read.at(2), {next, count}});
+        next += count;
+    }
+    return progress;
+}
+
+}  // namespace
+
+void save_render(OutputFolder& folder, const RequestOnDisk& request, const RecordedRender& render,
+                 const std::optional<MethodChoice>& choice, const RenderedSeries& series) {
+    const SeriesMoments& moments = series.moments;
+    const std::size_t terms = series.convergence.empty() ? 0 : series.convergence.front().term_error.size();
+    const std::vector<double> convergence = convergence_of(series.convergence, terms);
+    Json header = header_of(request, render, choice);
+    header.update({{"picture", {moments.width(), moments.height(), moments.quantities()}},
+                   {"samples", series.samples},
+                   {"seconds", series.seconds},
+                   {"tally", as_json(series.tally)},
+                   {"merged", as_json(series.merged)},
+                   {"checkpoints", {series.convergence.size(), terms}},
+                   {"ranges", moments.ranges().of.size()},
+                   {"nodes", Json::array()}});
+    for (const SeriesMoments::Node& node : moments.nodes()) header["nodes"].push_back({node.first, node.count, node.data->size()});
+
+    std::vector<std::string_view> pieces;
+    for (const SeriesMoments::Node& node : moments.nodes()) pieces.push_back(bytes_of(node.data->data(), node.data->size()));
+    pieces.push_back(bytes_of(moments.ranges().of.data(), moments.ranges().of.size()));
+    pieces.push_back(bytes_of(convergence.data(), convergence.size()));
+    save_pieces(folder, header, pieces);
+}
+
+void save_fields(OutputFolder& folder, const RequestOnDisk& request, const RecordedRender& render,
+                 const std::optional<MethodChoice>& choice, const FieldProgress& progress) {
+    Json header = header_of(request, render, choice);
+    Json& fields = header["fields"];
+    fields = {{"settings", as_json(progress.settings)},
+              {"seconds", progress.seconds},
+              {"series", Json::array()},
+              {"read", Json::array()}};
+    std::vector<std::string_view> pieces;
+    for (const SavedSeries& series : progress.series) {
+        Json power = Json::array();
+        for (const PowerOfTerm& p : series.power) power.push_back({p.emitted, p.left, p.caught, p.absorbed});
+        fields["series"].push_back({{"floats", series.fields.size()},
+                                    {"has_links", series.has_links},
+                                    {"rest_converges", series.rest_converges},
+                                    {"rays", series.rays},
+                                    {"light_rays", series.light_rays},
+                                    {"power", std::move(power)}});
+        pieces.push_back(bytes_of(series.fields.data(), series.fields.size()));
+    }
+    for (const FieldProgress::Read& read : progress.read) {
+        fields["read"].push_back({read.begin, read.end, read.rays, read.values.size()});
+        pieces.push_back(bytes_of(read.values.data(), read.values.size()));
+    }
+    save_pieces(folder, header, pieces);
 }
 
 std::optional<std::filesystem::path> saved_render_in(const std::filesystem::path& folder) {
@@ -253,6 +344,15 @@ RenderState read_saved_render(const std::filesystem::path& path) {
     HashedFile file(path);
     const Json header = read_header(file, path);
     try {
+        const RecordedRender render{method_from_json(header.at("options")), header.at("seed"), header.at("bounces"),
+                                    header.at("rest_probability"), header.at("replicate_size")};
+        std::optional<MethodChoice> choice;
+        if (header.contains("choice")) choice = choice_from(header.at("choice"));
+        if (header.contains("fields")) {
+            FieldProgress fields = read_fields(file, header.at("fields"));
+            file.expect_hash();
+            return {render, choice, {SeriesMoments(0, 0, 0), Tally(0), {}}, std::move(fields)};
+        }
         const Json& picture = header.at("picture");
         RenderedSeries series{{picture.at(0), picture.at(1), picture.at(2)}, tally_from(header.at("tally")), {}};
         std::vector<SeriesMoments::Node> nodes;
@@ -267,12 +367,7 @@ RenderState read_saved_render(const std::filesystem::path& path) {
         series.merged = merged_from(header.at("merged"));
         header.at("replicate_size").get_to(series.replicate_size);
         file.expect_hash();
-        RenderState state{{method_from_json(header.at("options")), header.at("seed"), header.at("bounces"),
-                           header.at("rest_probability"), header.at("replicate_size")},
-                          {},
-                          std::move(series)};
-        if (header.contains("choice")) state.choice = choice_from(header.at("choice"));
-        return state;
+        return {render, choice, std::move(series)};
     } catch (const Json::exception& e) {
         damaged(path, e.what());
     }

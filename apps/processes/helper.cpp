@@ -4,6 +4,9 @@
 #include "apps/processes/launch.h"
 #include "apps/processes/render_message.h"
 #include "apps/processes/share_message.h"
+#include "apps/processes/together.h"
+#include "operators/methods/method_plan.h"
+#include "operators/pictures/field_rendering.h"
 #include "operators/pictures/share_queue.h"
 
 #include <nlohmann/json.hpp>
@@ -14,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace neumann {
@@ -60,6 +64,10 @@ private:
             }
             number_ = message.at("number");
             shares_->add(share_from(message.at("share")), outdo);
+        } else if (what == "fields") {
+            begin_fields(render_message_from(message));
+        } else if (what == "render fields") {
+            render_share_of(field_settings_from(numbers));
         } else if (what == "drop" && shares_) {
             shares_->drop();
         } else if (what == "end") {
@@ -69,17 +77,36 @@ private:
         }
     }
 
-    void begin(RenderMessage message) {
+    void begin(const RenderMessage& message) {
+        prepare(message);
+        samples_.emplace(*scene_, message.render, message.colors);
+        shares_.emplace(samples_->sampler());
+    }
+
+    void begin_fields(const RenderMessage& message) {
+        prepare(message);
+        if (auto reduced = without_unlit_materials(plan_for(message.render.method, *scene_), *scene_))
+            without_unlit_.emplace(std::move(*reduced));
+    }
+
+    void prepare(const RenderMessage& message) {
         shares_.reset();
         samples_.reset();
+        without_unlit_.reset();
         threads_.reset();
         threads_.emplace(threads_of_process(message.threads));
         if (!scene_ || message.scene != on_disk_) {
             scene_.emplace(read(message.scene));
             on_disk_ = message.scene;
         }
-        samples_.emplace(*scene_, message.render, message.colors);
-        shares_.emplace(samples_->sampler());
+    }
+
+    void render_share_of(const FieldSettings& settings) {
+        try {
+            together(processes_, [&] { return render_fields(without_unlit_ ? *without_unlit_ : *scene_, settings, {}, &processes_); });
+        } catch (const InputError&) {
+            // The first process finds it, too.
+        }
     }
 
     // Sends what is sampled; whether there was something.
@@ -104,6 +131,7 @@ private:
     std::optional<ThreadLimit> threads_;
     SceneOnDisk on_disk_;
     std::optional<Scene> scene_;
+    std::optional<Scene> without_unlit_;  // for fields, if it is another one
     std::optional<RecordedSamples> samples_;
     std::optional<ShareQueue> shares_;
     std::uint64_t number_ = 0;  // of the work to which the shares belong

@@ -2,7 +2,9 @@
 
 #include "apps/processes/render_message.h"
 #include "apps/processes/share_message.h"
+#include "apps/processes/together.h"
 #include "core/base/error.h"
+#include "operators/pictures/field_rendering.h"
 
 #include <fmt/format.h>
 
@@ -80,10 +82,37 @@ private:
     std::uint64_t begun_;
 };
 
+class ProcessTeam : public FieldTeam {
+public:
+    ProcessTeam(Processes& processes, Json fields) : processes_(processes) {
+        fields["do"] = "fields";
+        tell(fields);
+    }
+
+    std::optional<FieldPictures> render(const Scene& scene, const FieldSettings& settings, const Watch& watch,
+                                        FieldSaving* saving) override {
+        tell({{"do", "render fields"}}, as_bytes(settings));
+        return together(processes_, [&] { return render_fields(scene, settings, watch, &processes_, saving); });
+    }
+
+private:
+    void tell(const Json& all, std::span<const std::byte> numbers = {}) {
+        for (int rank = 1; rank < processes_.size(); ++rank) processes_.send(rank, all.dump(), {numbers});
+    }
+
+    Processes& processes_;
+};
+
 }  // namespace
 
 std::unique_ptr<Helpers> ProcessCrew::begin(const RecordedRender& render, const std::optional<glm::dmat3>& colors) {
     return std::make_unique<ProcessHelpers>(processes_, as_json(RenderMessage{scene_, threads_, render, colors}), number_);
+}
+
+std::unique_ptr<FieldTeam> ProcessCrew::begin_fields(const Method& method) {
+    RenderMessage message{scene_, threads_, {}, {}};
+    message.render.method = method;
+    return std::make_unique<ProcessTeam>(processes_, as_json(message));
 }
 
 }  // namespace neumann

@@ -19,6 +19,7 @@ public:
         : processes_(processes), scene_(std::move(scene)), threads_(threads) {}
 
     std::unique_ptr<Helpers> begin(const RecordedRender& render, const std::optional<glm::dmat3>& colors) override;
+    std::unique_ptr<FieldTeam> begin_fields(const Method& method) override;
 
 private:
     Processes& processes_;

@@ -1,6 +1,10 @@
 #include "apps/processes/render_message.h"
 
 #include "apps/files/method_json.h"
+#include "core/base/error.h"
+
+#include <cstring>
+#include <type_traits>
 
 namespace neumann {
 
@@ -34,6 +38,18 @@ RenderMessage render_message_from(const Json& json) {
                 (*message.colors)[column][row] = json.at("colors").at(static_cast<std::size_t>(3 * column + row));
     }
     return message;
+}
+
+std::span<const std::byte> as_bytes(const FieldSettings& settings) {
+    static_assert(std::is_trivially_copyable_v<FieldSettings>);
+    return std::as_bytes(std::span(&settings, 1));
+}
+
+FieldSettings field_settings_from(std::span<const std::byte> bytes) {
+    FieldSettings settings;
+    if (bytes.size() != sizeof settings) throw RunError("another version of this program has sent settings");
+    std::memcpy(&settings, bytes.data(), sizeof settings);
+    return settings;
 }
 
 Json as_json(const Share& share) { return {share.first, share.count, share.begin, share.end}; }

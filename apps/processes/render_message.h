@@ -3,12 +3,15 @@
 
 #include "apps/processes/scene_on_disk.h"
 #include "operators/methods/recorded_render.h"
+#include "operators/pictures/field_pictures.h"
 #include "operators/pictures/share.h"
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 namespace neumann {
 
@@ -20,6 +23,10 @@ struct RenderMessage {
 };
 nlohmann::ordered_json as_json(const RenderMessage& message);
 RenderMessage render_message_from(const nlohmann::ordered_json& json);
+
+// As they are in the memory of the same program.
+std::span<const std::byte> as_bytes(const FieldSettings& settings);
+FieldSettings field_settings_from(std::span<const std::byte> bytes);
 
 nlohmann::ordered_json as_json(const Share& share);
 Share share_from(const nlohmann::ordered_json& json);

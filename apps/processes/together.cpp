@@ -10,6 +10,12 @@
 
 namespace neumann {
 
+void end_all(const Processes& processes, const std::exception& error) {
+    std::fputs(fmt::format("neumann: process {} on {}: {}\n", processes.rank(), processes.machine(), error.what()).c_str(), stderr);
+    std::fflush(nullptr);
+    std::_Exit(1);
+}
+
 int run_together(Processes& processes, PatchOptions options, const std::function<int(const PatchOptions&)>& run) {
     options.threads = threads_of_process(options.threads);
     const bool speaks = processes.rank() == 0;
@@ -18,15 +24,10 @@ int run_together(Processes& processes, PatchOptions options, const std::function
         if (!std::freopen("/dev/null", "w", stdout)) throw RunError("/dev/null cannot be opened");
     }
     try {
-        return run(options);
+        return together(processes, [&] { return run(options); });
     } catch (const InputError&) {
         if (speaks) throw;
         return 0;
-    } catch (const std::exception& e) {
-        // Others may be waiting for this process; the launcher ends them with it.
-        std::fputs(fmt::format("neumann: process {} on {}: {}\n", processes.rank(), processes.machine(), e.what()).c_str(), stderr);
-        std::fflush(nullptr);
-        std::_Exit(1);
     }
 }
 

@@ -56,6 +56,11 @@ public:
     // Part p of `given` goes to process p, and part p of `taken` comes from there.
     virtual void exchange(std::span<const double> given, std::span<double> taken, const Counts& counts) = 0;
     virtual void exchange(std::span<const std::uint32_t> given, std::span<std::uint32_t> taken, const Counts& counts) = 0;
+    virtual void exchange(std::span<const float> given, std::span<float> taken, const Counts& counts) = 0;
+    // Of an array that all have, process p knows the values first[p] … first[p + 1] − 1; afterwards all know all.
+    virtual void complete(std::span<double> values, std::span<const std::size_t> first) = 0;
+    // What process 0 has, to all.
+    virtual void share(std::span<float> values) = 0;
 };
 
 // Null if this process was started alone. Throws RunError if it was not, and this program was built without MPI.

@@ -6,6 +6,7 @@
 #include "operators/patches/patch_space.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace neumann {
@@ -19,6 +20,9 @@ public:
     const PatchSpace& space() const { return *space_; }
     // Three floats for each quantity.
     std::size_t stride() const { return stride_; }
+    // Of all unknowns, and of what is none.
+    std::span<const float> values() const { return values_; }
+    std::span<float> values() { return values_; }
     const float* operator[](std::uint32_t unknown) const { return values_.data() + unknown * stride_; }
 
     // Adds `scale` times an unknown's quantities to `to`, from the `first`-th float on.

@@ -3,16 +3,11 @@
 
 #include "core/scene/scene.h"
 #include "operators/matrix/reflection_matrix.h"
-
-#include <optional>
-#include <span>
+#include "operators/matrix/some_facets.h"
 
 namespace neumann {
 
-// Numbers of facets, or all if there are none; what is not of them is 0.
-using SomeFacets = std::optional<std::span<const std::uint32_t>>;
-
-// The mean of Le over each patch and cell of directions.
+// The mean of Le over each patch and cell of directions; 0 at other facets.
 template <int C>
 ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space, const SomeFacets& facets = {});
 

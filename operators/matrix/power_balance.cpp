@@ -17,7 +17,10 @@ double mean_of(const Channels<C>& x) {
 
 template <int C>
 PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& R, const Chains& chains)
-    : space_(&table.space()), chains_(&chains) {
+    : space_(&table.space()),
+      chains_(&chains),
+      begin_(space_->first_unknown(table.begin())),
+      end_(space_->first_unknown(table.end())) {
     const PatchSpace& space = *space_;
     const auto size = static_cast<Eigen::Index>(space.size()) + 1;
     emitted_ = left_ = caught_ = ExitantVector<1>::Values::Zero(1, size);
@@ -36,8 +39,9 @@ PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& 
         for (int c = 0; c < std::min(C, 3); ++c)
             if (const auto* block = R.block(f, c))
                 albedo.row(c) *= row_sums(block).segment(facet.first - R.first_of_block(f), facet.cells.size()).transpose().array();
-        for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) emitted_(0, u) = space.measure(facet);
         kept_.middleCols(facet.first, facet.cells.size()) = 1.0 - albedo;
+        if (f < table.begin() || f >= table.end()) continue;
+        for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) emitted_(0, u) = space.measure(facet);
         const double each = table.measure(f);
         for (std::size_t ray = table.first_ray(f); ray < table.first_ray(f + 1); ++ray) {
             const std::uint32_t seen = table.seen()[ray], at = table.arrives_in(f, ray);
@@ -89,7 +93,7 @@ void PowerBalance<C>::add(std::size_t k, const ExitantVector<C>& term, std::vect
 template <int C>
 PowerOfTerm PowerBalance<C>::arriving(const IncidentVector<C>& means) const {
     PowerOfTerm power;
-    for (std::uint32_t u = 0; u < space_->size(); ++u) {
+    for (std::uint32_t u = begin_; u < end_; ++u) {
         const Channels<C> of_cell = means.col(u) * emitted_(0, u);
         power.caught += mean_of<C>(of_cell);
         power.absorbed += mean_of<C>(of_cell * kept_.col(u));

@@ -2,6 +2,8 @@
 // the rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R conserves power to rounding,
 // T only in expectation, because the rays that see a facet and the facet's own rays are two different estimates. What a chain
 // (chains.h) takes from a side that has unknowns, it carries from link to link, in one bounce each.
+//
+// Where several processes have rows of T, each finds what starts, arrives and is seen from its own: the sum over them is the balance.
 #pragma once
 
 #include "operators/matrix/chains.h"
@@ -42,6 +44,7 @@ public:
 private:
     const PatchSpace* space_;
     const Chains* chains_;
+    std::uint32_t begin_, end_;  // unknowns [begin_, end_) have rows
     // The contribution of one unit of radiance of each unknown.
     typename ExitantVector<1>::Values emitted_, left_, caught_;
     typename ExitantVector<C>::Values absorbed_, kept_;  // kept_: the part that is absorbed of what arrives in each unknown's cell

@@ -3,6 +3,7 @@
 #include "core/base/hot.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <atomic>
 #include <map>
 
 namespace neumann {
@@ -21,24 +22,34 @@ NEUMANN_HOT void trace_row(const PatchSpace& space, const SobolPoints& sobol, st
     });
 }
 
-RayTable::RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
+RayTable::RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
                    const std::function<void(const BlindRay&)>& on_blind_ray)
-    : space_(&space) {
+    : space_(&own.space()), begin_(own.begin()), end_(own.end()) {
     std::map<std::uint32_t, SobolPoints> sobol;  // by number of rays
     first_.push_back(0);
-    for (const Facet& facet : space.facets()) {
-        const std::uint32_t n = RayTable::rays(facet, rays);
-        sobol.try_emplace(n, n);
+    for (std::uint32_t f = 0; f < space_->facets().size(); ++f) {
+        const std::uint32_t n = begin_ <= f && f < end_ ? RayTable::rays(space_->facets()[f], rays) : 0;
+        if (n > 0) sobol.try_emplace(n, n);
         first_.push_back(first_.back() + n);
     }
     seen_ = make_large_array<std::uint32_t>(first_.back());
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(space.facets().size()), 16),
-                              [&](const auto& range) {
-                                  if (watch.stop()) throw Stopped();
-                                  for (std::uint32_t f = range.begin(); f < range.end(); ++f)
-                                      trace_row(space, sobol.at(RayTable::rays(space.facets()[f], rays)), seed, f, on_blind_ray,
-                                                  seen_.get() + first_[f]);
-                              });
+    // Where others trace too, they ask each other from time to time whether one was stopped.
+    const std::uint64_t parts = own.is_shared() ? 16 : 1, facets = end_ - begin_;
+    const auto end_of = [&](std::uint64_t part) { return begin_ + static_cast<std::uint32_t>(facets * part / parts); };
+    for (std::uint64_t part = 0; part < parts; ++part) {
+        std::atomic<bool> stopped = false;
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(end_of(part), end_of(part + 1), 16),
+                                  [&](const auto& range) {
+                                      if (stopped || watch.stop()) {
+                                          stopped = true;
+                                          return;
+                                      }
+                                      for (std::uint32_t f = range.begin(); f < range.end(); ++f)
+                                          trace_row(*space_, sobol.at(RayTable::rays(space_->facets()[f], rays)), seed, f,
+                                                    on_blind_ray, seen_.get() + first_[f]);
+                                  });
+        if (own.any(stopped)) throw Stopped();
+    }
 }
 
 std::size_t RayTable::size(const PatchSpace& space, std::uint32_t rays) {

@@ -5,6 +5,7 @@
 
 #include "core/base/large_array.h"
 #include "operators/matrix/facet_rays.h"
+#include "operators/matrix/row_share.h"
 #include "operators/patches/patch_space.h"
 #include "operators/watch.h"
 
@@ -33,11 +34,18 @@ public:
     // the space. `on_blind_ray` is called for the rays of a facet in order, and for those of other facets at the same time. Throws
     // Stopped if `watch` stops it.
     RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch = {},
-             const std::function<void(const BlindRay&)>& on_blind_ray = {});
+             const std::function<void(const BlindRay&)>& on_blind_ray = {})
+        : RayTable(RowShare(space), rays, seed, watch, on_blind_ray) {}
+    // The rows of a process alone; those of others are empty. For all processes together, which all throw Stopped if one does.
+    RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
+             const std::function<void(const BlindRay&)>& on_blind_ray);
     // The number of rays that such a table has in all.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 
     const PatchSpace& space() const { return *space_; }
+    // Facets [begin(), end()) have rows.
+    std::uint32_t begin() const { return begin_; }
+    std::uint32_t end() const { return end_; }
     static std::uint32_t rays(const Facet& facet, std::uint32_t rays) { return std::max(rays, facet.cells.size()); }
     // The unknowns seen by the rays of a facet; PatchSpace::nothing() if a ray sees none.
     std::span<const std::uint32_t> row(std::uint32_t facet) const {
@@ -66,6 +74,7 @@ public:
 
 private:
     const PatchSpace* space_;
+    std::uint32_t begin_, end_;
     std::vector<std::size_t> first_;  // first ray of each facet, and the end
     LargeArray<std::uint32_t> seen_;
 };

@@ -124,14 +124,14 @@ using Given = std::vector<ExitantVector<C>>;
 
 // Le, K Le, K² Le, … and the rest; calls look(k, term) for each term.
 template <int C, class Product, class Look>
-TracedSeries series_of(const Product& product, int links, const ExitantVector<C>& Le, const Given<C>& given,
-                       const PatchSpace& space, const PatchSpace& coarser, const TracedSeriesSettings& settings, const Watch& watch,
-                       const Look& look) {
+TracedSeries series_of(const Product& product, int links, const ExitantVector<C>& Le, const Given<C>& given, const RowShare& rows,
+                       const PatchSpace& coarser, const TracedSeriesSettings& settings, const Watch& watch, const Look& look) {
+    const PatchSpace& space = rows.space();
     const std::vector<std::uint32_t> around = space.coarser_of_each(coarser);
     const CoarseMeans<C> M(space, coarser, around);
     const Prolongation<C> P(space, around);
     const auto K = [&](const auto& field) {
-        if (watch.stop()) throw Stopped();
+        if (rows.any(watch.stop())) throw Stopped();
         return product(field);
     };
     const int N = settings.bounces;
@@ -196,14 +196,26 @@ bool samples_lights(const Scene& scene, const TracedSeriesSettings& settings) {
            (settings.glossy == Glossy::by_rays && rays_that_meet_lights(scene, 1) < small_part);
 }
 
+// Adds up what each process has of the power.
+void add_up(const RowShare& rows, std::vector<PowerOfTerm>& power) {
+    std::vector<double> values;
+    for (const PowerOfTerm& p : power) values.insert(values.end(), {p.emitted, p.left, p.caught, p.absorbed});
+    rows.sum(values);
+    for (std::size_t k = 0; k < power.size(); ++k)
+        power[k] = {values[4 * k], values[4 * k + 1], values[4 * k + 2], values[4 * k + 3]};
+}
+
 template <int C>
-TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                         const TracedSeriesSettings& settings, const Watch& watch) {
+TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings,
+                         const Watch& watch) {
+    const PatchSpace& space = rows.space();
     Chains chains(scene, space, settings.rays, settings.seed, settings.bounces);
     std::function<void(const BlindRay&)> go_on;
     if (settings.glossy == Glossy::by_rays) go_on = [&](const BlindRay& ray) { chains.follow(ray); };
-    const RayTable table(space, settings.rays, settings.seed, watch, go_on);
+    const RayTable table(rows, settings.rays, settings.seed, watch, go_on);
+    const std::size_t table_rays = RayTable::size(space, settings.rays);
     chains.finish();
+    const int longest_chain = static_cast<int>(rows.largest(chains.longest()));
     const ReflectionMatrix<C> R(scene.materials, space);
     const TransportMatrix<C> T(table);
     const PowerBalance<C> balance(table, R, chains);
@@ -217,18 +229,20 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
         if (from_afar) power[k - 1] += balance.arriving(means);
     };
     if (samples_lights(scene, settings)) {
-        IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed);
+        IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed, rows.facets());
+        rows.complete(arriving);
         light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
         given.resize(2, ExitantVector<C>::zero(0));
         if (settings.glossy == Glossy::by_rays) {
             ArrivingByLinks<C> by_links =
-                arriving_by_links<C>(scene, space, static_cast<double>(table.seen().size()), settings.seed, settings.bounces);
+                arriving_by_links<C>(scene, space, static_cast<double>(table_rays), settings.seed, settings.bounces);
             for (std::size_t k = 2; k < by_links.radiance.size(); ++k) {
                 arrives(k, by_links.radiance[k]);
                 given.push_back(R(std::move(by_links.radiance[k])));
             }
             if (settings.bounces == 0) arriving = std::move(arriving) + by_links.radiance[1];
-            for (std::size_t k = 0; from_afar && k < power.size(); ++k) power[k] += by_links.power[k];
+            // All processes have found the same.
+            for (std::size_t k = 0; from_afar && rows.is_first() && k < power.size(); ++k) power[k] += by_links.power[k];
             link_rays = by_links.rays;
         }
         arrives(1, arriving);
@@ -238,15 +252,18 @@ TracedSeries trace_light(const Scene& scene, const PatchSpace& space, const Patc
     const auto product = [&](const auto& field) {
         IncidentVector<C> means = T(*field(0));
         chains.add<C>(field, means);
+        rows.complete(means);
         return R(std::move(means));
     };
-    TracedSeries series = series_of<C>(product, chains.longest(), Le, given, space, coarser, settings, watch,
+    TracedSeries series = series_of<C>(product, longest_chain, Le, given, rows, coarser, settings, watch,
                                        [&](int k, const ExitantVector<C>& term) {
                                            if (k > 0 || !from_afar) balance.add(static_cast<std::size_t>(k), term, power);
                                        });
+    add_up(rows, power);
     series.power = std::move(power);
     series.light_rays = light_rays;
-    series.rays = table.seen().size() + chains.rays() + light_rays + link_rays;
+    const auto chain_rays = static_cast<std::uint64_t>(rows.sum(static_cast<double>(chains.rays())));
+    series.rays = table_rays + chain_rays + light_rays + link_rays;
     return series;
 }
 
@@ -257,8 +274,8 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
     const ReflectionMatrix<C> R(scene.materials, space);
     const auto K = adjoint(R * TransportMatrix<C>(table));
     TracedSeries series = series_of<C>([&](const auto& field) { return K(*field(0)); }, 0,
-                                       camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {}, space,
-                                       coarser, settings, watch, [](int, const ExitantVector<C>&) {});
+                                       camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {},
+                                       RowShare(space), coarser, settings, watch, [](int, const ExitantVector<C>&) {});
     series.fine.average_over_directions();
     series.coarse.average_over_directions();
     series.rays = table.seen().size() + std::uint64_t{settings.camera_samples} * static_cast<std::uint64_t>(scene.film.crop_width) *
@@ -270,8 +287,13 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings, const Watch& watch) {
-    return is_grey(scene) ? trace_light<1>(scene, space, coarser, settings, watch)
-                          : trace_light<4>(scene, space, coarser, settings, watch);
+    return trace_series(scene, RowShare(space), coarser, settings, watch);
+}
+
+TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings,
+                          const Watch& watch) {
+    return is_grey(scene) ? trace_light<1>(scene, rows, coarser, settings, watch)
+                          : trace_light<4>(scene, rows, coarser, settings, watch);
 }
 
 TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,

@@ -7,6 +7,7 @@
 #include "core/scene/scene.h"
 #include "operators/matrix/field_stack.h"
 #include "operators/matrix/power_balance.h"
+#include "operators/matrix/row_share.h"
 #include "operators/matrix/sides.h"
 #include "operators/watch.h"
 
@@ -39,6 +40,10 @@ struct TracedSeries {
 // Throws Stopped if `watch` stops it; so does trace_importance().
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings, const Watch& watch = {});
+// As above, where several processes share T: for all of them together, and all have the same series, that of one process alone; but
+// `power` is that to rounding. All throw Stopped if one is stopped.
+TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings,
+                          const Watch& watch);
 
 // The series of importance: We, K* We, …, m⁻²·sr⁻¹, each averaged over all directions of a side. If Le does not depend on
 // direction, ⟨K*^i We, Le⟩ is the mean over pixels of the picture of bounce i. In the coarser space K_c* = M K* P, because M is the

@@ -32,16 +32,16 @@ NEUMANN_HOT void find_means(const RayTable& table, const double* source, std::ui
 template <int C>
 IncidentVector<C> TransportMatrix<C>::operator()(const Domain& f) const {
     const PatchSpace& space = table_->space();
-    const auto facets = static_cast<std::uint32_t>(space.facets().size());
+    const std::uint32_t begin = table_->begin(), end = table_->end();
     typename Range::Values means(C, space.size() + 1);
     means.col(space.nothing()).setZero();
-    const auto work = [&](std::uint32_t begin, std::uint32_t end) { find_means<C>(*table_, f.data(), begin, end, means.data()); };
+    const auto work = [&](std::uint32_t first, std::uint32_t last) { find_means<C>(*table_, f.data(), first, last, means.data()); };
     const std::size_t rays = table_->seen().size();
     if (rays <= rays_at_once) {
-        work(0, facets);
+        work(begin, end);
     } else {
-        const std::size_t grain = std::max<std::size_t>(1, rays_at_once * facets / rays);
-        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, facets, grain),
+        const std::size_t grain = std::max<std::size_t>(1, rays_at_once * (end - begin) / rays);
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(begin, end, grain),
                                   [&](const auto& range) { work(range.begin(), range.end()); });
     }
     return Range(std::move(means));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "operators/methods/recorded_render.h"
+#include "operators/pictures/field_team.h"
 #include "operators/pictures/share.h"
 
 #include <glm/glm.hpp>
@@ -17,6 +18,8 @@ public:
     // Helpers with a render of the scene that they know; `colors` as in Goal. They need a while until they are ready, and have
     // nothing to do with any render before.
     virtual std::unique_ptr<Helpers> begin(const RecordedRender& render, const std::optional<glm::dmat3>& colors) = 0;
+    // The same for a method with fields on patches.
+    virtual std::unique_ptr<FieldTeam> begin_fields(const Method& method) = 0;
 };
 
 }  // namespace neumann

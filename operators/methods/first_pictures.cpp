@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "operators/methods/ahead.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 
 #include <algorithm>
 

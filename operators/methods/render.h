@@ -11,7 +11,7 @@ namespace neumann {
 // goal are incompatible, and RunError if a tail cannot be met or nothing was finished before the stop. The result holds no
 // reference to the scene.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch = {});
-// As above, and saved while it is under way. Fields on patches cannot be saved: `saving` is not used.
+// As above, and saved while it is under way.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Saving saving);
 // As above, with a pilot of the scene that exists already.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot,

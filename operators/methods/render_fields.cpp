@@ -1,7 +1,9 @@
 // Renders from fields on patches.
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/base/stopwatch.h"
 #include "core/scene/shading_normals.h"
+#include "operators/methods/crew.h"
 #include "operators/methods/render_job.h"
 #include "operators/pictures/field_goal.h"
 
@@ -77,11 +79,12 @@ void warn_of_wide_intervals(const SeriesReport& report, Warnings& warnings) {
                              100.0 * wide_interval, fmt::join(wide, ", ")));
 }
 
-FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool given) {
+FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool given, double spent) {
     FieldGoal chosen{goal.relative_error, goal.seconds, std::nullopt};
     if (given) chosen.most = settings;
     if (!chosen.relative_error && !chosen.seconds) chosen = {default_error, default_seconds, std::nullopt};
     if (!chosen.seconds) chosen.seconds = longest_search;
+    chosen.seconds = std::max(*chosen.seconds - spent, 0.0);
     return chosen;
 }
 
@@ -96,11 +99,26 @@ BounceSeries render_by(M m, const RenderJob& job) {
     if (goal.relative_error && given)
         throw InputError(
             "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
+    FieldSaving saving;
+    if (job.saving.from) saving.from = std::move(job.saving.from->fields);
+    const double seconds_before = saving.from ? saving.from->seconds : 0.0;
+    const Stopwatch clock;
+    saving.is_due = job.saving.fields_are_due;
+    saving.keep = [&](FieldProgress& progress) {
+        progress.seconds = seconds_before + clock.seconds();
+        job.saving.keep_fields({m, goal.seed, settings.bounces, 0.0, settings.samples}, job.choice, progress);
+    };
+    // Importance is carried by T*, whose columns are on all processes: this one makes its pictures alone.
+    const std::unique_ptr<FieldTeam> team = job.watch.crew && !importance ? job.watch.crew->begin_fields(m) : nullptr;
     auto rendered = given && !goal.seconds
-                        ? render_fields_once(job.scene, settings, job.watch)
-                        : std::optional(render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given), job.watch));
-    if (!rendered) throw RunError("interrupted before the pictures were finished: nothing was written");
+                        ? render_fields_once(job.scene, settings, job.watch, team.get(), &saving)
+                        : std::optional(render_fields_to_goal(job.scene, settings,
+                                                              choose_goal(goal, settings, given, seconds_before), job.watch,
+                                                              team.get(), &saving));
+    if (!rendered) throw RunError("interrupted before the pictures were finished: none was written");
     FieldRun& run = *rendered;
+    run.seconds += seconds_before;
+    for (Checkpoint& checkpoint : run.convergence) checkpoint.seconds += seconds_before;
     const auto pictures = std::make_shared<FieldPictures>(std::move(run.pictures));
     if (job.watch.judge)
         job.watch.judge([&](std::size_t i) { return pictures->term_mean(i); }, pictures->sum(pictures->bounces()).mean,

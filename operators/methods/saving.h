@@ -1,8 +1,9 @@
-// How a render by paths is saved while it is under way, and goes on from there in another process.
+// How a render is saved while it is under way, and goes on from there in another process.
 #pragma once
 
 #include "operators/methods/method_choice.h"
 #include "operators/methods/recorded_render.h"
+#include "operators/pictures/field_progress.h"
 #include "operators/pictures/rendered_series.h"
 
 #include <functional>
@@ -15,15 +16,20 @@ struct RenderState {
     RecordedRender render;
     std::optional<MethodChoice> choice = {};  // how --method auto came to it
     RenderedSeries series;
+    std::optional<FieldProgress> fields = {};  // of a method with fields on patches, and no series
 };
 
 struct Saving {
     // Of the same scene; it says which method, seed and bounces are rendered. The goal may be another one.
     std::optional<RenderState> from = {};
-    // Called after every part, and once more when the last one is done, from the thread that renders. What it throws ends the
+    // Samples of paths: called after every part, and once more when the last one is done, from the thread that renders. What it throws ends the
     // render.
     std::function<void(const RecordedRender&, const std::optional<MethodChoice>&, const RenderedSeries&, bool is_last)> keep =
         [](const auto&, const auto&, const auto&, bool) {};
+    // Fields: as FieldSaving.
+    std::function<bool(bool is_stopped)> fields_are_due = [](bool) { return false; };
+    std::function<void(const RecordedRender&, const std::optional<MethodChoice>&, const FieldProgress&)> keep_fields =
+        [](const auto&...) {};
     double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
 };
 

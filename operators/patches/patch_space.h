@@ -56,6 +56,8 @@ public:
 
     // The facet of an unknown.
     std::uint32_t facet_of(std::uint32_t unknown) const { return facet_of_unknown_[unknown]; }
+    // For a facet of facets().size(): size().
+    std::uint32_t first_unknown(std::uint32_t facet) const { return facet < facets_.size() ? facets_[facet].first : size_; }
     // The facet of a side of a patch, or facets().size() if it has none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 

@@ -15,6 +15,7 @@ namespace neumann {
 struct Patching {
     std::size_t patches = 4000;  // approximate number; at least one per chart
     double grading = 0.7;        // in [0, 1): cells at an edge are narrower by the factor 1 − grading
+    bool operator==(const Patching&) const = default;
 };
 
 class Patches {

@@ -3,6 +3,7 @@
 #include "core/base/stopwatch.h"
 #include "operators/pictures/field_costs.h"
 #include "operators/pictures/field_errors.h"
+#include "operators/pictures/field_rendering.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -81,8 +82,8 @@ public:
 
     WorstError worst() const { return errors_.worst(); }
 
-    // Nothing where no step is to be taken; why_not() then says why.
-    std::optional<FieldSettings> next(double seconds) {
+    // Nothing where no step is to be taken; why_not() then says why. `under_way`: settings of a render that was begun, or null.
+    std::optional<FieldSettings> next(double seconds, const FieldSettings* under_way) {
         spent_ = seconds;
         if (same(last_, most_)) return stop(Outcome::samples_reached, "these are the largest settings");
         if (goal_.most && fits(most_)) return most_;
@@ -91,6 +92,11 @@ public:
             pilot.samples = std::min(pilot_samples, most_.samples);
             if (fits(pilot)) return pilot;
             return stop_short(pilot);
+        }
+        if (under_way) {
+            FieldSettings settings = *under_way;
+            settings.memory = most_.memory;
+            return settings;
         }
         const double now = errors_.worst().error, target = std::max(goal_.relative_error.value_or(0.5 * now), now / most_growth);
         const FieldSettings step = errors_.grow(target, most_growth);
@@ -174,23 +180,30 @@ private:
     std::string why_;
 };
 
+std::optional<FieldPictures> render_by(FieldTeam* team, const Scene& scene, const FieldSettings& settings, const Watch& watch,
+                                       FieldSaving* saving) {
+    return team ? team->render(scene, settings, watch, saving) : render_fields(scene, settings, watch, nullptr, saving);
+}
+
 }  // namespace
 
-std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const Watch& watch) {
+std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const Watch& watch, FieldTeam* team,
+                                           FieldSaving* saving) {
     const Stopwatch clock;
-    auto pictures = render_fields(scene, settings, watch);
+    auto pictures = render_by(team, scene, settings, watch, saving);
     if (!pictures) return std::nullopt;
     return make_run(std::move(*pictures), settings, {}, clock.seconds());
 }
 
-FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch) {
+FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
+                               FieldTeam* team, FieldSaving* saving) {
     const Stopwatch clock;
     const FieldSettings most = goal.most.value_or(largest(settings));
     settings.patching.patches = std::min(fewest_patches, most.patching.patches);
     settings.rays = std::min(fewest_rays, most.rays);
     settings.light_samples = std::min(settings.rays, most.light_samples);
     settings.samples = 1;
-    FieldRun run = *render_fields_once(scene, settings);
+    FieldRun run = *render_fields_once(scene, settings, {}, team);
     Steps steps(scene, goal, most);
     steps.add(run, run.seconds);
 
@@ -215,7 +228,7 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
             return run;
         }
         const double begin = clock.seconds();
-        const auto next = steps.next(begin);
+        const auto next = steps.next(begin, saving && saving->from ? &saving->from->settings : nullptr);
         if (!next) {
             run.outcome = steps.outcome();
             run.why = steps.why_not();
@@ -226,7 +239,7 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
             tell();
             return watch.stop() || clock.seconds() > end;
         };
-        auto pictures = render_fields(scene, *next, in_time);
+        auto pictures = render_by(team, scene, *next, in_time, saving);
         if (!pictures) {
             run.outcome = watch.stop() ? Outcome::interrupted : Outcome::time_reached;
             run.why = fmt::format(
@@ -234,6 +247,7 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
                 steps.worst().error, steps.worst().bounce);
             return run;
         }
+        if (saving && saving->from && same_pictures(saving->from->settings, *next)) saving->from.reset();
         run = make_run(std::move(*pictures), *next, std::move(run.convergence), clock.seconds());
         steps.add(run, clock.seconds() - begin);
     }

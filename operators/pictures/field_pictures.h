@@ -33,10 +33,13 @@ struct FieldSettings {
     std::uint64_t seed = 0;
     bool rest = true;                  // also compute Σ_{k>N} K^k Le
     double memory = default_memory();  // approximate limit in bytes
+    bool operator==(const FieldSettings&) const = default;
 };
 
 // The values of all replicates in each pixel. Pictures are computed from them on demand.
 class FieldPictures {
+    static constexpr std::size_t sums_of_quantity = 4;
+
 public:
     FieldPictures(const Film& film, const FieldSettings& settings);
 
@@ -58,7 +61,7 @@ public:
     PictureMeans means_of_rest() const { return means(quantities_ - 1, quantities_ - 1); }
     // Mean over pixels of one replicate and quantity. `which`: 0 … 2 red, green, blue; 3 the mean of the channels.
     double replicate_mean(std::uint32_t replicate, std::size_t quantity, std::size_t which = sums_of_quantity - 1) const {
-        return sums[(replicate * quantities_ + quantity) * sums_of_quantity + which] / (static_cast<double>(width_) * height_);
+        return sums_[(replicate * quantities_ + quantity) * sums_of_quantity + which] / (static_cast<double>(width_) * height_);
     }
 
     EnergyBalance power;  // power of light on the patches, W; replicates are the observations; without bounces for importance
@@ -80,30 +83,30 @@ public:
     // Of what is set so far: √(Σ SE² / Σ mean²) of a quantity, over all pixels.
     double relative_noise(std::size_t quantity) const;
     void set_to_zero(std::size_t quantity);
-    // Call when the values of pixels [begin, end) are complete.
-    void find_means(std::size_t begin, std::size_t end);
+    // Sums over pixels are made of those over groups of so many of them, each when its values are complete (or others), and then
+    // added.
+    void add_by_groups(std::uint32_t pixels);
+    void group_is_complete(std::size_t group);
+    void add_groups();
     std::size_t quantities() const { return quantities_; }
     // Standard errors are at least those of this resolution (ray_resolution.h).
     void set_resolution(RayResolution resolution) { resolution_ = std::move(resolution); }
-    // Sums over all pixels, replicate by replicate and quantity by quantity: of red, green, blue, and of their mean.
-    static constexpr std::size_t sums_of_quantity = 4;
-    std::vector<double> sums;
 
 private:
+    void find_means(std::size_t begin, std::size_t end);
     Estimate picture(std::size_t first, std::size_t last) const;
     MeanWithError mean(std::size_t first, std::size_t last, std::size_t which = sums_of_quantity - 1) const;
     PictureMeans means(std::size_t first, std::size_t last) const;
 
     int width_, height_;
-    std::uint32_t replicates_;
+    std::uint32_t replicates_, group_ = 1;
     std::size_t quantities_, stride_;
     LargeArray<float> values_;
     LargeArray<float> means_;  // means over the replicates, a picture for each quantity
+    // Sums over all pixels, replicate by replicate and quantity by quantity: of red, green, blue, and of their mean.
+    std::vector<double> sums_, sums_of_groups_;
     RayResolution resolution_;
 };
-
-// Returns nothing if `watch` stops it.
-std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const Watch& watch = {});
 
 // The relative error of a whole picture (as relative_standard_error()) from sampling, from discretisation, and from both. Noise of
 // the rays also makes the fine and the coarse fields differ; that part is subtracted from the discretisation error.

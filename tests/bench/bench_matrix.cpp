@@ -16,7 +16,7 @@
 #include "operators/matrix/reflection_matrix.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/transport_matrix.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 #include "operators/pictures/rendered_series.h"
 #include "operators/series/algebra.h"
 #include "operators/statistics/metrics.h"

@@ -167,9 +167,12 @@ protected:
         std::vector<std::string> options{"-n",     run.at("options").at("bounces").dump(),
                                          "--spp",  run.at("samples").at("per_pixel").dump(),
                                          "--seed", run.at("options").at("seed").dump()};
-        for (const char* name : {"method", "direct", "lights", "roulette", "split"})
-            if (run.at("options").contains(name))
-                options.insert(options.end(), {std::string("--") + name, run.at("options").at(name)});
+        for (const char* name : {"method", "direct", "lights", "roulette", "split", "patches", "directions"})
+            if (run.at("options").contains(name)) {
+                const nlohmann::json& value = run.at("options").at(name);
+                options.insert(options.end(),
+                               {std::string("--") + name, value.is_string() ? value.get<std::string>() : value.dump()});
+            }
         for (const auto& [name, value] : run.at("scene").at("definitions").items())
             options.insert(options.end(), {"-D", name + "=" + value.get<std::string>()});
         return options;

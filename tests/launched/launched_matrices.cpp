@@ -1,5 +1,5 @@
 // solve and spectrum on several processes, started by mpirun as users start them, beside one process; PETSc on one process.
-#include "tests/commands/render_output.h"
+#include "tests/launched/launched_test.h"
 
 #include <cmath>
 
@@ -7,15 +7,8 @@ namespace neumann::launched_matrices_test {
 
 using Json = nlohmann::json;
 
-class LaunchedMatrices : public RenderTest {
+class LaunchedMatrices : public LaunchedTest {
 protected:
-    static std::vector<std::string> on(int processes, std::vector<std::string> command) {
-        if (processes == 0) return command;
-        std::vector<std::string> all{MPIRUN, "--allow-run-as-root",    "--oversubscribe", "--bind-to", "none",
-                                     "-n",   std::to_string(processes)};
-        all.insert(all.end(), command.begin(), command.end());
-        return all;
-    }
     // The JSON that a command prints on so many processes; 0: without a launcher.
     Json printed_on(int processes, const std::vector<std::string>& arguments) const {
         const Finished done = run_program(on(processes, neumann(arguments)));

@@ -1,52 +1,12 @@
 // Renders on several processes, started by mpirun as users start them.
-#include "tests/commands/render_output.h"
+#include "tests/launched/launched_test.h"
 
 namespace neumann::launched_renders_test {
 
-using std::chrono::milliseconds;
-
-// Options of Open MPI: root may run in a container, and more processes than processors may be started.
-std::vector<std::string> launcher(int processes) {
-    return {MPIRUN, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", std::to_string(processes)};
-}
-
-class LaunchedRenders : public RenderTest {
+class LaunchedRenders : public LaunchedTest {
 protected:
     LaunchedRenders() { write("scene.xml", plates()); }
 
-    std::vector<std::string> launched(int processes, const std::vector<std::string>& arguments) const {
-        std::vector<std::string> command = launcher(processes);
-        for (const std::string& word : neumann(arguments)) command.push_back(word);
-        return command;
-    }
-    Finished run_on(int processes, const std::vector<std::string>& arguments) const {
-        return run_program(launched(processes, arguments));
-    }
-    RunningCommand start_on(int processes, const std::vector<std::string>& arguments) const {
-        return start_program(launched(processes, arguments));
-    }
-    void expect_done(const Finished& done) const {
-        EXPECT_EQ(done.exit_code, 0) << done.err;
-        EXPECT_EQ(done.err, "");
-    }
-    bool wait_for(const std::string& name) const {
-        for (int i = 0; i < 2000 && !std::filesystem::exists(path(name)); ++i) std::this_thread::sleep_for(milliseconds(10));
-        return std::filesystem::exists(path(name));
-    }
-    // The process with this number that renders into the folder of this test.
-    std::optional<pid_t> process(int rank, const std::string& output) const {
-        for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-            const std::string name = entry.path().filename();
-            if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-            const std::string command = text_of(entry.path() / "cmdline"), environment = text_of(entry.path() / "environ");
-            std::error_code error;
-            if (command.starts_with(NEUMANN) && command.find(output) != std::string::npos &&
-                std::filesystem::read_symlink(entry.path() / "cwd", error) == std::filesystem::canonical(folder()) &&
-                ('\0' + environment).find('\0' + fmt::format("OMPI_COMM_WORLD_RANK={}", rank) + '\0') != std::string::npos)
-                return std::stoi(name);
-        }
-        return std::nullopt;
-    }
     static std::vector<std::string> rendering(const std::string& output, const std::vector<std::string>& options) {
         std::vector<std::string> all{"render", "scene.xml", "-n", "2", "-o", output, "--quiet"};
         all.insert(all.end(), options.begin(), options.end());
@@ -70,10 +30,11 @@ TEST_F(LaunchedRenders, HaveTheBitsOfOneProcess) {
     }
 }
 
-// Fields are traced by one process; the others wait. A tail may take several renders, with more bounces each time.
+// A tail may take several renders, with more bounces each time.
 TEST_F(LaunchedRenders, TakeOtherOptions) {
     for (const std::vector<std::string>& options :
-         {std::vector<std::string>{"--method", "matrix", "--spp", "4"}, {"--method", "auto", "--spp", "64", "-t", "1"}}) {
+         {std::vector<std::string>{"--method", "patches", "--importance", "--spp", "4"},
+          {"--method", "auto", "--spp", "64", "-t", "1"}}) {
         expect_done(run_on(2, rendering("b", options)));
         expect_complete("b");
     }

@@ -5,7 +5,7 @@
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/traced_series.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 

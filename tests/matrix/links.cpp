@@ -8,7 +8,7 @@
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/transport_matrix.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 #include "operators/pictures/link_raster.h"
 #include "operators/pictures/rendered_series.h"
 

@@ -2,7 +2,7 @@
 // does.
 #include "tests/physics/pictures.h"
 #include "core/reader/read_scene.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 #include "operators/plan/plan.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"

@@ -1,5 +1,5 @@
 // Pictures read from fields against those of paths: within noise and the error that the patches are said to make.
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 
 #include "core/reader/read_scene.h"
 #include "operators/pictures/rendered_series.h"

@@ -1,7 +1,7 @@
 // All methods say the same of open scenes, lit by what surrounds them and by lights without extent: the mean of each bounce's
 // picture.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/field_pictures.h"
+#include "operators/pictures/field_rendering.h"
 #include "operators/pictures/rendered_series.h"
 #include "operators/pictures/series_report.h"
 #include "operators/statistics/picture_statistics.h"

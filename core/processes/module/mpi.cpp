@@ -92,6 +92,29 @@ public:
     void exchange(std::span<const std::uint32_t> given, std::span<std::uint32_t> taken, const Counts& counts) override {
         exchange(given.data(), taken.data(), counts, MPI_UINT32_T, sizeof(std::uint32_t));
     }
+    void exchange(std::span<const float> given, std::span<float> taken, const Counts& counts) override {
+        exchange(given.data(), taken.data(), counts, MPI_FLOAT, sizeof(float));
+    }
+    void complete(std::span<double> values, std::span<const std::size_t> first) override {
+        std::vector<int> begin, count;
+        for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+            begin.push_back(static_cast<int>(first[p]));
+            count.push_back(static_cast<int>(first[p + 1] - first[p]));
+        }
+        MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, values.data(), count.data(), begin.data(), MPI_DOUBLE, all_);
+        const auto own = static_cast<std::size_t>(count[static_cast<std::size_t>(rank_)]);
+        const auto others = static_cast<std::size_t>(size_ - 1);
+        traffic_.messages += 2 * others;
+        traffic_.bytes += (own * others + first.back() - own) * sizeof(double);
+    }
+    void share(std::span<float> values) override {
+        constexpr std::size_t piece = longest_piece / sizeof(float);
+        for (auto left = values; !left.empty(); left = left.subspan(std::min(left.size(), piece)))
+            MPI_Bcast(left.data(), static_cast<int>(std::min(left.size(), piece)), MPI_FLOAT, 0, all_);
+        const std::size_t times = rank_ == 0 ? static_cast<std::size_t>(size_ - 1) : 1;
+        traffic_.messages += times;
+        traffic_.bytes += times * values.size_bytes();
+    }
 
 private:
     // MPI_Allreduce need not give the same bits everywhere.

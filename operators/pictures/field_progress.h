@@ -1,0 +1,43 @@
+// What there is of a render from fields on patches while it is under way, from which another process can go on, to the same bits.
+#pragma once
+
+#include "operators/matrix/saved_series.h"
+#include "operators/pictures/field_pictures.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+struct FieldProgress {
+    FieldSettings settings;
+    double seconds = 0.0;             // that it took
+    std::vector<SavedSeries> series;  // of the first replicates
+
+    // Groups of pixels [begin, end) that have been read.
+    struct Read {
+        std::uint32_t begin, end;
+        std::array<std::uint64_t, 3> rays;  // cast for bounce 0, for bounce 1 and for all later ones
+        std::span<const float> values;      // as FieldPictures has them
+    };
+    std::vector<Read> read;
+    std::vector<float> values;  // those to which `read` refers, if it is alone
+};
+
+struct FieldSaving {
+    // Taken if it has the settings that are to be rendered. A search for settings goes to these as soon as it may.
+    std::optional<FieldProgress> from = {};
+    // Whether progress is to be kept now, or, in the end, that of a render that was stopped; as keep(), from any thread, one at a
+    // time.
+    std::function<bool(bool is_stopped)> is_due;
+    std::function<void(FieldProgress&)> keep;
+};
+
+// Whether both make the same pictures.
+bool same_pictures(FieldSettings a, const FieldSettings& b);
+
+}  // namespace neumann

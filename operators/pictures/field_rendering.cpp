@@ -1,0 +1,375 @@
+#include "operators/pictures/field_rendering.h"
+
+#include "core/base/stopwatch.h"
+#include "core/scene/camera_sample.h"
+#include "operators/matrix/ray_table.h"
+#include "operators/matrix/scene_patches.h"
+#include "operators/matrix/traced_series.h"
+#include "operators/pictures/field_memory.h"
+#include "operators/pictures/link_pictures.h"
+#include "operators/pictures/shared_pixels.h"
+#include "operators/plan/half_spaces.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <numeric>
+
+namespace neumann {
+
+namespace {
+
+// Streams that differ from those of the series.
+constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x676174686572ull;
+constexpr std::uint32_t samples_at_once = 64;
+
+EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
+    std::vector<std::vector<EnergyShares>> all;
+    for (const TracedSeries& series : replicates) {
+        const std::vector<PowerOfTerm>& power = series.power;
+        auto& shares = all.emplace_back(1, EnergyShares{power[0].emitted, 0.0, power[0].left, power[0].caught});
+        for (std::size_t i = 1; i < power.size(); ++i)
+            shares.push_back({power[i - 1].caught, power[i - 1].absorbed, power[i].left, power[i].caught});
+    }
+    return balance(all);
+}
+
+Glossy glossy_of(const FieldSettings& settings, const Scene& scene) {
+    return shows_patches(settings.reading) ? Glossy::in_cells : glossy_of_pictures(scene);
+}
+
+PatchSpace patches_of(const FieldSettings& settings, const Scene& scene) {
+    const auto asked = static_cast<double>(settings.patching.patches);
+    check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
+    const Glossy glossy = glossy_of(settings, scene);
+    PatchSpace space = scene_patches(scene, settings.patching, glossy);
+    check_camera(scene);
+    check_field_memory(settings, scene.film,
+                       {static_cast<double>(space.patches().size()), static_cast<double>(space.size()),
+                        static_cast<double>(RayTable::size(space, settings.rays)), glossy == Glossy::by_rays});
+    return space;
+}
+
+using RayNumbers = std::array<std::uint64_t, 3>;  // for bounce 0, for bounce 1 and for all later ones
+
+class FieldRendering {
+public:
+    FieldRendering(const Scene& scene, const FieldSettings& settings, const Watch& watch, Processes* processes, FieldSaving* saving)
+        : scene_(scene),
+          settings_(settings),
+          watch_(watch),
+          processes_(processes),
+          saving_(saving),
+          space_(patches_of(settings, scene)),
+          coarser_(space_.coarser()),
+          rows_(space_, settings.rays, processes),
+          pictures_(scene.film, settings),
+          width_(static_cast<std::uint32_t>(scene.film.crop_width)),
+          pixels_(width_ * static_cast<std::uint32_t>(scene.film.crop_height)),
+          group_(std::max(1u, samples_at_once / settings.samples)),
+          groups_((pixels_ + group_ - 1) / group_),
+          read_(groups_),
+          rays_of_group_(groups_) {
+        pictures_.has_links = glossy_of(settings, scene) == Glossy::by_rays;
+        pictures_.patches = space_.patches().size();
+        pictures_.unknowns = space_.size();
+        for (const Facet& facet : space_.facets()) ++pictures_.sides[facet.cells.size()];
+        pictures_.samples = std::uint64_t{settings.samples} * settings.replicates;
+        pictures_.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
+        later_ = std::min<std::size_t>(2, pictures_.rays.size() - 1);
+        if (saving && saving->from && same_pictures(saving->from->settings, settings)) begun_ = &*saving->from;
+    }
+
+    std::optional<FieldPictures> render() {
+        try {
+            const Stopwatch field_watch;
+            trace();
+            pictures_.field_seconds = field_watch.seconds();
+            find_resolution();
+            const Stopwatch picture_watch;
+            show_links();
+            read_pixels();
+            pictures_.picture_seconds = picture_watch.seconds();
+        } catch (const Stopped&) {
+            keep(true);
+            return std::nullopt;
+        }
+        return std::move(pictures_);
+    }
+
+private:
+    // The series of all replicates.
+    void trace() {
+        const auto there = static_cast<std::uint32_t>(rows_.sum(begun_ ? static_cast<double>(begun_->series.size()) : 0.0));
+        pictures_.rest_converges = settings_.rest;
+        for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
+            series_.push_back(r < there ? take_series(r) : trace_series(r));
+            pictures_.rays[later_] += series_.back().rays;
+            pictures_.rest_converges = pictures_.rest_converges && series_.back().rest_converges;
+            keep(false);
+        }
+        if (!pictures_.importance) pictures_.power = power_balance(series_);
+    }
+
+    TracedSeries trace_series(std::uint32_t replicate) const {
+        const TracedSeriesSettings traced{.bounces = settings_.bounces,
+                                          .rays = settings_.rays,
+                                          .light_samples = settings_.light_samples,
+                                          .seed = seed(replicate),
+                                          .rest = settings_.rest,
+                                          .glossy = glossy_of(settings_, scene_),
+                                          .camera_samples = settings_.samples};
+        return pictures_.importance ? trace_importance(scene_, space_, coarser_, traced, watch_)
+                                    : neumann::trace_series(scene_, rows_, coarser_, traced, watch_);
+    }
+
+    // One that was traced before; the first process has it, and gives it to the others.
+    TracedSeries take_series(std::uint32_t replicate) const {
+        SavedSeries saved = begun_ ? begun_->series[replicate] : SavedSeries();
+        if (processes_) {
+            double numbers[] = {saved.has_links ? 1.0 : 0.0, saved.rest_converges ? 1.0 : 0.0, static_cast<double>(saved.rays),
+                                static_cast<double>(saved.light_rays)};
+            rows_.sum(numbers);
+            saved.has_links = numbers[0] > 0.0;
+            saved.rest_converges = numbers[1] > 0.0;
+            saved.rays = static_cast<std::uint64_t>(numbers[2]);
+            saved.light_rays = static_cast<std::uint64_t>(numbers[3]);
+            saved.power.resize(static_cast<std::size_t>(settings_.bounces) + 1);  // only the first tells it
+            saved.fields.resize(saved_size(space_, coarser_, settings_.bounces, saved.has_links));
+            processes_->share(saved.fields);
+        }
+        return restored(saved, space_, coarser_, settings_.bounces);
+    }
+
+    void find_resolution() {
+        const double replicates = settings_.replicates;
+        RayCounts counts;
+        counts.of_facet = settings_.rays * replicates;
+        counts.all = static_cast<double>(RayTable::size(space_, settings_.rays)) * replicates;
+        for (const TracedSeries& s : series_) counts.lights += static_cast<double>(s.light_rays);
+        counts.lights_of_facet = counts.lights / static_cast<double>(space_.facets().size());
+        if (settings_.reading == FieldReading::gather) counts.gathered = replicates * settings_.samples * settings_.gather_rays;
+        counts.pixels = pixels_;
+        if (!shows_patches(settings_.reading)) counts.sampled_at_pixel = settings_.bounces > 0 ? 2 : 1;
+        const ConvexBody body = HalfSpaces(scene_.geometry).convex_body();
+        counts.is_closed = body.found && body.is_closed;
+        pictures_.set_resolution(RayResolution(series_, counts));
+    }
+
+    // Light that comes by links, as points; every process finds all of it.
+    void show_links() {
+        if (!series_.front().fine_by_links || !shows_links(scene_)) return;
+        const double rays = std::max(static_cast<double>(RayTable::size(space_, settings_.rays)),
+                                     static_cast<double>(pixels_) * settings_.samples);
+        std::vector<LinkRaster> rasters;
+        for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
+            // Where others do the same, all have to end together.
+            if (rows_.any(watch_.stop())) throw Stopped();
+            LinkPictures links = picture_links(scene_, space_, rays, seed(r), settings_.bounces, processes_ ? Watch() : watch_);
+            pictures_.rays[later_] += links.rays;
+            pictures_.set_replicate(r, links.picture);
+            rasters.push_back(std::move(links.raster));
+        }
+        by_links_ = divide_by_links(series_, std::move(rasters), [&](std::size_t k) { return pictures_.relative_noise(k); });
+        for (std::size_t k = 2; k < pictures_.quantities(); ++k)
+            if (!by_links_.front().shown_as_points[k]) pictures_.set_to_zero(k);
+    }
+
+    void read_pixels() {
+        const PixelReader reader(*this);
+        oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
+        pictures_.add_by_groups(group_);
+        take_groups(0, groups_);
+        tell_which_are_read();
+        const SharedPixels shared(groups_, processes_);
+        for (std::uint32_t round = 0; round < shared.rounds(); ++round) {
+            const auto [own_begin, own_end] = shared.own(round);
+            std::atomic<bool> stopped = false;
+            oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(own_begin, own_end, 4), [&](const auto& range) {
+                if (stopped || watch_.stop()) {
+                    stopped = true;
+                    return;
+                }
+                Workspace& work = workspaces.local();
+                for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
+                    if (read_[group]) continue;
+                    rays_of_group_[group] = reader.read(group, work);
+                    pictures_.group_is_complete(group);
+                    read_[group] = true;
+                }
+                keep(false);
+            });
+            if (rows_.any(stopped)) throw Stopped();
+            if (processes_) give_to_first(shared, round);
+        }
+        pictures_.add_groups();
+        for (const RayNumbers& rays : rays_of_group_)
+            for (std::size_t k = 0; k < 3; ++k) pictures_.rays[std::min(k, later_)] += rays[k];
+    }
+
+    void give_to_first(const SharedPixels& shared, std::uint32_t round) {
+        const auto [own_begin, own_end] = shared.own(round);
+        const auto [begin, end] = shared.taken(round);
+        shared.give_to_first(round, pictures_.values(0), [&](std::uint32_t group) { return first_value(group); });
+        std::array<double, 3> of_others{};
+        for (std::uint32_t group = own_begin; !rows_.is_first() && group < own_end; ++group)
+            for (std::size_t k = 0; k < 3; ++k) of_others[k] += static_cast<double>(rays_of_group_[group][k]);
+        rows_.sum(of_others);
+        if (begin == end) return;
+        take_groups(begin, end);
+        for (std::size_t k = 0; k < 3; ++k) rays_of_group_[begin][k] += static_cast<std::uint64_t>(of_others[k]);
+        oneapi::tbb::parallel_for(begin, end, [&](std::uint32_t group) {
+            pictures_.group_is_complete(group);
+            read_[group] = true;
+        });
+        keep(false);
+    }
+
+    // Of groups [begin, end), those that were read before.
+    void take_groups(std::uint32_t begin, std::uint32_t end) {
+        if (!begun_) return;
+        for (const FieldProgress::Read& read : begun_->read) {
+            const std::uint32_t from = std::max(begin, read.begin), to = std::min(end, read.end);
+            if (from >= to) continue;
+            std::copy_n(read.values.data() + (first_value(from) - first_value(read.begin)), first_value(to) - first_value(from),
+                        pictures_.values(0) + first_value(from));
+            rays_of_group_[from] = from == read.begin ? read.rays : RayNumbers{};
+            for (std::uint32_t group = from; group < to; ++group) {
+                pictures_.group_is_complete(group);
+                read_[group] = true;
+            }
+        }
+    }
+
+    void tell_which_are_read() {
+        if (!processes_) return;
+        std::vector<double> read(read_.begin(), read_.end());
+        rows_.sum(read);
+        for (std::uint32_t group = 0; group < groups_; ++group) read_[group] = read[group] > 0.0;
+    }
+
+    // From any thread, and of groups that are read already.
+    void keep(bool is_stopped) {
+        if (!saving_) return;
+        const std::unique_lock lock(keeps_, std::try_to_lock);
+        if (!lock || !saving_->is_due(is_stopped)) return;
+        FieldProgress progress;
+        progress.settings = settings_;
+        for (const TracedSeries& series : series_) progress.series.push_back(saved(series));
+        for (std::uint32_t group = 0; group < groups_; ++group) {
+            if (!read_[group]) continue;
+            FieldProgress::Read read{group, group, {}, {}};
+            for (; group < groups_ && read_[group]; ++group, ++read.end)
+                for (std::size_t k = 0; k < 3; ++k) read.rays[k] += rays_of_group_[group][k];
+            read.values = {pictures_.values(0) + first_value(read.begin), pictures_.values(0) + first_value(read.end)};
+            progress.read.push_back(read);
+        }
+        saving_->keep(progress);
+    }
+
+    std::uint64_t seed(std::uint32_t replicate) const { return settings_.seed * 0x10001 + replicate; }
+    std::size_t first_value(std::uint32_t group) const {
+        return std::min(group * group_, pixels_) * 3 * pictures_.quantities() * (settings_.replicates + std::size_t{1});
+    }
+
+    struct Workspace {
+        std::vector<Sampler> samplers, gather_samplers;  // one for each sample; one for each pixel
+        std::vector<PixelSample> samples;
+        std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
+    };
+
+    class PixelReader {
+    public:
+        explicit PixelReader(FieldRendering& of)
+            : of_(of),
+              stride_(3 * of.pictures_.quantities()),
+              sobol_(of.settings_.samples),
+              gather_sobol_(of.settings_.samples * of.settings_.gather_rays),
+              // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With
+              // gather all are, because the reader compares only some gather rays.
+              compared_(of.settings_.reading == FieldReading::gather ? of.settings_.samples : (of.settings_.samples + 3) / 4),
+              reader_(of.scene_, of.settings_.reading, of.settings_.bounces, of.settings_.gather_rays) {}
+
+        RayNumbers read(std::uint32_t group, Workspace& work) const {
+            const FieldSettings& settings = of_.settings_;
+            const Film& film = of_.scene_.film;
+            const auto width = of_.width_;
+            const std::uint32_t begin = group * of_.group_, end = std::min(begin + of_.group_, of_.pixels_);
+            const std::size_t all = stride_ * settings.replicates, count = (end - begin) * settings.samples;
+            const float difference_weight = 1.0f / static_cast<float>(compared_ * settings.replicates);
+            RayNumbers cast{};
+            work.values.assign((end - begin) * all, 0.0f);
+            work.difference.assign((end - begin) * stride_, 0.0f);
+            work.samplers.clear();
+            work.gather_samplers.clear();
+            for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+                work.gather_samplers.emplace_back(gather_sobol_, settings.seed ^ gather_stream, pixel);
+                work.samplers.resize(work.samplers.size() + settings.samples,
+                                     Sampler(sobol_, settings.seed ^ picture_stream, pixel));
+            }
+            for (std::uint32_t r = 0; r < settings.replicates; ++r) {
+                work.samples.clear();
+                for (std::size_t i = 0; i < count; ++i) {
+                    const auto offset = static_cast<std::uint32_t>(i / settings.samples), pixel = begin + offset;
+                    Sampler& sampler = work.samplers[i];
+                    const std::uint64_t sample_number = std::uint64_t{r} * settings.samples + i % settings.samples;
+                    sampler.start(sample_number);
+                    const CameraSample sample = sample_camera(of_.scene_, film.crop_x + static_cast<int>(pixel % width),
+                                                              film.crop_y + static_cast<int>(pixel / width), sampler);
+                    work.samples.push_back({sample.ray, sample.weight, work.values.data() + offset * all + r * stride_,
+                                            i % settings.samples < compared_ ? work.difference.data() + offset * stride_ : nullptr,
+                                            difference_weight, &sampler, &work.gather_samplers[offset],
+                                            sample_number * settings.gather_rays});
+                }
+                const TracedSeries& s = of_.series_[r];
+                const auto rays =
+                    reader_.read({s.fine, s.coarse, of_.by_links_.empty() ? nullptr : &of_.by_links_[r]}, work.samples);
+                for (std::size_t k = 0; k < 3; ++k) cast[k] += rays[k];
+            }
+            const float scale = 1.0f / static_cast<float>(settings.samples);
+            for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+                const float *found = work.values.data() + (pixel - begin) * all,
+                            *difference = work.difference.data() + (pixel - begin) * stride_;
+                float* const values = of_.pictures_.values(pixel);
+                for (std::size_t k = 0; k < all; ++k) values[k] = (of_.by_links_.empty() ? 0.0f : values[k]) + found[k] * scale;
+                std::copy_n(difference, stride_, values + all);
+            }
+            return cast;
+        }
+
+    private:
+        FieldRendering& of_;
+        std::size_t stride_;
+        SobolPoints sobol_, gather_sobol_;
+        std::uint32_t compared_;
+        FieldReader reader_;
+    };
+
+    const Scene& scene_;
+    const FieldSettings& settings_;
+    const Watch& watch_;
+    Processes* processes_;
+    FieldSaving* saving_;
+    const FieldProgress* begun_ = nullptr;
+    const PatchSpace space_, coarser_;
+    const RowShare rows_;
+    FieldPictures pictures_;
+    std::vector<TracedSeries> series_;
+    std::vector<LinkFields> by_links_;
+    std::uint32_t width_, pixels_, group_, groups_;  // pixels are read in groups of group_
+    std::vector<std::atomic<bool>> read_;            // which groups are
+    std::vector<RayNumbers> rays_of_group_;
+    std::size_t later_;  // where rays of later bounces are counted
+    std::mutex keeps_;
+};
+
+}  // namespace
+
+std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const Watch& watch,
+                                           Processes* processes, FieldSaving* saving) {
+    return FieldRendering(scene, settings, watch, processes, saving).render();
+}
+
+}  // namespace neumann

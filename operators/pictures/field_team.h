@@ -1,0 +1,21 @@
+// The processes that render fields on patches together with this one.
+#pragma once
+
+#include "operators/pictures/field_progress.h"
+#include "operators/watch.h"
+
+#include <optional>
+
+namespace neumann {
+
+class Scene;
+
+class FieldTeam {
+public:
+    virtual ~FieldTeam() = default;
+    // render_fields() by all of them.
+    virtual std::optional<FieldPictures> render(const Scene& scene, const FieldSettings& settings, const Watch& watch,
+                                                FieldSaving* saving) = 0;
+};
+
+}  // namespace neumann
