@@ -63,8 +63,9 @@ void Checkpoints::save(const std::function<void()>& write, const std::string& be
     try {
         write();
     } catch (const RunError& error) {
-        throw RunError(has_saved_ ? fmt::format("{}\nThe state before it is whole: {} goes on from {}", error.what(), resuming_, before)
-                                  : std::string(error.what()));
+        throw RunError(has_saved_
+                           ? fmt::format("{}\nThe state before it is whole: {} goes on from {}", error.what(), resuming_, before)
+                           : std::string(error.what()));
     }
     has_saved_ = keeps_ = true;
     writing_seconds_ = clock.seconds();

@@ -28,8 +28,8 @@ public:
           keeps_(keeps),
           tell_(std::move(tell)) {}
 
-    // For a render that goes on from there, or begins. What it keeps is written here, and RunError, thrown if that fails, tells what
-    // to do. Refers to this object.
+    // For a render that goes on from there, or begins. What it keeps is written here, and RunError, thrown if that fails, tells
+    // what to do. Refers to this object.
     Saving saving(std::optional<RenderState> from);
 
 private:

@@ -37,7 +37,10 @@ NamedState read(const std::string& folder) {
             fmt::format("{}: holds no {}; renders that are to be merged keep it with --part, or with a --checkpoint shorter "
                         "than they take",
                         folder, samples_file));
-    return {folder, read_saved_render(file)};
+    NamedState state{folder, read_saved_render(file)};
+    if (state.state.fields)
+        throw InputError(folder + ": was rendered from fields on patches, and has no samples that could be put together");
+    return state;
 }
 
 // The samples a pixel that parts leave out, because one of them is not here or was cut short.

@@ -155,22 +155,23 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         request.reference = chosen->method;
         choice = chosen->why;
     }
-    if (!reference) reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces);
-    if (!reference) return nothing_done();
+    const auto begin = [&](const Json& of_reference) {
+        if (!journal.study.is_null()) return;
+        data.plan.reference_samples = of_reference.value("samples", data.plan.reference_samples);
+        expect_disk_space(data, folder.path());
+        Json plan = as_json(data.plan, data.bounces);
+        plan["reference"] = of_reference;
+        plan["choice"] = choice;
+        journal.begin(study, plan);
+    };
+    if (!reference) reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces, folder, begin);
+    if (!reference) return {false, 0, data.runs()};
     data.reference = std::move(*reference);
     data.reference.choice = choice;
     for (const Estimate& picture : data.reference.pictures) PictureErrors check(picture);
-    if (request.resume) {
-        if (journal.plan.at("reference") != data.reference.identity)
-            throw InputError("--resume: the reference is another one than that of the study that was cut off");
-    } else {
-        data.plan.reference_samples = data.reference.identity.value("samples", data.plan.reference_samples);
-        expect_disk_space(data, folder.path());
-        Json plan = as_json(data.plan, data.bounces);
-        plan["reference"] = data.reference.identity;
-        plan["choice"] = choice;
-        journal.begin(study, plan);
-    }
+    begin(data.reference.identity);
+    if (journal.plan.at("reference") != data.reference.identity)
+        throw InputError("--resume: the reference is another one than that of the study that was cut off");
 
     run_all(data, journal, folder, status);
     const Film& film = scene.film;

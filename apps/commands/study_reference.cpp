@@ -1,7 +1,7 @@
 #include "apps/commands/study_reference.h"
 
 #include "apps/commands/interrupt.h"
-#include "apps/files/output_folder.h"
+#include "apps/commands/study_saving.h"
 #include "apps/files/reference.h"
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
@@ -147,7 +147,8 @@ std::optional<StudyReference> given_reference(const StudyRequest& request, const
 }
 
 std::optional<StudyReference> make_reference(const StudyRequest& request, std::uint64_t wanted, const Scene& scene,
-                                             const Pilot& pilot, int bounces) {
+                                             const Pilot& pilot, int bounces, OutputFolder& folder,
+                                             const std::function<void(const Json&)>& begins) {
     const StudyMethod method = making_method(request);
     const auto described = [&](StudyReference reference, std::uint64_t samples) {
         reference.description =
@@ -168,10 +169,12 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
         return found;
     }
 
+    begins(made_identity(request, wanted, scene, bounces));
     const Stopwatch watch;
+    StudySaving saving(folder, "reference", scene, request);
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
     const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot,
-                                {.stop = interrupted, .crew = request.crew});
+                                {.stop = interrupted, .crew = request.crew}, saving.saving());
     if (!run) return std::nullopt;
     StudyReference made;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->term(i));
@@ -190,6 +193,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
             made.warnings.push_back(fmt::format("the reference is not kept: {}", e.what()));
         }
     }
+    folder.forget();
     made.seconds = watch.seconds();
     return described(std::move(made), wanted);
 }

@@ -3,9 +3,12 @@
 #pragma once
 
 #include "apps/commands/study_command.h"
+#include "apps/files/output_folder.h"
 #include "operators/study/study_plan.h"
 
 #include <nlohmann/json.hpp>
+
+#include <functional>
 
 namespace neumann {
 
@@ -22,8 +25,10 @@ struct StudyReference {
 // The given answer or pictures; nothing if a method is to render the reference. Throws InputError if it is none of these, or if the
 // size differs.
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces);
-// Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted.
+// Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted. Calls begins(identity)
+// before it is rendered; what there is of it is in the folder meanwhile.
 std::optional<StudyReference> make_reference(const StudyRequest& request, std::uint64_t samples, const Scene& scene,
-                                             const Pilot& pilot, int bounces);
+                                             const Pilot& pilot, int bounces, OutputFolder& folder,
+                                             const std::function<void(const nlohmann::ordered_json&)>& begins);
 
 }  // namespace neumann

@@ -1,7 +1,7 @@
 #include "apps/commands/study_runs.h"
 
-#include "apps/commands/checkpoints.h"
 #include "apps/commands/interrupt.h"
+#include "apps/commands/study_saving.h"
 #include "apps/files/saved_render.h"
 #include "core/base/error.h"
 #include "core/base/peak_memory.h"
@@ -23,16 +23,6 @@ void expect_disk_space(const StudyData& data, const std::filesystem::path& folde
             folder.string(), data.runs(), bytes / 0x1p30, static_cast<double>(space.available) / 0x1p30));
 }
 
-namespace {
-
-// What is there of a run from before the study was cut off.
-std::optional<RenderState> begun(const OutputFolder& folder, const Json& run) {
-    if (!std::filesystem::exists(folder.saved()) || request_in_file(folder.saved()).options != run) return std::nullopt;
-    return read_saved_render(folder.saved());
-}
-
-}  // namespace
-
 void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const StudyStatus& status) {
     const std::size_t N = data.pictures() - 2;
     while (journal.runs.size() < data.runs()) {
@@ -44,11 +34,9 @@ void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const
         const Effort& effort = data.plan.efforts[method][budget];
         const std::uint64_t seed = study_seed(data.request.seed, method, budget, repeat);
         data.peak_is_of_run = restart_peak_memory();
-        const Json number = {{"run", at}};
-        Checkpoints checkpoints(folder, {number, data.scene.hash}, "the same command with --resume", data.request.checkpoint, false,
-                                [](const std::string&) {});
+        StudySaving saving(folder, at, data.scene, data.request);
         const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot,
-                                       {.stop = interrupted, .crew = data.request.crew}, checkpoints.saving(begun(folder, number)));
+                                       {.stop = interrupted, .crew = data.request.crew}, saving.saving());
         if (!result) return;
         StudyRun run = study_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();

@@ -1,6 +1,7 @@
 // A render under way on disk, so that another process can go on with it: the line "neumann render 1", the size of the header (8
-// bytes, little-endian), the header (JSON), the numbers that it counts (moments, ranges of samples, errors by samples; or fields and
-// pixels that were read from them), and a hash of all that (XXH3, 8 bytes). A file that is cut off or has another byte anywhere is refused.
+// bytes, little-endian), the header (JSON), the numbers that it counts (moments, ranges of samples, errors by samples; or fields
+// and pixels that were read from them), and a hash of all that (XXH3, 8 bytes). A file that is cut off or has another byte anywhere
+// is refused.
 #pragma once
 
 #include "apps/files/output_folder.h"

@@ -103,7 +103,8 @@ private:
 
     void render_share_of(const FieldSettings& settings) {
         try {
-            together(processes_, [&] { return render_fields(without_unlit_ ? *without_unlit_ : *scene_, settings, {}, &processes_); });
+            together(processes_,
+                     [&] { return render_fields(without_unlit_ ? *without_unlit_ : *scene_, settings, {}, &processes_); });
         } catch (const InputError&) {
             // The first process finds it, too.
         }

@@ -13,8 +13,8 @@ namespace neumann {
 // Says what is wrong with this process, and ends it; the launcher ends the others.
 [[noreturn]] void end_all(const Processes& processes, const std::exception& error);
 
-// What work() returns, which all processes do together. What is wrong with the input all find; another error of one of them ends them
-// all, for others may be waiting for it.
+// What work() returns, which all processes do together. What is wrong with the input all find; another error of one of them ends
+// them all, for others may be waiting for it.
 template <class Work>
 auto together(Processes& processes, const Work& work) -> decltype(work()) {
     try {
@@ -26,8 +26,9 @@ auto together(Processes& processes, const Work& work) -> decltype(work()) {
     }
 }
 
-// A command for which each reads the same command line: process 0 speaks. Calls run(options), on other processes than 0 with their output silenced, and returns the exit code. What is wrong with the input
-// all find, and process 0 says it; another error of one process ends them all.
+// A command for which each reads the same command line: process 0 speaks. Calls run(options), on other processes than 0 with their
+// output silenced, and returns the exit code. What is wrong with the input all find, and process 0 says it; another error of one
+// process ends them all.
 int run_together(Processes& processes, PatchOptions options, const std::function<int(const PatchOptions&)>& run);
 
 }  // namespace neumann

@@ -3,7 +3,8 @@
 // T only in expectation, because the rays that see a facet and the facet's own rays are two different estimates. What a chain
 // (chains.h) takes from a side that has unknowns, it carries from link to link, in one bounce each.
 //
-// Where several processes have rows of T, each finds what starts, arrives and is seen from its own: the sum over them is the balance.
+// Where several processes have rows of T, each finds what starts, arrives and is seen from its own: the sum over them is the
+// balance.
 #pragma once
 
 #include "operators/matrix/chains.h"

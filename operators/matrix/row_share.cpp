@@ -6,8 +6,7 @@
 
 namespace neumann {
 
-RowShare::RowShare(const PatchSpace& space)
-    : space_(&space), first_{0, static_cast<std::uint32_t>(space.facets().size())} {}
+RowShare::RowShare(const PatchSpace& space) : space_(&space), first_{0, static_cast<std::uint32_t>(space.facets().size())} {}
 
 RowShare::RowShare(const PatchSpace& space, std::uint32_t rays, Processes* processes) : RowShare(space) {
     if (!processes) return;

@@ -38,7 +38,9 @@ TracedSeries restored(const SavedSeries& saved, const PatchSpace& space, const P
 }
 
 std::size_t saved_size(const PatchSpace& space, const PatchSpace& coarser, int bounces, bool has_links) {
-    const auto of = [&](const PatchSpace& one) { return 3 * (static_cast<std::size_t>(bounces) + 2) * (std::size_t{one.size()} + 1); };
+    const auto of = [&](const PatchSpace& one) {
+        return 3 * (static_cast<std::size_t>(bounces) + 2) * (std::size_t{one.size()} + 1);
+    };
     return (of(space) + of(coarser)) * (has_links ? 2 : 1);
 }
 

@@ -255,10 +255,10 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
         rows.complete(means);
         return R(std::move(means));
     };
-    TracedSeries series = series_of<C>(product, longest_chain, Le, given, rows, coarser, settings, watch,
-                                       [&](int k, const ExitantVector<C>& term) {
-                                           if (k > 0 || !from_afar) balance.add(static_cast<std::size_t>(k), term, power);
-                                       });
+    TracedSeries series =
+        series_of<C>(product, longest_chain, Le, given, rows, coarser, settings, watch, [&](int k, const ExitantVector<C>& term) {
+            if (k > 0 || !from_afar) balance.add(static_cast<std::size_t>(k), term, power);
+        });
     add_up(rows, power);
     series.power = std::move(power);
     series.light_rays = light_rays;

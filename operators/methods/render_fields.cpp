@@ -110,11 +110,11 @@ BounceSeries render_by(M m, const RenderJob& job) {
     };
     // Importance is carried by T*, whose columns are on all processes: this one makes its pictures alone.
     const std::unique_ptr<FieldTeam> team = job.watch.crew && !importance ? job.watch.crew->begin_fields(m) : nullptr;
-    auto rendered = given && !goal.seconds
-                        ? render_fields_once(job.scene, settings, job.watch, team.get(), &saving)
-                        : std::optional(render_fields_to_goal(job.scene, settings,
-                                                              choose_goal(goal, settings, given, seconds_before), job.watch,
-                                                              team.get(), &saving));
+    auto rendered =
+        given && !goal.seconds
+            ? render_fields_once(job.scene, settings, job.watch, team.get(), &saving)
+            : std::optional(render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given, seconds_before),
+                                                  job.watch, team.get(), &saving));
     if (!rendered) throw RunError("interrupted before the pictures were finished: none was written");
     FieldRun& run = *rendered;
     run.seconds += seconds_before;

@@ -22,8 +22,8 @@ struct RenderState {
 struct Saving {
     // Of the same scene; it says which method, seed and bounces are rendered. The goal may be another one.
     std::optional<RenderState> from = {};
-    // Samples of paths: called after every part, and once more when the last one is done, from the thread that renders. What it throws ends the
-    // render.
+    // Samples of paths: called after every part, and once more when the last one is done, from the thread that renders. What it
+    // throws ends the render.
     std::function<void(const RecordedRender&, const std::optional<MethodChoice>&, const RenderedSeries&, bool is_last)> keep =
         [](const auto&, const auto&, const auto&, bool) {};
     // Fields: as FieldSaving.

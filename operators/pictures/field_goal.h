@@ -34,8 +34,8 @@ struct FieldRun {
 // No render starts that is predicted to exceed the time; one that exceeds it by a tenth and a second is dropped. Without an error
 // to reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the
 // result of the previous render; the first render is not stopped. Does not call watch.judge. `team`: who renders with this process;
-// null: nobody. `saving`: of each render but the first; a search that begins with a render under way goes on with that one as soon as
-// it has seen the errors of smaller ones.
+// null: nobody. `saving`: of each render but the first; a search that begins with a render under way goes on with that one as soon
+// as it has seen the errors of smaller ones.
 FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
                                FieldTeam* team = nullptr, FieldSaving* saving = nullptr);
 

@@ -161,8 +161,8 @@ private:
     // Light that comes by links, as points; every process finds all of it.
     void show_links() {
         if (!series_.front().fine_by_links || !shows_links(scene_)) return;
-        const double rays = std::max(static_cast<double>(RayTable::size(space_, settings_.rays)),
-                                     static_cast<double>(pixels_) * settings_.samples);
+        const double rays =
+            std::max(static_cast<double>(RayTable::size(space_, settings_.rays)), static_cast<double>(pixels_) * settings_.samples);
         std::vector<LinkRaster> rasters;
         for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
             // Where others do the same, all have to end together.

@@ -6,7 +6,8 @@
 namespace neumann {
 
 std::uint32_t SharedPixels::begin(std::uint32_t round, int rank) const {
-    const std::uint64_t parts = rounds(), first = std::uint64_t{groups_} * round / parts, last = std::uint64_t{groups_} * (round + 1) / parts;
+    const std::uint64_t parts = rounds(), first = std::uint64_t{groups_} * round / parts,
+                        last = std::uint64_t{groups_} * (round + 1) / parts;
     const auto size = static_cast<std::uint64_t>(processes_ ? processes_->size() : 1);
     return static_cast<std::uint32_t>(first + (last - first) * static_cast<std::uint64_t>(rank) / size);
 }

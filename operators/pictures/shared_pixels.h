@@ -20,8 +20,8 @@ public:
     std::pair<std::uint32_t, std::uint32_t> own(std::uint32_t round) const;
     // Those of the others, which process 0 gets.
     std::pair<std::uint32_t, std::uint32_t> taken(std::uint32_t round) const;
-    // For all processes together: process 0 gets the values that the others have read in a round. `first_value(group)`: the place of
-    // a group's first value, and for group = number of groups the end.
+    // For all processes together: process 0 gets the values that the others have read in a round. `first_value(group)`: the place
+    // of a group's first value, and for group = number of groups the end.
     void give_to_first(std::uint32_t round, float* values, const std::function<std::size_t(std::uint32_t)>& first_value) const;
 
 private:

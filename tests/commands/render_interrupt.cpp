@@ -82,8 +82,8 @@ TEST_F(RenderInterrupt, AtTheBeginning) {
     }
 }
 
-// Fields on patches have no pictures before they are finished.
-TEST_F(RenderInterrupt, FieldsAreFinishedOrNotWritten) {
+// Fields on patches have no pictures before they are finished; what there is of them is kept (render_resume_fields.cpp).
+TEST_F(RenderInterrupt, FieldsHaveNoPicturesBeforeTheyAreFinished) {
     RunningCommand command = start({"render", "scene.xml", "-o", "a", "-n", "2", "--method", "gather", "--patches", "500",
                                     "--directions", "64", "--spp", "65536", "-t", "1"});
     wait_for_folder();
@@ -91,8 +91,9 @@ TEST_F(RenderInterrupt, FieldsAreFinishedOrNotWritten) {
     command.signal(SIGINT);
     const Finished done = command.wait();
     EXPECT_EQ(done.exit_code, 1);
-    EXPECT_EQ(done.err, "neumann: interrupted before the pictures were finished: nothing was written\n");
-    EXPECT_FALSE(std::filesystem::exists(path("a")));
+    EXPECT_EQ(done.err,
+              "neumann: interrupted before the pictures were finished: none was written; neumann render --resume a goes on\n");
+    EXPECT_EQ(names("a"), Names{"render.unfinished"});
 }
 
 // Before and while the program begins: the signal ends it as any program, or as above.

@@ -52,6 +52,29 @@ TEST_F(StudyResume, AfterAKillAndASignal) {
     EXPECT_EQ(figures("a"), figures("whole"));
 }
 
+// Killed or interrupted while its reference is made, it goes on with that.
+TEST_F(StudyResume, InItsReference) {
+    const Strings options = joined({"--methods", "walk,light", "--samples", "16,64", "--repeats", "2", "-n", "1"},
+                                   {"--reference", "walk", "--reference-spp", "65536", "--checkpoint", "0.05"});
+    study("whole", options);
+    std::filesystem::remove_all(path("cache"));
+    const Strings arguments = joined({"study", "scene.xml", "-o", "a", "--quiet"}, options);
+    for (const int number : {SIGKILL, SIGINT}) {
+        RunningCommand command = start(number == SIGINT ? joined(arguments, {"--resume"}) : arguments);
+        for (int i = 0; i < 3000 && !std::filesystem::exists(path("a/study.unfinished")); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        command.signal(number);
+        command.wait();
+        ASSERT_TRUE(std::filesystem::exists(path("a/study.unfinished")));
+        EXPECT_NE(text_of(path("a/study.unfinished")).find("\"run\":\"reference\""), std::string::npos);
+        EXPECT_EQ(text_of(path("a/study.journal")).find("\"run\""), std::string::npos);
+    }
+    EXPECT_EQ(run(joined(arguments, {"--resume"})).exit_code, 0);
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    EXPECT_EQ(figures("a"), figures("whole"));
+}
+
 // A run that takes longer than the study is let live: wherever it dies, 20 moments, it goes on from what is on the disk.
 using StudyResumeSlow = StudyResume;
 TEST_F(StudyResumeSlow, AfterTwentyDeaths) {

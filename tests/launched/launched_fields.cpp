@@ -10,11 +10,8 @@ protected:
     }
     static std::vector<std::string> rendering(const std::string& scene, const std::string& output,
                                               const std::vector<std::string>& options) {
-        std::vector<std::string> all{"render", std::string(SCENES) + "/" + scene + "/" + scene + ".xml",
-                                     "-D",     "res=24",
-                                     "-n",     "4",
-                                     "-o",     output,
-                                     "--quiet"};
+        std::vector<std::string> all{
+            "render", std::string(SCENES) + "/" + scene + "/" + scene + ".xml", "-D", "res=24", "-n", "4", "-o", output, "--quiet"};
         all.insert(all.end(), options.begin(), options.end());
         return all;
     }
@@ -26,8 +23,8 @@ TEST_F(LaunchedFields, HaveTheBitsOfOneProcess) {
         for (const std::string method : {"matrix", "gather", "patches"}) {
             if (method == "patches" && scene == "glass-ball") continue;
             SCOPED_TRACE(scene + " by " + method);
-            const std::vector<std::string> options{"--spp", "8",   "--method", method, "--patches", method == "patches" ? "60" : "500",
-                                                   "--seed", "7"};
+            const std::vector<std::string> options{
+                "--spp", "8", "--method", method, "--patches", method == "patches" ? "60" : "500", "--seed", "7"};
             expect_done(run(rendering(scene, "a", options)));
             for (const int processes : {2, 3}) {
                 expect_done(run_on(processes, rendering(scene, "b", options)));

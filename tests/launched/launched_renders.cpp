@@ -32,9 +32,8 @@ TEST_F(LaunchedRenders, HaveTheBitsOfOneProcess) {
 
 // A tail may take several renders, with more bounces each time.
 TEST_F(LaunchedRenders, TakeOtherOptions) {
-    for (const std::vector<std::string>& options :
-         {std::vector<std::string>{"--method", "patches", "--importance", "--spp", "4"},
-          {"--method", "auto", "--spp", "64", "-t", "1"}}) {
+    for (const std::vector<std::string>& options : {std::vector<std::string>{"--method", "patches", "--importance", "--spp", "4"},
+                                                    {"--method", "auto", "--spp", "64", "-t", "1"}}) {
         expect_done(run_on(2, rendering("b", options)));
         expect_complete("b");
     }

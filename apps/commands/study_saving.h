@@ -1,0 +1,38 @@
+// What there is of a study's present run, or of its reference, while that is rendered.
+#pragma once
+
+#include "apps/commands/checkpoints.h"
+#include "apps/commands/study_command.h"
+#include "apps/files/output_folder.h"
+#include "core/scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+
+namespace neumann {
+
+class StudySaving {
+public:
+    // `run`: its number, or "reference".
+    StudySaving(OutputFolder& folder, const nlohmann::ordered_json& run, const Scene& scene, const StudyRequest& request)
+        : folder_(folder),
+          options_{{"run", run}},
+          checkpoints_(folder, {options_, scene.hash}, "the same command with --resume", request.checkpoint, false,
+                       [](const std::string&) {}) {}
+
+    // It goes on with what is there of it from before the study was cut off. Refers to this object.
+    Saving saving() {
+        const std::filesystem::path file = folder_.saved();
+        const bool is_there = std::filesystem::exists(file) && request_in_file(file).options == options_;
+        return checkpoints_.saving(is_there ? std::optional(read_saved_render(file)) : std::nullopt);
+    }
+
+private:
+    OutputFolder& folder_;
+    nlohmann::ordered_json options_;
+    Checkpoints checkpoints_;
+};
+
+}  // namespace neumann
