@@ -3,7 +3,6 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
-#include "apps/processes/launch.h"
 #include "apps/processes/together.h"
 #include "core/base/error.h"
 #include "operators/matrix/traced_system.h"
@@ -187,13 +186,7 @@ int solve_and_print(const SolveRequest& request, Processes* processes) {
 }  // namespace
 
 int solve_command(const SolveRequest& request) {
-    Processes* const processes = launched();
-    if (!processes) return solve_and_print(request, nullptr);
-    return run_together(*processes, request.patches, [&](const PatchOptions& options) {
-        SolveRequest mine = request;
-        mine.patches = options;
-        return solve_and_print(mine, processes);
-    });
+    return run_by_all(request, solve_and_print);
 }
 
 }  // namespace neumann

@@ -4,7 +4,6 @@
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/spectrum_print.h"
-#include "apps/processes/launch.h"
 #include "apps/processes/together.h"
 #include "core/base/stopwatch.h"
 #include "operators/matrix/traced_system.h"
@@ -55,13 +54,7 @@ int find_and_print(const SpectrumRequest& request, Processes* processes) {
 }  // namespace
 
 int spectrum_command(const SpectrumRequest& request) {
-    Processes* const processes = launched();
-    if (!processes) return find_and_print(request, nullptr);
-    return run_together(*processes, request.patches, [&](const PatchOptions& options) {
-        SpectrumRequest mine = request;
-        mine.patches = options;
-        return find_and_print(mine, processes);
-    });
+    return run_by_all(request, find_and_print);
 }
 
 }  // namespace neumann

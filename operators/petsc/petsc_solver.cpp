@@ -12,35 +12,50 @@ namespace {
 
 std::vector<std::string> told_of(const Petsc& petsc) {
     std::vector<std::string> told;
-    for (const std::string& option : petsc.unused_options())
-        told.push_back("--petsc: nothing has asked for the option " + option);
+    for (const std::string& option : petsc.unused_options()) told.push_back("--petsc: nothing has asked for the option " + option);
     return told;
 }
 
-// I − K. `product` is K.
-PetscMatrix one_minus(const ChannelOperator& K, std::function<void(const Vector&, Vector&)> product) {
+PetscMatrix rows_of(const ChannelOperator& K) {
     PetscMatrix A;
     A.size = K.size();
     A.first = K.first();
     A.all = K.unknowns();
-    A.apply = [product = std::move(product)](const Vector& x, Vector& y) {
-        product(x, y);
+    return A;
+}
+
+PetscMatrix one_minus(PetscMatrix K) {
+    PetscMatrix A = K;
+    A.apply = [of_K = K.apply](const Vector& x, Vector& y) {
+        of_K(x, y);
         y = x - y;
     };
-    // Kᵀ = M K* M⁻¹.
-    A.apply_transposed = [&K](const Vector& x, Vector& y) {
-        K.apply_adjoint(x.cwiseQuotient(K.measure()), y);
-        y = x - y.cwiseProduct(K.measure());
+    A.apply_transposed = [of_K = K.apply_transposed](const Vector& x, Vector& y) {
+        of_K(x, y);
+        y = x - y;
     };
-    A.diagonal = [&K](Eigen::Index u) { return 1.0 - K.diagonal(u); };
-    A.row = [&K](Eigen::Index u, const std::function<void(std::size_t, double)>& each) {
-        each(K.first() + static_cast<std::size_t>(u), 1.0);
-        K.for_row(u, [&](std::size_t v, double a) { each(v, -a); });
+    A.diagonal = [of_K = K.diagonal](Eigen::Index u) { return 1.0 - of_K(u); };
+    A.row = [first = K.first, of_K = K.row](Eigen::Index u, const auto& each) {
+        each(first + static_cast<std::size_t>(u), 1.0);
+        of_K(u, [&](std::size_t v, double a) { each(v, -a); });
     };
     return A;
 }
 
 }  // namespace
+
+PetscMatrix petsc_matrix(const ChannelOperator& K) {
+    PetscMatrix A = rows_of(K);
+    A.apply = [&K](const Vector& x, Vector& y) { K.apply(x, y); };
+    // Kᵀ = M K* M⁻¹.
+    A.apply_transposed = [&K](const Vector& x, Vector& y) {
+        K.apply_adjoint(x.cwiseQuotient(K.measure()), y);
+        y.array() *= K.measure().array();
+    };
+    A.diagonal = [&K](Eigen::Index u) { return K.diagonal(u); };
+    A.row = [&K](Eigen::Index u, const auto& each) { K.for_row(u, each); };
+    return A;
+}
 
 std::vector<std::string> petsc_options(const std::string& text) {
     if (!text.empty()) return {text};
@@ -50,7 +65,9 @@ std::vector<std::string> petsc_options(const std::string& text) {
 
 SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& method) {
     SolverLog log(problem);
-    const PetscMatrix A = one_minus(*problem.K, [&](const Vector& x, Vector& y) { log.apply(x, y); });
+    PetscMatrix K = petsc_matrix(*problem.K);
+    K.apply = [&](const Vector& x, Vector& y) { log.apply(x, y); };
+    const PetscMatrix A = one_minus(std::move(K));
     Vector x = Vector::Zero(problem.Le.size()), r(x.size());
     const std::unique_ptr<PetscLinear> linear = petsc.linear(A);
     method = linear->method();
@@ -86,7 +103,8 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
     }
 }
 
-std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, bool histories, const Watch& watch, SideBySide& all) {
+std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, bool histories,
+                                        const Watch& watch, SideBySide& all) {
     std::vector<std::string> told;
     const StoppableChannel K(*problem.K, watch);
     const Agreement& agreement = K.agreement();
@@ -125,20 +143,13 @@ std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vecto
 Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::string& options, const EigenLimits& limits,
                             std::vector<std::string>* told) {
     Eigenpairs result;
-    const auto product = [&](const Vector& x, Vector& y) {
+    PetscMatrix A = petsc_matrix(K);
+    A.apply = [&](const Vector& x, Vector& y) {
         limits.look({result.applications});
         if (K.agreement().any(limits.watch.stop() || result.applications >= limits.most)) throw Stopped();
         K.apply(x, y);
         ++result.applications;
     };
-    PetscMatrix A = one_minus(K, product);
-    A.apply = product;
-    A.apply_transposed = [&](const Vector& x, Vector& y) {
-        K.apply_adjoint(x.cwiseQuotient(K.measure()), y);
-        y.array() *= K.measure().array();
-    };
-    A.diagonal = [&K](Eigen::Index u) { return K.diagonal(u); };
-    A.row = [&K](Eigen::Index u, const auto& each) { K.for_row(u, each); };
     const std::unique_ptr<Petsc> petsc = start_petsc(options);
     try {
         PetscEigenTask task;
@@ -184,10 +195,7 @@ OperatorNorms slepc_norms(const ChannelOperator& K, const EigenLimits& limits) {
     const Vector root = K.measure().cwiseSqrt();
     Vector once(K.size());
     double applications = 0.0;
-    PetscMatrix A;
-    A.size = K.size();
-    A.first = K.first();
-    A.all = K.unknowns();
+    PetscMatrix A = rows_of(K);
     A.apply = [&](const Vector& x, Vector& y) {
         limits.look({applications});
         if (agreement.any(limits.watch.stop() || applications >= limits.most)) throw Stopped();

@@ -13,14 +13,20 @@ namespace neumann {
 // diagonal, blocks, and multigrid.
 std::vector<std::string> petsc_options(const std::string& text);
 
-// Solves with the method that PETSc's options name; `method` becomes its name, "gmres/jacobi". A step of the history is an iteration,
-// its estimate ‖r‖₂ / ‖Le‖₂ in the norm that the method looks at, but for the last one, which is SolverLog::from_residual. PETSc is
-// asked again with a smaller tolerance while that is too large, unless the options set the tolerance.
+// K; it refers to it.
+PetscMatrix petsc_matrix(const ChannelOperator& K);
+
+// Solves with the method that PETSc's options name; `method` becomes its name, "gmres/jacobi". A step of the history is an
+// iteration, its estimate ‖r‖₂ / ‖Le‖₂ in the norm that the method looks at, but for the last one, which is
+// SolverLog::from_residual. PETSc is asked again with a smaller tolerance while that is too large, unless the options set the
+// tolerance.
 SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& method);
 
-// Adds a row for each of `options`, "PETSc gmres/jacobi", with its error against the reference of `all` if there is one, and returns what is to be
-// told: the options that PETSc has not asked for. If `watch` stops it, the rows end. `histories` as in solve_side_by_side().
-std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, bool histories, const Watch& watch, SideBySide& all);
+// Adds a row for each of `options`, "PETSc gmres/jacobi", with its error against the reference of `all` if there is one, and
+// returns what is to be told: the options that PETSc has not asked for. If `watch` stops it, the rows end. `histories` as in
+// solve_side_by_side().
+std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, bool histories,
+                                        const Watch& watch, SideBySide& all);
 
 // As leading_eigenpairs(), by SLEPc's method that the options name; for a K that several processes share, each gets the values of
 // its unknowns. `told`: as what add_petsc_rows() returns.

@@ -9,7 +9,7 @@
 #include "core/base/module.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
-#include "operators/petsc/petsc.h"
+#include "operators/petsc/petsc_solver.h"
 #include "operators/shared/shared_system.h"
 #include "operators/solvers/term_series.h"
 
@@ -120,11 +120,7 @@ void measure(const Scene& scene, std::size_t patches, bool with_entries, Process
             system.space().patches().size(), system.space().size(), rays, bytes / rays, traced, 1e9 * traced / rays, 1e3 * product,
             1e9 * product / rays, 1e3 * exchange, bounces, megabytes, messages, built);
     if (!with_entries) return;
-    PetscMatrix A;
-    A.size = K.size();
-    A.first = K.first();
-    A.all = K.unknowns();
-    A.row = [&](Eigen::Index u, const auto& each) { K.for_row(u, each); };
+    const PetscMatrix A = petsc_matrix(K);
     const std::unique_ptr<Petsc> petsc = start_petsc("");
     const Stopwatch assembling;
     const std::unique_ptr<PetscEntries> entries = petsc->entries(A);

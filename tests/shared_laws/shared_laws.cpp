@@ -26,11 +26,7 @@ std::unique_ptr<Processes> start() {
 
 // Entries as PETSc stores them, against products.
 double difference_of_entries(const SharedChannel& K) {
-    PetscMatrix A;
-    A.size = K.size();
-    A.first = K.first();
-    A.all = K.unknowns();
-    A.row = [&](Eigen::Index u, const auto& each) { K.for_row(u, each); };
+    const PetscMatrix A = petsc_matrix(K);
     const std::unique_ptr<Petsc> petsc = start_petsc("");
     const Vector x = K.measure();
     Vector y(x.size()), z(x.size());
