@@ -1,5 +1,5 @@
-// Callbacks of work that takes a while (a render, a study, a matrix, a solver, a search for eigenvalues), the only way to stop it, and
-// who helps with it. Each kind of work uses those that make sense for it.
+// Callbacks of work that takes a while (a render, a study, a matrix, a solver, a search for eigenvalues), the only way to stop it,
+// and who helps with it. Each kind of work uses those that make sense for it.
 #pragma once
 
 #include "core/base/error.h"
@@ -44,8 +44,9 @@ struct Watch {
     std::function<void(const std::string&)> tell = [](const std::string&) {};
     // Fills in the true errors of a checkpoint, given the terms and their sum so far; empty if there is no reference.
     std::function<void(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint&)> judge = {};
-    // Called with N and the mean pictures of the terms 0 … N so far, each made when it is asked for: first with those that are there
-    // within a moment, rough and perhaps smaller, then as they become better. From the thread that renders. Empty: not wanted.
+    // Called with N and the mean pictures of the terms 0 … N so far, each made when it is asked for: first with those that are
+    // there within a moment, rough and perhaps smaller, then as they become better. From the thread that renders. Empty: not
+    // wanted.
     std::function<void(std::size_t bounces, const std::function<Image(std::size_t)>& term)> show = {};
     // Whether to make checkpoints before the last one; they cost time.
     bool checkpoints = true;
@@ -56,7 +57,7 @@ struct Watch {
 // Thrown by work that was stopped and has no result.
 class Stopped : public RunError {
 public:
-    Stopped() : RunError("interrupted") {}
+    explicit Stopped(const std::string& what = "interrupted") : RunError(what) {}
 };
 
 }  // namespace neumann

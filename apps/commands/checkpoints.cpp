@@ -16,8 +16,6 @@ namespace {
 
 // At most this part of the time goes into writing states.
 constexpr double writing_share = 0.05;
-// What is written without being asked for, and of the free space.
-constexpr double most_unasked = 0x1p31, most_of_free_space = 0.5;
 
 double bytes_of(const RenderedSeries& series) {
     double bytes = static_cast<double>(series.moments.ranges().of.size() * sizeof(SampleRange));
@@ -27,18 +25,24 @@ double bytes_of(const RenderedSeries& series) {
 
 double bytes_of(const FieldProgress& progress) {
     double bytes = 0.0;
-    for (const SavedSeries& series : progress.series) bytes += static_cast<double>(series.fields.size() * sizeof(float));
+    for (const SavedSeries& series : progress.series) bytes += static_cast<double>(series.size() * sizeof(float));
     for (const FieldProgress::Read& read : progress.read) bytes += static_cast<double>(read.values.size_bytes());
     return bytes;
 }
 
 }  // namespace
 
+bool is_written_unasked(double bytes, std::optional<double> free) {
+    constexpr double most = 0x1p31, most_of_free = 0.5;
+    return bytes <= most && (!free || bytes <= most_of_free * *free);
+}
+
 bool Checkpoints::is_wanted(double bytes) {
     if (is_asked_) return true;
     std::error_code unknown;
     const auto space = std::filesystem::space(folder_.path(), unknown);
-    if (bytes <= most_unasked && (unknown || bytes <= most_of_free_space * static_cast<double>(space.available))) return true;
+    const auto free = unknown ? std::nullopt : std::optional(static_cast<double>(space.available));
+    if (is_written_unasked(bytes, free)) return true;
     if (!std::exchange(has_told_, true))
         tell_(fmt::format(
             "{:.2g} GiB of what is there are not kept on the disk while the render is under way; --checkpoint asks for that",
@@ -48,11 +52,14 @@ bool Checkpoints::is_wanted(double bytes) {
 
 Saving Checkpoints::saving(std::optional<RenderState> from) {
     Saving saving;
+    has_saved_ = from.has_value();
     saving.from = std::move(from);
     saving.longest_part = 0.5 * seconds_;
     saving.keep = [this](const auto&... so_far) { keep(so_far...); };
-    saving.fields_are_due = [this](bool is_stopped) { return is_stopped ? interrupted() : is_due(); };
+    // What took long is kept also where the time is up.
+    saving.fields_are_due = [this](bool is_stopped) { return is_stopped ? interrupted() || has_saved_ : is_due(); };
     saving.keep_fields = [this](const auto&... so_far) { keep_fields(so_far...); };
+    saving.has_all_fields = [this] { folder_.has_all_of_saved(); };
     return saving;
 }
 
@@ -84,8 +91,14 @@ void Checkpoints::keep(const RecordedRender& render, const std::optional<MethodC
 
 void Checkpoints::keep_fields(const RecordedRender& render, const std::optional<MethodChoice>& choice,
                               const FieldProgress& progress) {
-    if (progress.series.empty() || !is_wanted(bytes_of(progress))) return;
-    save([&] { save_fields(folder_, request_, render, choice, progress); }, "there");
+    if (progress.series.empty()) return;
+    if (!is_wanted(bytes_of(progress))) {
+        since_last_ = Stopwatch();
+        return;
+    }
+    save([&] { save_fields(folder_, request_, render, choice, progress); },
+         fmt::format("{} of {} replicates", fields_on_disk_, progress.settings.replicates));
+    fields_on_disk_ = progress.series.size();
 }
 
 }  // namespace neumann

@@ -13,11 +13,16 @@ namespace neumann {
 
 constexpr double default_checkpoint = 60.0;
 
+// Whether so large a state is written without being asked for, where so many bytes are free on the disk, if that is known: at most
+// 2 GiB, and at most half of what is free.
+bool is_written_unasked(double bytes, std::optional<double> free);
+
 class Checkpoints {
 public:
     // A state every so many seconds (default_checkpoint, if they are not given), and one in the end if the render took longer or
-    // was interrupted, or if it `keeps` its samples anyway: those of a part, and those that were added to. If nothing asks for a
-    // state, a large one is not written, which `tell` tells once. `resuming`: the command that goes on, for messages.
+    // was interrupted, or if it `keeps` its samples anyway: those of a part, and those that were added to. Fields that are finished
+    // have none in the end. If nothing asks for a state, a large one is not written, which `tell` tells once. `resuming`: the
+    // command that goes on, for messages.
     Checkpoints(OutputFolder& folder, RequestOnDisk request, std::string resuming, std::optional<double> seconds, bool keeps,
                 std::function<void(const std::string&)> tell)
         : folder_(folder),
@@ -47,6 +52,7 @@ private:
     bool is_asked_, keeps_, has_told_ = false, has_saved_ = false;
     std::function<void(const std::string&)> tell_;
     std::uint64_t samples_on_disk_ = 0;
+    std::size_t fields_on_disk_ = 0;  // replicates
     std::size_t rows_on_disk_ = 0;
     double writing_seconds_ = 0.0;  // of the last state
     Stopwatch since_last_;

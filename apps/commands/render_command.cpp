@@ -131,13 +131,11 @@ int render_command(const RenderRequest& given) {
     const auto rendering = [&] {
         try {
             return render(request, scene, watch, checkpoints.saving(std::move(state)));
-        } catch (const RunError& error) {
-            if (!interrupted() || !std::filesystem::exists(folder->saved())) throw;
+        } catch (const Stopped& error) {
+            if (!std::filesystem::exists(folder->saved())) throw;
             throw RunError(fmt::format("{}; neumann render --resume {} goes on", error.what(), request.output));
         }
     }();
-    // Of fields, only what is not yet read is worth keeping.
-    if (fields && rendering->series.outcome != Outcome::interrupted) folder->forget();
     line.clear();
     rendering->seconds += reading_seconds;
     if (const Processes* const processes = launched()) {

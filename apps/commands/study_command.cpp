@@ -121,7 +121,10 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     OutputFolder folder(request.output, "study");
     StudyJournal journal(folder.path(), request.resume);
     const Json study = identity(request, scene);
-    if (request.resume) journal.expect_same(study);
+    if (request.resume)
+        journal.expect_same(study);
+    else
+        folder.forget();  // of another study, whose journal was removed
 
     const Stopwatch pilot_watch;
     const Pilot pilot(scene, {}, request.seed);

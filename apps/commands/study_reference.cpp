@@ -172,9 +172,11 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
     begins(made_identity(request, wanted, scene, bounces));
     const Stopwatch watch;
     StudySaving saving(folder, "reference", scene, request);
+    // One that could not be cached is made again for each part of the study, and a run may be under way.
+    const bool keeps = saving.has_room();
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
     const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot,
-                                {.stop = interrupted, .crew = request.crew}, saving.saving());
+                                {.stop = interrupted, .crew = request.crew}, keeps ? saving.saving() : Saving());
     if (!run) return std::nullopt;
     StudyReference made;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->term(i));
@@ -193,7 +195,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
             made.warnings.push_back(fmt::format("the reference is not kept: {}", e.what()));
         }
     }
-    folder.forget();
+    if (keeps) folder.forget();
     made.seconds = watch.seconds();
     return described(std::move(made), wanted);
 }

@@ -22,14 +22,16 @@ public:
           checkpoints_(folder, {options_, scene.hash}, "the same command with --resume", request.checkpoint, false,
                        [](const std::string&) {}) {}
 
+    // Whether the folder has nothing of another run.
+    bool has_room() const { return !std::filesystem::exists(folder_.saved()) || is_there(); }
     // It goes on with what is there of it from before the study was cut off. Refers to this object.
-    Saving saving() {
-        const std::filesystem::path file = folder_.saved();
-        const bool is_there = std::filesystem::exists(file) && request_in_file(file).options == options_;
-        return checkpoints_.saving(is_there ? std::optional(read_saved_render(file)) : std::nullopt);
-    }
+    Saving saving() { return checkpoints_.saving(is_there() ? std::optional(read_saved_render(folder_.saved())) : std::nullopt); }
 
 private:
+    bool is_there() const {
+        return std::filesystem::exists(folder_.saved()) && request_in_file(folder_.saved()).options == options_;
+    }
+
     OutputFolder& folder_;
     nlohmann::ordered_json options_;
     Checkpoints checkpoints_;

@@ -212,6 +212,7 @@ void OutputFolder::save(std::span<const std::string_view> pieces) {
     write_pieces(unfinished_, pieces);
     put(unfinished_);
     ::fsync(descriptor_);
+    needs_saved_ = true;
 }
 
 void OutputFolder::forget() { ::unlink(saved().c_str()); }
@@ -233,7 +234,8 @@ void OutputFolder::expect_space(double bytes) const {
 
 void OutputFolder::commit() {
     const std::vector<std::string> names = written_;
-    const bool has_samples = ::rename((path_ / unfinished_render_file).c_str(), (path_ / samples_file).c_str()) == 0;
+    const bool has_samples =
+        needs_saved_ && ::rename((path_ / unfinished_render_file).c_str(), (path_ / samples_file).c_str()) == 0;
     const auto is_new = [&](std::string_view name) {
         return std::find(names.begin(), names.end(), name) != names.end() || (has_samples && name == samples_file) ||
                name == unfinished_run_file;

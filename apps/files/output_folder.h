@@ -43,8 +43,10 @@ public:
 
     // Puts render.unfinished, or study.unfinished in a study's folder, one after the other of these pieces, in place at once, of
     // which another process makes the pictures if this one does not. It stays until commit(), which calls it render.samples, or
-    // until forget(). If not all bytes can be written, the one before it stays as it was. As write().
+    // removes it if has_all_of_saved() was called after the last save(), or until forget(). If not all bytes can be written, the
+    // one before it stays as it was. As write().
     void save(std::span<const std::string_view> pieces);
+    void has_all_of_saved() { needs_saved_ = false; }
     std::filesystem::path saved() const { return path_ / unfinished_; }
     void forget();
 
@@ -69,6 +71,7 @@ private:
 
     std::filesystem::path path_;
     std::string unfinished_;
+    bool needs_saved_ = true;
     std::vector<std::filesystem::path> created_;  // folders that were missing, outermost first
     std::mutex written_by_one_;
     std::vector<std::string> written_;

@@ -239,7 +239,10 @@ void save_pieces(OutputFolder& folder, const Json& header, std::vector<std::stri
 FieldProgress read_fields(HashedFile& file, const Json& fields) {
     FieldProgress progress;
     progress.settings = settings_from(fields.at("settings"));
-    fields.at("seconds").get_to(progress.seconds);
+    const Json& seconds = fields.at("seconds");
+    seconds.at(0).get_to(progress.seconds);
+    seconds.at(1).get_to(progress.field_seconds);
+    seconds.at(2).get_to(progress.picture_seconds);
     for (const Json& of : fields.at("series")) {
         SavedSeries series;
         of.at("has_links").get_to(series.has_links);
@@ -247,7 +250,8 @@ FieldProgress read_fields(HashedFile& file, const Json& fields) {
         of.at("rays").get_to(series.rays);
         of.at("light_rays").get_to(series.light_rays);
         for (const Json& p : of.at("power")) series.power.push_back({p.at(0), p.at(1), p.at(2), p.at(3)});
-        series.fields = file.numbers<float>(of.at("floats").get<std::uint64_t>());
+        series.numbers = file.numbers<float>(of.at("floats").get<std::uint64_t>());
+        series.fields = {series.numbers};
         progress.series.push_back(std::move(series));
     }
     std::uint64_t size = 0;
@@ -292,20 +296,20 @@ void save_fields(OutputFolder& folder, const RequestOnDisk& request, const Recor
     Json header = header_of(request, render, choice);
     Json& fields = header["fields"];
     fields = {{"settings", as_json(progress.settings)},
-              {"seconds", progress.seconds},
+              {"seconds", {progress.seconds, progress.field_seconds, progress.picture_seconds}},
               {"series", Json::array()},
               {"read", Json::array()}};
     std::vector<std::string_view> pieces;
     for (const SavedSeries& series : progress.series) {
         Json power = Json::array();
         for (const PowerOfTerm& p : series.power) power.push_back({p.emitted, p.left, p.caught, p.absorbed});
-        fields["series"].push_back({{"floats", series.fields.size()},
+        fields["series"].push_back({{"floats", series.size()},
                                     {"has_links", series.has_links},
                                     {"rest_converges", series.rest_converges},
                                     {"rays", series.rays},
                                     {"light_rays", series.light_rays},
                                     {"power", std::move(power)}});
-        pieces.push_back(bytes_of(series.fields.data(), series.fields.size()));
+        for (const std::span<const float> of : series.fields) pieces.push_back(bytes_of(of.data(), of.size()));
     }
     for (const FieldProgress::Read& read : progress.read) {
         fields["read"].push_back({read.begin, read.end, read.rays, read.values.size()});

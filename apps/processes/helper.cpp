@@ -65,9 +65,14 @@ private:
             number_ = message.at("number");
             shares_->add(share_from(message.at("share")), outdo);
         } else if (what == "fields") {
-            begin_fields(render_message_from(message));
+            // The first process does not wait for an answer.
+            try {
+                begin_fields(render_message_from(message));
+            } catch (const std::exception& e) {
+                end_all(processes_, e);
+            }
         } else if (what == "render fields") {
-            render_share_of(field_settings_from(numbers));
+            render_share_of(numbers);
         } else if (what == "drop" && shares_) {
             shares_->drop();
         } else if (what == "end") {
@@ -101,10 +106,11 @@ private:
         }
     }
 
-    void render_share_of(const FieldSettings& settings) {
+    void render_share_of(std::span<const std::byte> settings) {
         try {
-            together(processes_,
-                     [&] { return render_fields(without_unlit_ ? *without_unlit_ : *scene_, settings, {}, &processes_); });
+            together(processes_, [&] {
+                return render_fields(without_unlit_ ? *without_unlit_ : *scene_, field_settings_from(settings), {}, &processes_);
+            });
         } catch (const InputError&) {
             // The first process finds it, too.
         }

@@ -89,6 +89,7 @@ public:
         tell(fields);
     }
 
+    int on_this_machine() const override { return processes_.on_this_machine(); }
     std::optional<FieldPictures> render(const Scene& scene, const FieldSettings& settings, const Watch& watch,
                                         FieldSaving* saving) override {
         tell({{"do", "render fields"}}, as_bytes(settings));

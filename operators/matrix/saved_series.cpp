@@ -4,21 +4,29 @@
 
 namespace neumann {
 
+std::size_t SavedSeries::size() const {
+    std::size_t size = 0;
+    for (const std::span<const float> of : fields) size += of.size();
+    return size;
+}
+
 SavedSeries saved(const TracedSeries& series) {
-    SavedSeries saved{{}, series.fine_by_links.has_value(), series.rest_converges, series.rays, series.light_rays, series.power};
-    const auto add = [&](const FieldStack& stack) {
-        saved.fields.insert(saved.fields.end(), stack.values().begin(), stack.values().end());
-    };
-    add(series.fine);
-    add(series.coarse);
-    if (!saved.has_links) return saved;
-    add(*series.fine_by_links);
-    add(*series.coarse_by_links);
+    SavedSeries saved{{series.fine.values(), series.coarse.values()},
+                      series.fine_by_links.has_value(),
+                      series.rest_converges,
+                      series.rays,
+                      series.light_rays,
+                      series.power,
+                      {}};
+    if (saved.has_links) {
+        saved.fields.push_back(series.fine_by_links->values());
+        saved.fields.push_back(series.coarse_by_links->values());
+    }
     return saved;
 }
 
 TracedSeries restored(const SavedSeries& saved, const PatchSpace& space, const PatchSpace& coarser, int bounces) {
-    const float* next = saved.fields.data();
+    const float* next = saved.numbers.data();
     const auto take = [&](const PatchSpace& of) {
         FieldStack stack(of, bounces);
         std::copy_n(next, stack.values().size(), stack.values().begin());

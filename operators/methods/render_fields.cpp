@@ -95,27 +95,31 @@ BounceSeries render_by(M m, const RenderJob& job) {
     const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldReading::importance;
     if (importance && goal.tail)
         throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
-    const FieldSettings settings = choose_settings(m, job);
+    FieldSettings settings = choose_settings(m, job);
     if (goal.relative_error && given)
         throw InputError(
             "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
     FieldSaving saving;
     if (job.saving.from) saving.from = std::move(job.saving.from->fields);
+    const bool searches = !given || goal.seconds;
+    if (saving.from &&
+        !(searches ? !given || is_within(saving.from->settings, settings) : same_pictures(saving.from->settings, settings)))
+        saving.from.reset();  // more samples, or others, are other pictures
     const double seconds_before = saving.from ? saving.from->seconds : 0.0;
     const Stopwatch clock;
     saving.is_due = job.saving.fields_are_due;
+    saving.has_all = job.saving.has_all_fields;
     saving.keep = [&](FieldProgress& progress) {
         progress.seconds = seconds_before + clock.seconds();
         job.saving.keep_fields({m, goal.seed, settings.bounces, 0.0, settings.samples}, job.choice, progress);
     };
     // Importance is carried by T*, whose columns are on all processes: this one makes its pictures alone.
     const std::unique_ptr<FieldTeam> team = job.watch.crew && !importance ? job.watch.crew->begin_fields(m) : nullptr;
-    auto rendered =
-        given && !goal.seconds
-            ? render_fields_once(job.scene, settings, job.watch, team.get(), &saving)
-            : std::optional(render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given, seconds_before),
-                                                  job.watch, team.get(), &saving));
-    if (!rendered) throw RunError("interrupted before the pictures were finished: none was written");
+    if (team) settings.memory /= team->on_this_machine();
+    auto rendered = searches ? render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given, seconds_before),
+                                                     job.watch, team.get(), &saving)
+                             : render_fields_once(job.scene, settings, job.watch, team.get(), &saving);
+    if (!rendered) throw Stopped("interrupted before the pictures were finished: none was written");
     FieldRun& run = *rendered;
     run.seconds += seconds_before;
     for (Checkpoint& checkpoint : run.convergence) checkpoint.seconds += seconds_before;

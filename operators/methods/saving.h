@@ -30,6 +30,7 @@ struct Saving {
     std::function<bool(bool is_stopped)> fields_are_due = [](bool) { return false; };
     std::function<void(const RecordedRender&, const std::optional<MethodChoice>&, const FieldProgress&)> keep_fields =
         [](const auto&...) {};
+    std::function<void()> has_all_fields = [] {};
     double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
 };
 

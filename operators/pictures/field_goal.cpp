@@ -91,8 +91,9 @@ public:
             FieldSettings pilot = last_;
             pilot.samples = std::min(pilot_samples, most_.samples);
             if (fits(pilot)) return pilot;
-            return stop_short(pilot);
+            if (!under_way) return stop_short(pilot);
         }
+        // However little time is left: most of it may be done.
         if (under_way) {
             FieldSettings settings = *under_way;
             settings.memory = most_.memory;
@@ -192,11 +193,12 @@ std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettin
     const Stopwatch clock;
     auto pictures = render_by(team, scene, settings, watch, saving);
     if (!pictures) return std::nullopt;
+    if (saving) saving->has_all();
     return make_run(std::move(*pictures), settings, {}, clock.seconds());
 }
 
-FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
-                               FieldTeam* team, FieldSaving* saving) {
+std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
+                                              FieldTeam* team, FieldSaving* saving) {
     const Stopwatch clock;
     const FieldSettings most = goal.most.value_or(largest(settings));
     settings.patching.patches = std::min(fewest_patches, most.patching.patches);
@@ -228,18 +230,22 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
             return run;
         }
         const double begin = clock.seconds();
-        const auto next = steps.next(begin, saving && saving->from ? &saving->from->settings : nullptr);
+        const FieldSettings* const under_way = saving && saving->from ? &saving->from->settings : nullptr;
+        const auto next = steps.next(begin, under_way);
         if (!next) {
             run.outcome = steps.outcome();
             run.why = steps.why_not();
             return run;
         }
+        const bool goes_on = under_way && same_pictures(*under_way, *next);
         Watch in_time = watch;
         in_time.stop = [&] {
             tell();
             return watch.stop() || clock.seconds() > end;
         };
-        auto pictures = render_by(team, scene, *next, in_time, saving);
+        // What is under way is not replaced by what comes before it.
+        auto pictures = render_by(team, scene, *next, in_time, under_way && !goes_on ? nullptr : saving);
+        if (!pictures && under_way && watch.stop()) return std::nullopt;
         if (!pictures) {
             run.outcome = watch.stop() ? Outcome::interrupted : Outcome::time_reached;
             run.why = fmt::format(
@@ -247,9 +253,10 @@ FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const
                 steps.worst().error, steps.worst().bounce);
             return run;
         }
-        if (saving && saving->from && same_pictures(saving->from->settings, *next)) saving->from.reset();
+        if (goes_on) saving->from.reset();
+        if (saving && !saving->from) saving->has_all();
         run = make_run(std::move(*pictures), *next, std::move(run.convergence), clock.seconds());
-        steps.add(run, clock.seconds() - begin);
+        steps.add(run, std::max(clock.seconds() - begin, run.pictures.field_seconds + run.pictures.picture_seconds));
     }
 }
 

@@ -35,9 +35,9 @@ struct FieldRun {
 // to reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the
 // result of the previous render; the first render is not stopped. Does not call watch.judge. `team`: who renders with this process;
 // null: nobody. `saving`: of each render but the first; a search that begins with a render under way goes on with that one as soon
-// as it has seen the errors of smaller ones.
-FieldRun render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
-                               FieldTeam* team = nullptr, FieldSaving* saving = nullptr);
+// as it has seen the errors of smaller ones, and returns nothing if it is interrupted before that.
+std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
+                                              FieldTeam* team = nullptr, FieldSaving* saving = nullptr);
 
 // A single render with these settings; nothing if it is interrupted.
 std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const Watch& watch = {},

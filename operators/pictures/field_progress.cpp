@@ -7,4 +7,9 @@ bool same_pictures(FieldSettings a, const FieldSettings& b) {
     return a == b;
 }
 
+bool is_within(const FieldSettings& settings, const FieldSettings& most) {
+    return settings.patching.patches <= most.patching.patches && settings.rays <= most.rays && settings.samples <= most.samples &&
+           settings.replicates == most.replicates;
+}
+
 }  // namespace neumann

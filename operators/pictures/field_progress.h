@@ -15,8 +15,9 @@ namespace neumann {
 
 struct FieldProgress {
     FieldSettings settings;
-    double seconds = 0.0;             // that it took
-    std::vector<SavedSeries> series;  // of the first replicates
+    double seconds = 0.0;                               // of the whole render or search so far
+    double field_seconds = 0.0, picture_seconds = 0.0;  // of these settings, to trace and sum, and to read
+    std::vector<SavedSeries> series;                    // of the first replicates
 
     // Groups of pixels [begin, end) that have been read.
     struct Read {
@@ -29,15 +30,20 @@ struct FieldProgress {
 };
 
 struct FieldSaving {
-    // Taken if it has the settings that are to be rendered. A search for settings goes to these as soon as it may.
+    // Taken if it has the settings that are to be rendered. A search for settings goes to these, which have to be within its
+    // limits, as soon as it may.
     std::optional<FieldProgress> from = {};
     // Whether progress is to be kept now, or, in the end, that of a render that was stopped; as keep(), from any thread, one at a
     // time.
     std::function<bool(bool is_stopped)> is_due;
     std::function<void(FieldProgress&)> keep;
+    // When all pictures of what was kept last are there.
+    std::function<void()> has_all = [] {};
 };
 
 // Whether both make the same pictures.
 bool same_pictures(FieldSettings a, const FieldSettings& b);
+// Whether a search that ends with `most` may render with these settings.
+bool is_within(const FieldSettings& settings, const FieldSettings& most);
 
 }  // namespace neumann

@@ -40,15 +40,16 @@ Glossy glossy_of(const FieldSettings& settings, const Scene& scene) {
     return shows_patches(settings.reading) ? Glossy::in_cells : glossy_of_pictures(scene);
 }
 
-PatchSpace patches_of(const FieldSettings& settings, const Scene& scene) {
+// `processes`: how many share the rays.
+PatchSpace patches_of(const FieldSettings& settings, const Scene& scene, int processes) {
     const auto asked = static_cast<double>(settings.patching.patches);
-    check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays});
+    check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays / processes});
     const Glossy glossy = glossy_of(settings, scene);
     PatchSpace space = scene_patches(scene, settings.patching, glossy);
     check_camera(scene);
     check_field_memory(settings, scene.film,
                        {static_cast<double>(space.patches().size()), static_cast<double>(space.size()),
-                        static_cast<double>(RayTable::size(space, settings.rays)), glossy == Glossy::by_rays});
+                        static_cast<double>(RayTable::size(space, settings.rays)) / processes, glossy == Glossy::by_rays});
     return space;
 }
 
@@ -62,7 +63,7 @@ public:
           watch_(watch),
           processes_(processes),
           saving_(saving),
-          space_(patches_of(settings, scene)),
+          space_(patches_of(settings, scene, processes ? processes->size() : 1)),
           coarser_(space_.coarser()),
           rows_(space_, settings.rays, processes),
           pictures_(scene.film, settings),
@@ -79,19 +80,23 @@ public:
         pictures_.samples = std::uint64_t{settings.samples} * settings.replicates;
         pictures_.rays.resize(static_cast<std::size_t>(settings.bounces) + 2);
         later_ = std::min<std::size_t>(2, pictures_.rays.size() - 1);
-        if (saving && saving->from && same_pictures(saving->from->settings, settings)) begun_ = &*saving->from;
+        if (saving && saving->from && same_pictures(saving->from->settings, settings)) {
+            begun_ = &*saving->from;
+            expect_whole(*begun_);
+            pictures_.field_seconds = begun_->field_seconds;
+            pictures_.picture_seconds = begun_->picture_seconds;
+        }
     }
 
     std::optional<FieldPictures> render() {
         try {
-            const Stopwatch field_watch;
+            spends_ = &pictures_.field_seconds;
             trace();
-            pictures_.field_seconds = field_watch.seconds();
             find_resolution();
-            const Stopwatch picture_watch;
+            spend(&pictures_.picture_seconds);
             show_links();
             read_pixels();
-            pictures_.picture_seconds = picture_watch.seconds();
+            spend(nullptr);
         } catch (const Stopped&) {
             keep(true);
             return std::nullopt;
@@ -100,6 +105,25 @@ public:
     }
 
 private:
+    // Throws RunError if what is there cannot be of this scene.
+    void expect_whole(const FieldProgress& begun) const {
+        bool whole = begun.series.size() <= settings_.replicates;
+        for (const SavedSeries& series : begun.series)
+            whole = whole && series.numbers.size() == saved_size(space_, coarser_, settings_.bounces, series.has_links) &&
+                    series.power.size() == static_cast<std::size_t>(settings_.bounces) + 1;
+        for (const FieldProgress::Read& read : begun.read)
+            whole = whole && read.begin <= read.end && read.end <= groups_ &&
+                    read.values.size() == first_value(read.end) - first_value(read.begin);
+        if (!whole) throw RunError("what is kept of this render has other sizes than its scene: it cannot be gone on with");
+    }
+
+    // Ends a part of the work whose seconds are counted, and begins another.
+    void spend(double* next) {
+        *spends_ += clock_.seconds();
+        clock_ = Stopwatch();
+        spends_ = next;
+    }
+
     // The series of all replicates.
     void trace() {
         const auto there = static_cast<std::uint32_t>(rows_.sum(begun_ ? static_cast<double>(begun_->series.size()) : 0.0));
@@ -127,7 +151,7 @@ private:
 
     // One that was traced before; the first process has it, and gives it to the others.
     TracedSeries take_series(std::uint32_t replicate) const {
-        SavedSeries saved = begun_ ? begun_->series[replicate] : SavedSeries();
+        SavedSeries saved = begun_ ? std::move(begun_->series[replicate]) : SavedSeries();
         if (processes_) {
             double numbers[] = {saved.has_links ? 1.0 : 0.0, saved.rest_converges ? 1.0 : 0.0, static_cast<double>(saved.rays),
                                 static_cast<double>(saved.light_rays)};
@@ -137,8 +161,8 @@ private:
             saved.rays = static_cast<std::uint64_t>(numbers[2]);
             saved.light_rays = static_cast<std::uint64_t>(numbers[3]);
             saved.power.resize(static_cast<std::size_t>(settings_.bounces) + 1);  // only the first tells it
-            saved.fields.resize(saved_size(space_, coarser_, settings_.bounces, saved.has_links));
-            processes_->share(saved.fields);
+            saved.numbers.resize(saved_size(space_, coarser_, settings_.bounces, saved.has_links));
+            processes_->share(saved.numbers);
         }
         return restored(saved, space_, coarser_, settings_.bounces);
     }
@@ -164,10 +188,10 @@ private:
         const double rays =
             std::max(static_cast<double>(RayTable::size(space_, settings_.rays)), static_cast<double>(pixels_) * settings_.samples);
         std::vector<LinkRaster> rasters;
+        // Where others do the same, all have to end together.
+        const Watch together{.stop = [&] { return rows_.any(watch_.stop()); }};
         for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
-            // Where others do the same, all have to end together.
-            if (rows_.any(watch_.stop())) throw Stopped();
-            LinkPictures links = picture_links(scene_, space_, rays, seed(r), settings_.bounces, processes_ ? Watch() : watch_);
+            LinkPictures links = picture_links(scene_, space_, rays, seed(r), settings_.bounces, together);
             pictures_.rays[later_] += links.rays;
             pictures_.set_replicate(r, links.picture);
             rasters.push_back(std::move(links.raster));
@@ -182,6 +206,7 @@ private:
         oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
         pictures_.add_by_groups(group_);
         take_groups(0, groups_);
+        has_taken_all_ = true;
         tell_which_are_read();
         const SharedPixels shared(groups_, processes_);
         for (std::uint32_t round = 0; round < shared.rounds(); ++round) {
@@ -204,6 +229,7 @@ private:
             if (rows_.any(stopped)) throw Stopped();
             if (processes_) give_to_first(shared, round);
         }
+        begun_ = nullptr;
         pictures_.add_groups();
         for (const RayNumbers& rays : rays_of_group_)
             for (std::size_t k = 0; k < 3; ++k) pictures_.rays[std::min(k, later_)] += rays[k];
@@ -252,11 +278,14 @@ private:
 
     // From any thread, and of groups that are read already.
     void keep(bool is_stopped) {
-        if (!saving_) return;
+        if (!saving_ || (begun_ && !has_taken_all_)) return;  // what is there already is more
         const std::unique_lock lock(keeps_, std::try_to_lock);
         if (!lock || !saving_->is_due(is_stopped)) return;
         FieldProgress progress;
         progress.settings = settings_;
+        progress.field_seconds = pictures_.field_seconds;
+        progress.picture_seconds = pictures_.picture_seconds;
+        (spends_ == &pictures_.field_seconds ? progress.field_seconds : progress.picture_seconds) += clock_.seconds();
         for (const TracedSeries& series : series_) progress.series.push_back(saved(series));
         for (std::uint32_t group = 0; group < groups_; ++group) {
             if (!read_[group]) continue;
@@ -271,7 +300,8 @@ private:
 
     std::uint64_t seed(std::uint32_t replicate) const { return settings_.seed * 0x10001 + replicate; }
     std::size_t first_value(std::uint32_t group) const {
-        return std::min(group * group_, pixels_) * 3 * pictures_.quantities() * (settings_.replicates + std::size_t{1});
+        return std::min(std::size_t{group} * group_, std::size_t{pixels_}) * 3 * pictures_.quantities() *
+               (settings_.replicates + std::size_t{1});
     }
 
     struct Workspace {
@@ -352,7 +382,10 @@ private:
     const Watch& watch_;
     Processes* processes_;
     FieldSaving* saving_;
-    const FieldProgress* begun_ = nullptr;
+    FieldProgress* begun_ = nullptr;  // what is there already
+    bool has_taken_all_ = false;      // of it
+    double* spends_ = nullptr;        // what the clock's seconds belong to
+    Stopwatch clock_;
     const PatchSpace space_, coarser_;
     const RowShare rows_;
     FieldPictures pictures_;

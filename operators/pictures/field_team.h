@@ -13,6 +13,8 @@ class Scene;
 class FieldTeam {
 public:
     virtual ~FieldTeam() = default;
+    // How many of them share the memory of this machine.
+    virtual int on_this_machine() const = 0;
     // render_fields() by all of them.
     virtual std::optional<FieldPictures> render(const Scene& scene, const FieldSettings& settings, const Watch& watch,
                                                 FieldSaving* saving) = 0;

@@ -1,4 +1,5 @@
 // Renders that are cut off and gone on with: nothing is lost but the last moments, and the pictures are those of one that was not.
+#include "apps/commands/checkpoints.h"
 #include "tests/commands/resumed_renders.h"
 
 #include <random>
@@ -93,11 +94,11 @@ TEST_F(RenderResumeSlow, AfterTwentyDeaths) {
     expect_same("a", "b");
 }
 
-// The first state fits, and one of the later ones does not: it has more nodes of the tree of replicates.
+// The first state fits, and the last one, of 124 replicates, does not: it has five nodes of their tree.
 TEST_F(RenderResume, OnAFullDisk) {
-    expect_done(rendering("a", {"--spp", "4096", "--method", "walk", "--files", "tables"}));
+    expect_done(rendering("a", {"--spp", "3968", "--method", "walk", "--files", "tables"}));
     const Finished done =
-        run(rendering("b", {"--spp", "4096", "--method", "walk", "--checkpoint", "0.0001", "--files", "tables"}), 700'000);
+        run(rendering("b", {"--spp", "3968", "--method", "walk", "--checkpoint", "0.0001", "--files", "tables"}), 700'000);
     EXPECT_EQ(done.exit_code, 1);
     EXPECT_TRUE(
         done.err.starts_with("neumann: b/render.unfinished: cannot be written: File too large\nThe state before it is whole: "
@@ -106,6 +107,16 @@ TEST_F(RenderResume, OnAFullDisk) {
     EXPECT_EQ(names("b"), Names{"render.unfinished"});
     expect_done({"render", "--resume", "b", "--quiet"});
     expect_same("a", "b");
+}
+
+TEST_F(RenderResume, LargeStatesAreWrittenWhereTheyAreAskedFor) {
+    constexpr double GiB = 0x1p30;
+    EXPECT_TRUE(is_written_unasked(2.0 * GiB, 4.0 * GiB));
+    EXPECT_TRUE(is_written_unasked(2.0 * GiB, std::nullopt));
+    EXPECT_FALSE(is_written_unasked(2.001 * GiB, 100.0 * GiB));
+    EXPECT_FALSE(is_written_unasked(2.001 * GiB, std::nullopt));
+    EXPECT_FALSE(is_written_unasked(1.0 * GiB, 1.999 * GiB));
+    EXPECT_FALSE(is_written_unasked(1.0, 0.0));
 }
 
 TEST_F(RenderResume, ADamagedStateIsRefused) {

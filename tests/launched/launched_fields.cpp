@@ -89,13 +89,8 @@ TEST_F(LaunchedFields, GoOnFromAState) {
 TEST_F(LaunchedFields, EndWhenOneDies) {
     RunningCommand command =
         start_on(3, rendering("cornell-box", "b", {"--method", "gather", "--patches", "3000", "--spp", "65536"}));
-    std::optional<pid_t> victim;
-    for (int i = 0; i < 1000 && !victim; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        victim = process(2, "b");
-    }
+    const auto victim = working_process(2, "b");
     ASSERT_TRUE(victim);
-    std::this_thread::sleep_for(std::chrono::seconds(1));
     kill(*victim, SIGKILL);
     const Finished done = command.wait();
     EXPECT_NE(done.exit_code, 0);
@@ -105,13 +100,8 @@ TEST_F(LaunchedFields, EndWhenOneDies) {
 TEST_F(LaunchedFields, EndWhenTheyAreAskedTo) {
     RunningCommand command =
         start_on(2, rendering("cornell-box", "b", {"--method", "gather", "--patches", "3000", "--spp", "65536"}));
-    std::optional<pid_t> first;
-    for (int i = 0; i < 1000 && !first; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        first = process(0, "b");
-    }
+    const auto first = working_process(0, "b");
     ASSERT_TRUE(first);
-    std::this_thread::sleep_for(std::chrono::seconds(1));
     kill(*first, SIGTERM);
     const Finished done = command.wait();
     EXPECT_EQ(done.exit_code, 1);

@@ -51,6 +51,17 @@ protected:
         }
         return std::nullopt;
     }
+    // The same, as soon as it is there and has had a second to work in.
+    std::optional<pid_t> working_process(int rank, const std::string& output) const {
+        for (int i = 0; i < 1000; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            if (const auto found = process(rank, output)) {
+                std::this_thread::sleep_for(std::chrono::seconds(1));
+                return found;
+            }
+        }
+        return std::nullopt;
+    }
 };
 
 }  // namespace neumann

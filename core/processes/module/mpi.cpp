@@ -1,4 +1,5 @@
 // All that knows MPI, but for PETSc: a module that is loaded where a launcher has started several processes.
+#include "core/base/error.h"
 #include "core/processes/processes.h"
 
 #include <mpi.h>
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace neumann {
@@ -96,6 +98,9 @@ public:
         exchange(given.data(), taken.data(), counts, MPI_FLOAT, sizeof(float));
     }
     void complete(std::span<double> values, std::span<const std::size_t> first) override {
+        if (first.back() > std::numeric_limits<int>::max())
+            throw RunError(
+                "MPI counts what processes tell each other by numbers of 31 bits, which do not suffice for so many unknowns");
         std::vector<int> begin, count;
         for (std::size_t p = 0; p + 1 < first.size(); ++p) {
             begin.push_back(static_cast<int>(first[p]));
