@@ -1,7 +1,5 @@
-// A render under way on disk, so that another process can go on with it: the line "neumann render 1", the size of the header (8
-// bytes, little-endian), the header (JSON), the numbers that it counts (moments, ranges of samples, errors by samples; or fields
-// and pixels that were read from them), and a hash of all that (XXH3, 8 bytes). A file that is cut off or has another byte anywhere
-// is refused.
+// A render under way on disk, so that another process can go on with it (state_file.h). The numbers are moments, ranges of samples
+// and errors by samples; or fields and the pixels that were read from them (saved_fields.h).
 #pragma once
 
 #include "apps/files/output_folder.h"

@@ -4,7 +4,6 @@
 #include "operators/matrix/saved_series.h"
 #include "operators/pictures/field_pictures.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,8 +21,8 @@ struct FieldProgress {
     // Groups of pixels [begin, end) that have been read.
     struct Read {
         std::uint32_t begin, end;
-        std::array<std::uint64_t, 3> rays;  // cast for bounce 0, for bounce 1 and for all later ones
-        std::span<const float> values;      // as FieldPictures has them
+        RaysByBounce rays;
+        std::span<const float> values;  // as FieldPictures has them
     };
     std::vector<Read> read;
     std::vector<float> values;  // those to which `read` refers, if it is alone

@@ -53,7 +53,7 @@ FieldReader::FieldReader(const Scene& scene, FieldReading reading, int bounces, 
       lights_(scene, static_cast<std::size_t>(bounces) + 1),
       gather_(scene, lights_, 3 * (static_cast<std::size_t>(bounces) + 2), from_field_, gather_rays) {}
 
-NEUMANN_HOT std::array<std::uint64_t, 3> FieldReader::read(const FieldPair& fields, std::span<const PixelSample> samples) const {
+NEUMANN_HOT RaysByBounce FieldReader::read(const FieldPair& fields, std::span<const PixelSample> samples) const {
     std::vector<PixelRay> seen;
     std::array<std::uint64_t, 3> rays{find_first_points(samples, seen), 0, 0};
     if (shows_patches(reading_)) {

@@ -21,15 +21,17 @@ namespace neumann {
 enum class FieldReading { patches, matrix, gather, importance };
 inline bool shows_patches(FieldReading reading) { return reading == FieldReading::patches || reading == FieldReading::importance; }
 
+// Rays cast for bounce 0, for bounce 1 and for all later ones.
+using RaysByBounce = std::array<std::uint64_t, 3>;
+
 class FieldReader {
 public:
     // `gather_rays`: per sample.
     FieldReader(const Scene& scene, FieldReading reading, int bounces, std::uint32_t gather_rays);
     FieldReader(const FieldReader&) = delete;
 
-    // Adds the samples to their pixels; samples of one pixel should be adjacent. Returns the number of rays cast for bounce 0, for
-    // bounce 1 and for all later ones.
-    std::array<std::uint64_t, 3> read(const FieldPair& fields, std::span<const PixelSample> samples) const;
+    // Adds the samples to their pixels; samples of one pixel should be adjacent.
+    RaysByBounce read(const FieldPair& fields, std::span<const PixelSample> samples) const;
 
 private:
     // Returns the number of rays cast.

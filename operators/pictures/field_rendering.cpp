@@ -1,11 +1,11 @@
 #include "operators/pictures/field_rendering.h"
 
 #include "core/base/stopwatch.h"
-#include "core/scene/camera_sample.h"
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/pictures/field_memory.h"
+#include "operators/pictures/field_pixels.h"
 #include "operators/pictures/link_pictures.h"
 #include "operators/pictures/shared_pixels.h"
 #include "operators/plan/half_spaces.h"
@@ -20,10 +20,6 @@
 namespace neumann {
 
 namespace {
-
-// Streams that differ from those of the series.
-constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x676174686572ull;
-constexpr std::uint32_t samples_at_once = 64;
 
 EnergyBalance power_balance(const std::vector<TracedSeries>& replicates) {
     std::vector<std::vector<EnergyShares>> all;
@@ -53,8 +49,6 @@ PatchSpace patches_of(const FieldSettings& settings, const Scene& scene, int pro
     return space;
 }
 
-using RayNumbers = std::array<std::uint64_t, 3>;  // for bounce 0, for bounce 1 and for all later ones
-
 class FieldRendering {
 public:
     FieldRendering(const Scene& scene, const FieldSettings& settings, const Watch& watch, Processes* processes, FieldSaving* saving)
@@ -67,10 +61,8 @@ public:
           coarser_(space_.coarser()),
           rows_(space_, settings.rays, processes),
           pictures_(scene.film, settings),
-          width_(static_cast<std::uint32_t>(scene.film.crop_width)),
-          pixels_(width_ * static_cast<std::uint32_t>(scene.film.crop_height)),
-          group_(std::max(1u, samples_at_once / settings.samples)),
-          groups_((pixels_ + group_ - 1) / group_),
+          pixels_(scene, settings),
+          groups_(pixels_.groups()),
           read_(groups_),
           rays_of_group_(groups_) {
         pictures_.has_links = glossy_of(settings, scene) == Glossy::by_rays;
@@ -110,10 +102,10 @@ private:
         bool whole = begun.series.size() <= settings_.replicates;
         for (const SavedSeries& series : begun.series)
             whole = whole && series.numbers.size() == saved_size(space_, coarser_, settings_.bounces, series.has_links) &&
-                    series.power.size() == static_cast<std::size_t>(settings_.bounces) + 1;
+                    series.power.size() == (pictures_.importance ? 0 : static_cast<std::size_t>(settings_.bounces) + 1);
         for (const FieldProgress::Read& read : begun.read)
             whole = whole && read.begin <= read.end && read.end <= groups_ &&
-                    read.values.size() == first_value(read.end) - first_value(read.begin);
+                    read.values.size() == pixels_.first_value(read.end) - pixels_.first_value(read.begin);
         if (!whole) throw RunError("what is kept of this render has other sizes than its scene: it cannot be gone on with");
     }
 
@@ -175,7 +167,7 @@ private:
         for (const TracedSeries& s : series_) counts.lights += static_cast<double>(s.light_rays);
         counts.lights_of_facet = counts.lights / static_cast<double>(space_.facets().size());
         if (settings_.reading == FieldReading::gather) counts.gathered = replicates * settings_.samples * settings_.gather_rays;
-        counts.pixels = pixels_;
+        counts.pixels = pixels_.pixels();
         if (!shows_patches(settings_.reading)) counts.sampled_at_pixel = settings_.bounces > 0 ? 2 : 1;
         const ConvexBody body = HalfSpaces(scene_.geometry).convex_body();
         counts.is_closed = body.found && body.is_closed;
@@ -185,8 +177,8 @@ private:
     // Light that comes by links, as points; every process finds all of it.
     void show_links() {
         if (!series_.front().fine_by_links || !shows_links(scene_)) return;
-        const double rays =
-            std::max(static_cast<double>(RayTable::size(space_, settings_.rays)), static_cast<double>(pixels_) * settings_.samples);
+        const double rays = std::max(static_cast<double>(RayTable::size(space_, settings_.rays)),
+                                     static_cast<double>(pixels_.pixels()) * settings_.samples);
         std::vector<LinkRaster> rasters;
         // Where others do the same, all have to end together.
         const Watch together{.stop = [&] { return rows_.any(watch_.stop()); }};
@@ -202,9 +194,8 @@ private:
     }
 
     void read_pixels() {
-        const PixelReader reader(*this);
-        oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
-        pictures_.add_by_groups(group_);
+        oneapi::tbb::enumerable_thread_specific<FieldPixels::Workspace> workspaces;
+        pictures_.add_by_groups(pixels_.group());
         take_groups(0, groups_);
         has_taken_all_ = true;
         tell_which_are_read();
@@ -217,10 +208,10 @@ private:
                     stopped = true;
                     return;
                 }
-                Workspace& work = workspaces.local();
+                FieldPixels::Workspace& work = workspaces.local();
                 for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
                     if (read_[group]) continue;
-                    rays_of_group_[group] = reader.read(group, work);
+                    rays_of_group_[group] = pixels_.read(group, series_, by_links_, pictures_, work);
                     pictures_.group_is_complete(group);
                     read_[group] = true;
                 }
@@ -231,14 +222,14 @@ private:
         }
         begun_ = nullptr;
         pictures_.add_groups();
-        for (const RayNumbers& rays : rays_of_group_)
+        for (const RaysByBounce& rays : rays_of_group_)
             for (std::size_t k = 0; k < 3; ++k) pictures_.rays[std::min(k, later_)] += rays[k];
     }
 
     void give_to_first(const SharedPixels& shared, std::uint32_t round) {
         const auto [own_begin, own_end] = shared.own(round);
         const auto [begin, end] = shared.taken(round);
-        shared.give_to_first(round, pictures_.values(0), [&](std::uint32_t group) { return first_value(group); });
+        shared.give_to_first(round, pictures_.values(0), [&](std::uint32_t group) { return pixels_.first_value(group); });
         std::array<double, 3> of_others{};
         for (std::uint32_t group = own_begin; !rows_.is_first() && group < own_end; ++group)
             for (std::size_t k = 0; k < 3; ++k) of_others[k] += static_cast<double>(rays_of_group_[group][k]);
@@ -259,9 +250,9 @@ private:
         for (const FieldProgress::Read& read : begun_->read) {
             const std::uint32_t from = std::max(begin, read.begin), to = std::min(end, read.end);
             if (from >= to) continue;
-            std::copy_n(read.values.data() + (first_value(from) - first_value(read.begin)), first_value(to) - first_value(from),
-                        pictures_.values(0) + first_value(from));
-            rays_of_group_[from] = from == read.begin ? read.rays : RayNumbers{};
+            std::copy_n(read.values.data() + (pixels_.first_value(from) - pixels_.first_value(read.begin)),
+                        pixels_.first_value(to) - pixels_.first_value(from), pictures_.values(0) + pixels_.first_value(from));
+            rays_of_group_[from] = from == read.begin ? read.rays : RaysByBounce{};
             for (std::uint32_t group = from; group < to; ++group) {
                 pictures_.group_is_complete(group);
                 read_[group] = true;
@@ -292,90 +283,14 @@ private:
             FieldProgress::Read read{group, group, {}, {}};
             for (; group < groups_ && read_[group]; ++group, ++read.end)
                 for (std::size_t k = 0; k < 3; ++k) read.rays[k] += rays_of_group_[group][k];
-            read.values = {pictures_.values(0) + first_value(read.begin), pictures_.values(0) + first_value(read.end)};
+            read.values = {pictures_.values(0) + pixels_.first_value(read.begin),
+                           pictures_.values(0) + pixels_.first_value(read.end)};
             progress.read.push_back(read);
         }
         saving_->keep(progress);
     }
 
     std::uint64_t seed(std::uint32_t replicate) const { return settings_.seed * 0x10001 + replicate; }
-    std::size_t first_value(std::uint32_t group) const {
-        return std::min(std::size_t{group} * group_, std::size_t{pixels_}) * 3 * pictures_.quantities() *
-               (settings_.replicates + std::size_t{1});
-    }
-
-    struct Workspace {
-        std::vector<Sampler> samplers, gather_samplers;  // one for each sample; one for each pixel
-        std::vector<PixelSample> samples;
-        std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
-    };
-
-    class PixelReader {
-    public:
-        explicit PixelReader(FieldRendering& of)
-            : of_(of),
-              stride_(3 * of.pictures_.quantities()),
-              sobol_(of.settings_.samples),
-              gather_sobol_(of.settings_.samples * of.settings_.gather_rays),
-              // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With
-              // gather all are, because the reader compares only some gather rays.
-              compared_(of.settings_.reading == FieldReading::gather ? of.settings_.samples : (of.settings_.samples + 3) / 4),
-              reader_(of.scene_, of.settings_.reading, of.settings_.bounces, of.settings_.gather_rays) {}
-
-        RayNumbers read(std::uint32_t group, Workspace& work) const {
-            const FieldSettings& settings = of_.settings_;
-            const Film& film = of_.scene_.film;
-            const auto width = of_.width_;
-            const std::uint32_t begin = group * of_.group_, end = std::min(begin + of_.group_, of_.pixels_);
-            const std::size_t all = stride_ * settings.replicates, count = (end - begin) * settings.samples;
-            const float difference_weight = 1.0f / static_cast<float>(compared_ * settings.replicates);
-            RayNumbers cast{};
-            work.values.assign((end - begin) * all, 0.0f);
-            work.difference.assign((end - begin) * stride_, 0.0f);
-            work.samplers.clear();
-            work.gather_samplers.clear();
-            for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-                work.gather_samplers.emplace_back(gather_sobol_, settings.seed ^ gather_stream, pixel);
-                work.samplers.resize(work.samplers.size() + settings.samples,
-                                     Sampler(sobol_, settings.seed ^ picture_stream, pixel));
-            }
-            for (std::uint32_t r = 0; r < settings.replicates; ++r) {
-                work.samples.clear();
-                for (std::size_t i = 0; i < count; ++i) {
-                    const auto offset = static_cast<std::uint32_t>(i / settings.samples), pixel = begin + offset;
-                    Sampler& sampler = work.samplers[i];
-                    const std::uint64_t sample_number = std::uint64_t{r} * settings.samples + i % settings.samples;
-                    sampler.start(sample_number);
-                    const CameraSample sample = sample_camera(of_.scene_, film.crop_x + static_cast<int>(pixel % width),
-                                                              film.crop_y + static_cast<int>(pixel / width), sampler);
-                    work.samples.push_back({sample.ray, sample.weight, work.values.data() + offset * all + r * stride_,
-                                            i % settings.samples < compared_ ? work.difference.data() + offset * stride_ : nullptr,
-                                            difference_weight, &sampler, &work.gather_samplers[offset],
-                                            sample_number * settings.gather_rays});
-                }
-                const TracedSeries& s = of_.series_[r];
-                const auto rays =
-                    reader_.read({s.fine, s.coarse, of_.by_links_.empty() ? nullptr : &of_.by_links_[r]}, work.samples);
-                for (std::size_t k = 0; k < 3; ++k) cast[k] += rays[k];
-            }
-            const float scale = 1.0f / static_cast<float>(settings.samples);
-            for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-                const float *found = work.values.data() + (pixel - begin) * all,
-                            *difference = work.difference.data() + (pixel - begin) * stride_;
-                float* const values = of_.pictures_.values(pixel);
-                for (std::size_t k = 0; k < all; ++k) values[k] = (of_.by_links_.empty() ? 0.0f : values[k]) + found[k] * scale;
-                std::copy_n(difference, stride_, values + all);
-            }
-            return cast;
-        }
-
-    private:
-        FieldRendering& of_;
-        std::size_t stride_;
-        SobolPoints sobol_, gather_sobol_;
-        std::uint32_t compared_;
-        FieldReader reader_;
-    };
 
     const Scene& scene_;
     const FieldSettings& settings_;
@@ -389,11 +304,12 @@ private:
     const PatchSpace space_, coarser_;
     const RowShare rows_;
     FieldPictures pictures_;
+    const FieldPixels pixels_;
     std::vector<TracedSeries> series_;
     std::vector<LinkFields> by_links_;
-    std::uint32_t width_, pixels_, group_, groups_;  // pixels are read in groups of group_
-    std::vector<std::atomic<bool>> read_;            // which groups are
-    std::vector<RayNumbers> rays_of_group_;
+    std::uint32_t groups_;                 // of pixels
+    std::vector<std::atomic<bool>> read_;  // which of them are
+    std::vector<RaysByBounce> rays_of_group_;
     std::size_t later_;  // where rays of later bounces are counted
     std::mutex keeps_;
 };

@@ -1,0 +1,89 @@
+#include "apps/files/state_file.h"
+
+#include "core/base/error.h"
+#include "core/geometry/ray_caster.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <system_error>
+
+namespace neumann {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
+constexpr std::string_view magic = "neumann render 1\n";
+
+std::string program() { return fmt::format("{}, {}", NEUMANN_VERSION, embree_version()); }
+
+}  // namespace
+
+class StateHash {
+public:
+    StateHash() { XXH3_64bits_reset(state_.get()); }
+    void add(const void* bytes, std::size_t size) { XXH3_64bits_update(state_.get(), bytes, size); }
+    std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
+
+private:
+    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_{XXH3_createState(), XXH3_freeState};
+};
+
+void write_state(OutputFolder& folder, Json header, std::vector<std::string_view> pieces) {
+    header["program"] = program();
+    const std::string text = header.dump();
+    const std::uint64_t size = text.size();
+    pieces.insert(pieces.begin(), {magic, bytes_of(&size, 1), text});
+    StateHash hash;
+    for (const std::string_view piece : pieces) hash.add(piece.data(), piece.size());
+    const std::uint64_t value = hash.value();
+    pieces.push_back(bytes_of(&value, 1));
+    folder.save(pieces);
+}
+
+StateFile::StateFile(const std::filesystem::path& path)
+    : path_(path), file_(path, std::ios::binary), hash_(std::make_unique<StateHash>()) {
+    if (!file_) throw InputError(path.string() + ": cannot be read");
+    std::error_code error;
+    left_ = std::filesystem::file_size(path, error);
+    std::string start(magic.size(), '\0');
+    read(start.data(), start.size());
+    if (start != magic) damaged("it does not begin like a saved render");
+    const std::uint64_t size = numbers<std::uint64_t>(1).front();
+    const std::vector<char> text = numbers<char>(size);
+    try {
+        header_ = Json::parse(text.begin(), text.end());
+        const auto version = header_.at("program").get<std::string>();
+        if (version != program())
+            throw InputError(fmt::format("{}: was written by version {}, and this is {}, whose samples may be others",
+                                         path.string(), version, program()));
+    } catch (const Json::exception& e) {
+        damaged(e.what());
+    }
+}
+
+StateFile::~StateFile() = default;
+
+void StateFile::read(void* to, std::size_t bytes) {
+    if (bytes > left_) damaged("it ends too early");
+    left_ -= bytes;
+    if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes))) damaged("it ends too early");
+    hash_->add(to, bytes);
+}
+
+void StateFile::expect_end() {
+    const std::uint64_t expected = hash_->value();
+    std::uint64_t found = 0;
+    read(&found, sizeof found);
+    if (found != expected) damaged("its checksum is another");
+    if (left_ != 0) damaged("something follows its end");
+}
+
+void StateFile::damaged(const std::string& why) const { throw InputError(fmt::format("{}: damaged: {}", path_.string(), why)); }
+
+}  // namespace neumann
