@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <ranges>
 #include <system_error>
 
 namespace neumann {
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
-constexpr std::string_view magic = "neumann render 1\n";
+constexpr std::string_view magic = "neumann render 2\n";
 
 std::string program() { return fmt::format("{}, {}", NEUMANN_VERSION, embree_version()); }
 
@@ -38,11 +39,15 @@ void write_state(OutputFolder& folder, Json header, std::vector<std::string_view
     header["program"] = program();
     const std::string text = header.dump();
     const std::uint64_t size = text.size();
-    pieces.insert(pieces.begin(), {magic, bytes_of(&size, 1), text});
+    std::vector<std::string_view> head = {magic, bytes_of(&size, 1), text};
     StateHash hash;
-    for (const std::string_view piece : pieces) hash.add(piece.data(), piece.size());
-    const std::uint64_t value = hash.value();
-    pieces.push_back(bytes_of(&value, 1));
+    for (const std::string_view piece : head) hash.add(piece.data(), piece.size());
+    const std::uint64_t of_head = hash.value();
+    head.push_back(bytes_of(&of_head, 1));
+    pieces.insert(pieces.begin(), head.begin(), head.end());
+    for (const std::string_view piece : pieces | std::views::drop(3)) hash.add(piece.data(), piece.size());
+    const std::uint64_t of_all = hash.value();
+    pieces.push_back(bytes_of(&of_all, 1));
     folder.save(pieces);
 }
 
@@ -56,6 +61,7 @@ StateFile::StateFile(const std::filesystem::path& path)
     if (start != magic) damaged("it does not begin like a saved render");
     const std::uint64_t size = numbers<std::uint64_t>(1).front();
     const std::vector<char> text = numbers<char>(size);
+    expect_hash();
     try {
         header_ = Json::parse(text.begin(), text.end());
         const auto version = header_.at("program").get<std::string>();
@@ -76,11 +82,13 @@ void StateFile::read(void* to, std::size_t bytes) {
     hash_->add(to, bytes);
 }
 
-void StateFile::expect_end() {
+void StateFile::expect_hash() {
     const std::uint64_t expected = hash_->value();
-    std::uint64_t found = 0;
-    read(&found, sizeof found);
-    if (found != expected) damaged("its checksum is another");
+    if (numbers<std::uint64_t>(1).front() != expected) damaged("its checksum is another");
+}
+
+void StateFile::expect_end() {
+    expect_hash();
     if (left_ != 0) damaged("something follows its end");
 }
 

@@ -1,6 +1,6 @@
-// A file of what is under way: the line "neumann render 1", the size of the header (8 bytes, little-endian), the header (JSON), the
-// numbers that it counts, and a hash of all that (XXH3, 8 bytes). A file that is cut off or has another byte anywhere is refused,
-// and one of another version of the program.
+// A file of what is under way: the line "neumann render 2", the size of the header (8 bytes, little-endian), the header (JSON), a
+// hash of these (XXH3, 8 bytes), the numbers that the header counts, and a hash of all. A file that is cut off or has another byte
+// anywhere is refused, and one of another version of the program.
 #pragma once
 
 #include "apps/files/output_folder.h"
@@ -50,6 +50,7 @@ public:
 
 private:
     void read(void* to, std::size_t bytes);
+    void expect_hash();
 
     std::filesystem::path path_;
     std::ifstream file_;

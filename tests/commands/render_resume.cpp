@@ -134,12 +134,13 @@ TEST_F(RenderResume, ADamagedStateIsRefused) {
     EXPECT_EQ(error(whole + "x"), "a/render.samples: damaged: something follows its end\n");
     EXPECT_EQ(error("other" + whole), "a/render.samples: damaged: it does not begin like a saved render\n");
     std::mt19937 random(1);
-    for (int i = 0; i < 10; ++i) {
+    // In the header, and anywhere.
+    for (int i = 0; i < 20; ++i) {
         std::string other = whole;
-        const std::size_t at = std::uniform_int_distribution<std::size_t>(0, whole.size() - 1)(random);
+        const std::size_t end = i % 2 == 0 ? 400 : whole.size();
+        const std::size_t at = std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
         other[at] = static_cast<char>(other[at] ^ (1 << (i % 8)));
-        const std::string said = error(other);
-        EXPECT_TRUE(said.starts_with("a/render.samples: ") || said.starts_with("--resume a: ")) << said;
+        EXPECT_TRUE(error(other).starts_with("a/render.samples: damaged: ")) << at;
     }
 }
 

@@ -98,9 +98,10 @@ TEST_F(LaunchedFields, EndWhenOneDies) {
 }
 
 TEST_F(LaunchedFields, EndWhenTheyAreAskedTo) {
-    RunningCommand command =
-        start_on(2, rendering("cornell-box", "b", {"--method", "gather", "--patches", "3000", "--spp", "65536"}));
-    const auto first = working_process(0, "b");
+    RunningCommand command = start_on(
+        2, rendering("cornell-box", "b", {"--method", "gather", "--patches", "3000", "--spp", "65536", "--checkpoint", "0.05"}));
+    ASSERT_TRUE(wait_for("b/render.unfinished"));
+    const auto first = process(0, "b");
     ASSERT_TRUE(first);
     kill(*first, SIGTERM);
     const Finished done = command.wait();
