@@ -15,6 +15,12 @@ struct LinkShares {
     std::vector<Share> shares;
     std::vector<PowerOfTerm> power;
     std::uint64_t rays = 0;
+
+    void for_each_member(const auto& f) {
+        f(shares);
+        f(power);
+        f(rays);
+    }
 };
 
 namespace {
@@ -90,7 +96,9 @@ void LinkLight::divide(double samples, std::uint64_t seed) {
 }
 
 template <int C>
-ArrivingByLinks<C> arriving_by_links(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces) {
+ArrivingByLinks<C> arriving_by_links(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces,
+                                     const Watch& watch) {
+    const PatchSpace& space = rows.space();
     ArrivingByLinks<C> result;
     result.radiance.assign(static_cast<std::size_t>(bounces) + 2, IncidentVector<C>::zero(space.size()));
     result.power.resize(static_cast<std::size_t>(bounces) + 1);
@@ -101,11 +109,12 @@ ArrivingByLinks<C> arriving_by_links(const Scene& scene, const PatchSpace& space
                         for (const LinkShares::Share& s : found.shares)
                             result.radiance[s.bounce].col(s.unknown) += to_channels<C>(s.radiance);
                         for (std::size_t k = 0; k < result.power.size(); ++k) result.power[k] += found.power[k];
-                    });
+                    },
+                    watch, &rows);
     return result;
 }
 
-template ArrivingByLinks<1> arriving_by_links<1>(const Scene&, const PatchSpace&, double, std::uint64_t, int);
-template ArrivingByLinks<4> arriving_by_links<4>(const Scene&, const PatchSpace&, double, std::uint64_t, int);
+template ArrivingByLinks<1> arriving_by_links<1>(const Scene&, const RowShare&, double, std::uint64_t, int, const Watch&);
+template ArrivingByLinks<4> arriving_by_links<4>(const Scene&, const RowShare&, double, std::uint64_t, int, const Watch&);
 
 }  // namespace neumann

@@ -7,6 +7,7 @@
 #include "operators/matrix/links.h"
 #include "operators/matrix/patch_field.h"
 #include "operators/matrix/power_balance.h"
+#include "operators/matrix/shared_parts.h"
 #include "operators/pointwise/adjoint_reflection.h"
 #include "operators/watch.h"
 
@@ -41,15 +42,20 @@ public:
     }
     // The paths are traced in parts, which are independent. Calls trace(part) for several at the same time and add(…) with what
     // that returns in the order of the parts, so that sums are the same bits on any number of threads. Throws Stopped if `watch`
-    // stops it.
+    // stops it. With `rows`, each process traces some parts, and all add all.
     template <class Trace, class Add>
-    void for_parts(const Trace& trace, const Add& add, const Watch& watch = {}) const {
+    void for_parts(const Trace& trace, const Add& add, const Watch& watch = {}, const RowShare* rows = nullptr) const {
         constexpr std::size_t at_once = 64;
         std::vector<decltype(trace(0))> found(at_once);
         for (std::size_t begin = 0; begin < parts_.size(); begin += at_once) {
-            if (watch.stop()) throw Stopped();
+            const bool shares = rows && rows->is_shared(), stops = watch.stop();
+            if (shares ? rows->any(stops) : stops) throw Stopped();
             const std::size_t n = std::min(at_once, parts_.size() - begin);
-            oneapi::tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) { found[i] = trace(begin + i); });
+            const std::vector<std::size_t> cut = shares ? rows->cut(n) : std::vector<std::size_t>{0, n};
+            const std::size_t own = shares ? rows->rank() : 0;
+            oneapi::tbb::parallel_for(cut[own], cut[own + 1], [&](std::size_t i) { found[i] = trace(begin + i); });
+            if constexpr (requires { found[0].for_each_member([](auto&) {}); })
+                if (shares) tell_all(*rows, std::span(found).first(n));
             for (std::size_t i = 0; i < n; ++i) add(found[i]);
         }
     }
@@ -145,6 +151,7 @@ struct ArrivingByLinks {
 };
 
 template <int C>
-ArrivingByLinks<C> arriving_by_links(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces);
+ArrivingByLinks<C> arriving_by_links(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces,
+                                     const Watch& watch = {});
 
 }  // namespace neumann

@@ -25,10 +25,17 @@ RowShare::RowShare(const PatchSpace& space, std::uint32_t rays, Processes* proce
     std::iota(numbers_.begin(), numbers_.end(), begin());
 }
 
+std::vector<std::size_t> RowShare::cut(std::size_t n) const {
+    const std::size_t processes = first_.size() - 1;
+    std::vector<std::size_t> cut;
+    for (std::size_t p = 0; p <= processes; ++p) cut.push_back(n * p / processes);
+    return cut;
+}
+
 void RowShare::complete(std::span<double> values, std::size_t channels) const {
     std::vector<std::size_t> first;
     for (const std::uint32_t f : first_) first.push_back(channels * space_->first_unknown(f));
-    processes_->complete(values, first);
+    complete(values, first);
 }
 
 }  // namespace neumann

@@ -25,6 +25,9 @@ public:
     std::uint32_t end() const { return first_[rank_ + 1]; }
     bool is_shared() const { return processes_ != nullptr; }
     bool is_first() const { return rank_ == 0; }
+    std::size_t rank() const { return rank_; }
+    // Of n equal parts of something, process p has [cut[p], cut[p + 1]).
+    std::vector<std::size_t> cut(std::size_t n) const;
     // As light_vector.h asks for them; refers to this object.
     SomeFacets facets() const { return processes_ ? SomeFacets(numbers_) : SomeFacets(); }
 
@@ -42,6 +45,9 @@ public:
     }
     using Agreement::largest;
     using Agreement::sum;
+
+    // Of values first[p] … first[p + 1] − 1, which process p knows, the same; only if the rows are shared.
+    void complete(std::span<double> values, std::span<const std::size_t> first) const { processes_->complete(values, first); }
 
 private:
     void complete(std::span<double> values, std::size_t channels) const;

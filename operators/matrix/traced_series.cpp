@@ -235,7 +235,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
         given.resize(2, ExitantVector<C>::zero(0));
         if (settings.glossy == Glossy::by_rays) {
             ArrivingByLinks<C> by_links =
-                arriving_by_links<C>(scene, space, static_cast<double>(table_rays), settings.seed, settings.bounces);
+                arriving_by_links<C>(scene, rows, static_cast<double>(table_rays), settings.seed, settings.bounces, watch);
             for (std::size_t k = 2; k < by_links.radiance.size(); ++k) {
                 arrives(k, by_links.radiance[k]);
                 given.push_back(R(std::move(by_links.radiance[k])));

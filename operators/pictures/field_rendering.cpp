@@ -174,16 +174,14 @@ private:
         pictures_.set_resolution(RayResolution(series_, counts));
     }
 
-    // Light that comes by links, as points; every process finds all of it.
+    // Light that comes by links, as points.
     void show_links() {
         if (!series_.front().fine_by_links || !shows_links(scene_)) return;
         const double rays = std::max(static_cast<double>(RayTable::size(space_, settings_.rays)),
                                      static_cast<double>(pixels_.pixels()) * settings_.samples);
         std::vector<LinkRaster> rasters;
-        // Where others do the same, all have to end together.
-        const Watch together{.stop = [&] { return rows_.any(watch_.stop()); }};
         for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
-            LinkPictures links = picture_links(scene_, space_, rays, seed(r), settings_.bounces, together);
+            LinkPictures links = picture_links(scene_, rows_, rays, seed(r), settings_.bounces, watch_);
             pictures_.rays[later_] += links.rays;
             pictures_.set_replicate(r, links.picture);
             rasters.push_back(std::move(links.raster));

@@ -22,6 +22,12 @@ struct Found {
     std::vector<Share> shares;
     std::vector<LinkRaster::End> ends;
     std::uint64_t rays = 0;
+
+    void for_each_member(const auto& f) {
+        f(shares);
+        f(ends);
+        f(rays);
+    }
 };
 
 // Whether light that ends there is read from fields.
@@ -29,10 +35,11 @@ bool is_diffuse(const SurfaceSide& side) { return side.bsdf && !is_glossy(side.b
 
 class LinkPainter {
 public:
-    LinkPainter(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces)
+    LinkPainter(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces)
         : scene_(scene),
-          patches_(space.patches()),
-          light_(scene, space, rays, seed ^ link_stream, bounces),
+          rows_(rows),
+          patches_(rows.space().patches()),
+          light_(scene, rows.space(), rays, seed ^ link_stream, bounces),
           seed_(seed ^ lens_stream),
           last_(static_cast<std::size_t>(bounces) + 1),
           kept_(std::min(1.0, most_ends / static_cast<double>(light_.paths()))) {}
@@ -49,7 +56,7 @@ public:
                              for (const Found::Share& share : found.shares) result.picture[share.place] += share.value;
                              ends.insert(ends.end(), found.ends.begin(), found.ends.end());
                          },
-                         watch);
+                         watch, &rows_);
         result.raster = LinkRaster(patches_, std::move(ends), static_cast<int>(last_) - 1);
         return result;
     }
@@ -86,6 +93,7 @@ private:
     }
 
     const Scene& scene_;
+    const RowShare& rows_;
     const Patches& patches_;
     LinkLight light_;
     std::uint64_t seed_;
@@ -97,9 +105,9 @@ private:
 
 bool shows_links(const Scene& scene) { return !scene.hide_emitters && scene.camera.can_be_joined(); }
 
-LinkPictures picture_links(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces,
+LinkPictures picture_links(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces,
                            const Watch& watch) {
-    return LinkPainter(scene, space, rays, seed, bounces).paint(watch);
+    return LinkPainter(scene, rows, rays, seed, bounces).paint(watch);
 }
 
 }  // namespace neumann

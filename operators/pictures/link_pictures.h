@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "operators/patches/patch_space.h"
+#include "operators/matrix/row_share.h"
 #include "operators/pictures/link_raster.h"
 #include "operators/watch.h"
 
@@ -22,8 +22,8 @@ struct LinkPictures {
     std::uint64_t rays = 0;
 };
 
-// `rays`: their approximate number. Throws Stopped if `watch` stops it.
-LinkPictures picture_links(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces,
+// `rays`: their approximate number. Throws Stopped if `watch` stops it. Where the rows are shared, all processes have all.
+LinkPictures picture_links(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces,
                            const Watch& watch = {});
 
 }  // namespace neumann

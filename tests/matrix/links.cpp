@@ -72,7 +72,7 @@ TEST_P(Links, BringTheSamePowerFromBothEnds) {
         Chains chains(scene, space, 256, seed, N);
         const RayTable table(space, 256, seed, {}, [&](const BlindRay& ray) { chains.follow(ray); });
         chains.finish();
-        const ArrivingByLinks<1> light = arriving_by_links<1>(scene, space, 4e5, seed, N);
+        const ArrivingByLinks<1> light = arriving_by_links<1>(scene, RowShare(space), 4e5, seed, N);
         for (int m = 1; m < N; ++m) {
             IncidentVector<1> means = IncidentVector<1>::zero(space.size());
             chains.add<1>([&](int links) { return links == m ? &Le : nullptr; }, means);
