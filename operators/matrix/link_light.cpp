@@ -16,10 +16,13 @@ struct LinkShares {
     std::vector<PowerOfTerm> power;
     std::uint64_t rays = 0;
 
-    void for_each_member(const auto& f) {
-        f(shares);
-        f(power);
-        f(rays);
+    void pack(PackedNumbers& to) const {
+        to.numbers(shares);
+        to.numbers(power);
+        to.number(rays);
+    }
+    static LinkShares unpacked(UnpackedNumbers& from) {
+        return {from.numbers<Share>(), from.numbers<PowerOfTerm>(), from.number<std::uint64_t>()};
     }
 };
 

@@ -54,7 +54,7 @@ public:
             const std::vector<std::size_t> cut = shares ? rows->cut(n) : std::vector<std::size_t>{0, n};
             const std::size_t own = shares ? rows->rank() : 0;
             oneapi::tbb::parallel_for(cut[own], cut[own + 1], [&](std::size_t i) { found[i] = trace(begin + i); });
-            if constexpr (requires { found[0].for_each_member([](auto&) {}); })
+            if constexpr (requires(PackedNumbers & numbers) { found[0].pack(numbers); })
                 if (shares) tell_all(*rows, std::span(found).first(n));
             for (std::size_t i = 0; i < n; ++i) add(found[i]);
         }

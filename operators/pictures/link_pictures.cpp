@@ -23,10 +23,13 @@ struct Found {
     std::vector<LinkRaster::End> ends;
     std::uint64_t rays = 0;
 
-    void for_each_member(const auto& f) {
-        f(shares);
-        f(ends);
-        f(rays);
+    void pack(PackedNumbers& to) const {
+        to.numbers(shares);
+        to.numbers(ends);
+        to.number(rays);
+    }
+    static Found unpacked(UnpackedNumbers& from) {
+        return {from.numbers<Share>(), from.numbers<LinkRaster::End>(), from.number<std::uint64_t>()};
     }
 };
 

@@ -24,6 +24,7 @@ public:
         std::uint32_t place;
         std::uint32_t bounce;
         std::array<float, 3> power;  // W
+        End() = default;
         End(std::uint32_t chart, bool front, const Vec2& st, std::uint32_t bounce, const Rgb& power);
     };
     // Bounces 2 … N + 1, the last with all later ones.
