@@ -41,8 +41,8 @@ void add_threads(CLI::App& command, int& threads) {
     command.add_option("-t", threads, "Number of threads; default all")->type_name("THREADS")->check(whole_from(1, 4096));
 }
 
-void add_checkpoint(CLI::App& command, std::optional<double>& seconds, const std::string& what) {
-    command
+CLI::Option* add_checkpoint(CLI::App& command, std::optional<double>& seconds, const std::string& what) {
+    return command
         .add_option(
             "--checkpoint", seconds,
             fmt::format("Seconds after which what there is of the {} is written to disk, again and again; default 60", what))
@@ -126,6 +126,12 @@ void add_patch_options(CLI::App& command, PatchOptions& options) {
     add_memory(command, options.memory);
     add_definitions(command, options.definitions);
     add_lenient(command, options.lenient);
+    auto* keep = command
+                     .add_option("--keep", options.keep,
+                                 "Folder that keeps the rays of T: they are taken from there if they were traced before, by this "
+                                 "command until it was cut off, or by another")
+                     ->type_name("DIR");
+    add_checkpoint(command, options.checkpoint, "T")->needs(keep);
     command.add_flag("--quiet", options.quiet, "Print no warnings");
     command.add_flag("--json", options.json, "Print JSON");
 }

@@ -22,7 +22,7 @@ void add_scene(CLI::App& command, std::string& scene);
 void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning = "Seed of the random numbers");
 void add_threads(CLI::App& command, int& threads);
 // `what` is written to disk.
-void add_checkpoint(CLI::App& command, std::optional<double>& seconds, const std::string& what);
+CLI::Option* add_checkpoint(CLI::App& command, std::optional<double>& seconds, const std::string& what);
 
 // --memory, in GiB; by default half of the memory.
 void add_memory(CLI::App& command, std::optional<double>& gibibytes);

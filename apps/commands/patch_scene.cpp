@@ -1,9 +1,11 @@
 #include "apps/commands/patch_scene.h"
 
+#include "apps/commands/checkpoints.h"
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/files/row_files.h"
 #include "apps/files/scene_json.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
@@ -46,22 +48,33 @@ PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(o
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
                        std::map<std::string, std::string> definitions)
-    : PatchScene(options, scene, std::move(definitions), [&](const TracedSettings& traced) {
+    : PatchScene(options, scene, std::move(definitions), 0, [&](const TracedSettings& traced) {
           return std::make_unique<TracedSystem>(*scene, traced, Watch{.stop = interrupted});
       }) {}
 
 PatchScene::PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc)
-    : PatchScene(options, read(options), parse_definitions(options.definitions), [&](const TracedSettings& traced) {
-          return std::make_unique<SharedSystem>(*scene_, traced, processes, petsc, Watch{.stop = interrupted});
-      }) {}
+    : PatchScene(options, read(options), parse_definitions(options.definitions), processes.rank(),
+                 [&](const TracedSettings& traced) {
+                     return std::make_unique<SharedSystem>(*scene_, traced, processes, petsc, Watch{.stop = interrupted});
+                 }) {}
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
-                       std::map<std::string, std::string> definitions,
+                       std::map<std::string, std::string> definitions, int rank,
                        const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make)
     : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
-    const TracedSettings traced = settings(options);
+    TracedSettings traced = settings(options);
+    if (!options.keep.empty())
+        rows_ = std::make_unique<RowFiles>(
+            options.keep,
+            nlohmann::ordered_json{{"hash", scene_->hash}, {"definitions", definitions_}, {"lenient", options.lenient}}, rank,
+            options.checkpoint.value_or(default_checkpoint));
+    traced.store = rows_.get();
     try {
         system_ = make(traced);
+    } catch (const Stopped&) {
+        if (!rows_) throw;
+        throw Stopped(
+            fmt::format("interrupted; the rays that were traced are in {}, and the same command goes on from there", options.keep));
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }

@@ -26,6 +26,8 @@ struct PatchOptions {
     std::uint64_t seed = 0;
     int threads = 0;               // 0: all
     std::optional<double> memory;  // GiB
+    std::string keep;              // folder for the rows of T; empty: they are not kept
+    std::optional<double> checkpoint;
     bool quiet = false;
     bool json = false;
     std::string command_line;  // as typed
@@ -34,7 +36,7 @@ struct PatchOptions {
 // The scene of a command, read and traced. During its lifetime it limits the number of threads.
 class PatchScene {
 public:
-    // Throws InputError that names the wrong option or scene, and what is allowed.
+    // Throws InputError that names the wrong option or scene, and what is allowed, and Stopped at Ctrl-C.
     explicit PatchScene(const PatchOptions& options);
     // For processes that share it, all together; `petsc`: SLEPc's options.
     PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc);
@@ -58,12 +60,13 @@ public:
 
 private:
     PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions,
-               const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
+               int rank, const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
 
     PatchOptions options_;
     ThreadLimit threads_;
     std::map<std::string, std::string> definitions_;
     std::shared_ptr<const Scene> scene_;
+    std::unique_ptr<RowStore> rows_;
     std::unique_ptr<MatrixSystem> system_;
 };
 

@@ -79,12 +79,13 @@ void print_table(const PatchScene& scene, const SolveRequest& request, const Cho
     if (scene.system().samples_lights())
         fmt::print("b = K Le is sampled on the lights, which the rays hardly meet: L − Le = b + K (L − Le) is solved for.\n");
     if (!all.no_reference.empty())
-        fmt::print("{}\n", wrapped(all.reference + " is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
+        fmt::print("{}\n",
+                   wrapped(all.reference + " is no reference, and errors are estimates only: " + all.no_reference + ".", 4));
     fmt::print("\n{:<33}{:>13}{:>11}{:>12}{:>16}   {}\n", "solver", "applications", "seconds", "estimate",
                "error to " + all.reference, "verdict");
     for (const SolverRow& row : all.rows)
-        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>16}   {}\n", row.title, applications_text(row.result.applications),
-                   row.seconds, short_number(row.estimate()),
+        fmt::print("{:<33}{:>13}{:>11.4f}{:>12}{:>16}   {}\n", row.title, applications_text(row.result.applications), row.seconds,
+                   short_number(row.estimate()),
                    is_reference(row) && all.no_reference.empty() ? "reference" : short_number(row.error), name(row.result.verdict));
     fmt::print(
         "\nApplications are of K, setup included; at most {} were allowed. Errors are relative, in the\n"
@@ -168,8 +169,8 @@ int solve_and_print(const SolveRequest& request, Processes* processes) {
     // These throw before anything is read.
     channel_number(request.channel);
     if (request.petsc) require_petsc();
-    const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);
     catch_interrupts();
+    const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);
     const SolvedScene solved = solve_scene(scene, request, request.csv || request.patches.json, processes != nullptr);
 
     print_warnings(scene.warnings(), request.patches.quiet);
@@ -185,8 +186,6 @@ int solve_and_print(const SolveRequest& request, Processes* processes) {
 
 }  // namespace
 
-int solve_command(const SolveRequest& request) {
-    return run_by_all(request, solve_and_print);
-}
+int solve_command(const SolveRequest& request) { return run_by_all(request, solve_and_print); }
 
 }  // namespace neumann

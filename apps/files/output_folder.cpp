@@ -47,6 +47,12 @@ bool is_of_blame(std::string_view name) {
     return std::regex_match(name.begin(), name.end(), pattern);
 }
 
+// "rows_002_00017.kept"
+bool is_of_rows(std::string_view name) {
+    static const std::regex pattern("rows_[0-9]{3,}_[0-9]{5,}\\.kept");
+    return std::regex_match(name.begin(), name.end(), pattern);
+}
+
 // 0, or the error number.
 int write_all(int file, std::span<const std::string_view> pieces) {
     for (std::string_view bytes : pieces)
@@ -96,6 +102,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
         {"conform", {"picture.exr", "reference.exr", "p-reference.exr", "p-error.exr", "difference.exr"}}};
     if (is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name)) return "render";
     if (is_of_blame(name)) return "blame";
+    if (is_of_rows(name)) return "--keep";
     for (const auto& [command, its] : names)
         if (std::find(its.begin(), its.end(), name) != its.end()) return command;
     return std::nullopt;
@@ -119,14 +126,17 @@ void OutputFolder::expect_no_other_files(std::string_view command) const {
                                      others.front(), *writer_of(others.front())));
 }
 
-OutputFolder::OutputFolder(const fs::path& path, std::string_view command)
+OutputFolder::OutputFolder(const fs::path& path, std::string_view command, bool locks)
     : path_(path), unfinished_(command == "study" ? unfinished_run_file : unfinished_render_file) {
     if (path.empty()) throw InputError("the output folder has no name");
     expect_no_other_files(command);
     try {
         create();
-        lock();
-        remove_leftovers();
+        open();
+        if (locks) {
+            lock();
+            remove_leftovers();
+        }
         // Finds read-only file systems and the like before anything is computed.
         const fs::path probe = partial("probe");
         const int error = write_file(probe, {});
@@ -157,9 +167,12 @@ void OutputFolder::create() {
     }
 }
 
-void OutputFolder::lock() {
+void OutputFolder::open() {
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor_ < 0) throw InputError(cannot_be_written(path_, errno));
+}
+
+void OutputFolder::lock() {
     // File systems without locks are accepted.
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         ::close(std::exchange(descriptor_, -1));  // the preview there is not ours
@@ -208,10 +221,14 @@ void OutputFolder::show(std::string_view bytes) {
     put(preview_file);
 }
 
-void OutputFolder::save(std::span<const std::string_view> pieces) {
-    write_pieces(unfinished_, pieces);
-    put(unfinished_);
+void OutputFolder::put_at_once(const std::string& name, std::span<const std::string_view> pieces) {
+    write_pieces(name, pieces);
+    put(name);
     ::fsync(descriptor_);
+}
+
+void OutputFolder::save(std::span<const std::string_view> pieces) {
+    put_at_once(unfinished_, pieces);
     needs_saved_ = true;
 }
 

@@ -23,8 +23,8 @@ class OutputFolder {
 public:
     // Creates the folder, and those above it, if they are missing. Throws InputError if the folder cannot be written or another run
     // is writing to it ("out/x: cannot be written: Permission denied"), and if it holds files of another command, which commit()
-    // would remove.
-    OutputFolder(const std::filesystem::path& path, std::string_view command);
+    // would remove. `locks`: false for a process of a run of which another locks it.
+    OutputFolder(const std::filesystem::path& path, std::string_view command, bool locks = true);
 
     // Without commit(), restores everything as it was.
     ~OutputFolder();
@@ -40,6 +40,9 @@ public:
     // Puts preview.png in place at once, for a look at what is on its way. commit() and the destructor remove it, and where the
     // process was killed, the next run does. As write().
     void show(std::string_view bytes);
+
+    // Puts a file of these pieces in place at once, one after the other; it stays. As write().
+    void put_at_once(const std::string& name, std::span<const std::string_view> pieces);
 
     // Puts render.unfinished, or study.unfinished in a study's folder, one after the other of these pieces, in place at once, of
     // which another process makes the pictures if this one does not. It stays until commit(), which calls it render.samples, or
@@ -65,6 +68,7 @@ private:
     void put(const std::string& name);
     void expect_no_other_files(std::string_view command) const;
     void create();
+    void open();
     void lock();
     void remove_leftovers();
     void discard() noexcept;

@@ -11,6 +11,7 @@
 #include <bit>
 #include <ranges>
 #include <system_error>
+#include <utility>
 
 namespace neumann {
 
@@ -19,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
-constexpr std::string_view magic = "neumann render 2\n";
+constexpr std::string_view magic = "neumann state 3\n";
 
 std::string program() { return fmt::format("{}, {}", NEUMANN_VERSION, embree_version()); }
 
@@ -35,7 +36,8 @@ private:
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_{XXH3_createState(), XXH3_freeState};
 };
 
-void write_state(OutputFolder& folder, Json header, std::vector<std::string_view> pieces) {
+void write_state(Json header, std::vector<std::string_view> pieces,
+                 const std::function<void(std::span<const std::string_view>)>& write) {
     header["program"] = program();
     const std::string text = header.dump();
     const std::uint64_t size = text.size();
@@ -48,7 +50,11 @@ void write_state(OutputFolder& folder, Json header, std::vector<std::string_view
     for (const std::string_view piece : pieces | std::views::drop(3)) hash.add(piece.data(), piece.size());
     const std::uint64_t of_all = hash.value();
     pieces.push_back(bytes_of(&of_all, 1));
-    folder.save(pieces);
+    write(pieces);
+}
+
+void write_state(OutputFolder& folder, Json header, std::vector<std::string_view> numbers) {
+    write_state(std::move(header), std::move(numbers), [&](std::span<const std::string_view> pieces) { folder.save(pieces); });
 }
 
 StateFile::StateFile(const std::filesystem::path& path)
@@ -58,7 +64,7 @@ StateFile::StateFile(const std::filesystem::path& path)
     left_ = std::filesystem::file_size(path, error);
     std::string start(magic.size(), '\0');
     read(start.data(), start.size());
-    if (start != magic) damaged("it does not begin like a saved render");
+    if (start != magic) damaged("it does not begin as such files do");
     const std::uint64_t size = numbers<std::uint64_t>(1).front();
     const std::vector<char> text = numbers<char>(size);
     expect_hash();
@@ -66,8 +72,8 @@ StateFile::StateFile(const std::filesystem::path& path)
         header_ = Json::parse(text.begin(), text.end());
         const auto version = header_.at("program").get<std::string>();
         if (version != program())
-            throw InputError(fmt::format("{}: was written by version {}, and this is {}, whose samples may be others",
-                                         path.string(), version, program()));
+            throw InputError(fmt::format("{}: was written by version {}, and this is {}, whose rays may be others", path.string(),
+                                         version, program()));
     } catch (const Json::exception& e) {
         damaged(e.what());
     }

@@ -1,4 +1,4 @@
-// A file of what is under way: the line "neumann render 2", the size of the header (8 bytes, little-endian), the header (JSON), a
+// A file of what is under way: the line "neumann state 3", the size of the header (8 bytes, little-endian), the header (JSON), a
 // hash of these (XXH3, 8 bytes), the numbers that the header counts, and a hash of all. A file that is cut off or has another byte
 // anywhere is refused, and one of another version of the program.
 #pragma once
@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -26,6 +28,10 @@ std::string_view bytes_of(const T* first, std::size_t count) {
     return {reinterpret_cast<const char*>(first), count * sizeof(T)};
 }
 
+// Calls `write` with the pieces of the file.
+void write_state(nlohmann::ordered_json header, std::vector<std::string_view> numbers,
+                 const std::function<void(std::span<const std::string_view>)>& write);
+// A render under way.
 void write_state(OutputFolder& folder, nlohmann::ordered_json header, std::vector<std::string_view> numbers);
 
 // Reads one from its beginning. Throws InputError ("out/x/render.unfinished: damaged: …") where it is not whole.

@@ -9,7 +9,7 @@
 
 #include "operators/matrix/links.h"
 #include "operators/matrix/patch_field.h"
-#include "operators/matrix/ray_table.h"
+#include "operators/matrix/row_tracing.h"
 
 #include <array>
 #include <span>

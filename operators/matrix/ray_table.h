@@ -4,41 +4,26 @@
 #pragma once
 
 #include "core/base/large_array.h"
-#include "operators/matrix/facet_rays.h"
 #include "operators/matrix/row_share.h"
+#include "operators/matrix/row_tracing.h"
 #include "operators/patches/patch_space.h"
 #include "operators/watch.h"
 
-#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
 
 namespace neumann {
 
-// A ray that meets a surface without unknowns.
-struct BlindRay {
-    std::uint32_t facet, number;  // of the facet's rays
-    std::uint32_t from;           // the unknown in whose cell of directions the ray lies
-    double share;                 // of the ray in the mean over that cell
-    const Sight& sight;
-};
-
-// Fills the row of one facet, of sobol.size() rays.
-void trace_row(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t facet,
-               const std::function<void(const BlindRay&)>& on_blind_ray, std::uint32_t* row);
-
 class RayTable {
 public:
-    // `rays`: per facet; a power of two. Facets with more cells of directions than that have one ray per cell. Keeps a reference to
-    // the space. `on_blind_ray` is called for the rays of a facet in order, and for those of other facets at the same time. Throws
-    // Stopped if `watch` stops it.
+    // `rays`: per facet, as in RowsToTrace; a power of two. Keeps a reference to the space. Throws Stopped if `watch` stops it.
     RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch = {},
              const std::function<void(const BlindRay&)>& on_blind_ray = {})
         : RayTable(RowShare(space), rays, seed, watch, on_blind_ray) {}
     // The rows of a process alone; those of others are empty. For all processes together, which all throw Stopped if one does.
     RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
-             const std::function<void(const BlindRay&)>& on_blind_ray);
+             const std::function<void(const BlindRay&)>& on_blind_ray, KeptRows* kept = nullptr);
     // The number of rays that such a table has in all.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 
@@ -46,7 +31,6 @@ public:
     // Facets [begin(), end()) have rows.
     std::uint32_t begin() const { return begin_; }
     std::uint32_t end() const { return end_; }
-    static std::uint32_t rays(const Facet& facet, std::uint32_t rays) { return std::max(rays, facet.cells.size()); }
     // The unknowns seen by the rays of a facet; PatchSpace::nothing() if a ray sees none.
     std::span<const std::uint32_t> row(std::uint32_t facet) const {
         return {seen_.get() + first_[facet], seen_.get() + first_[facet + 1]};

@@ -11,8 +11,10 @@ std::vector<RefinementRow> coarser_spectra(const MatrixSystem& as_given, const E
     const TracedSettings& settings = as_given.settings();
     const auto add = [&](const char* what, std::size_t patches, std::uint32_t rays) {
         if (patches == 0 || rays == 0) return;
-        const std::unique_ptr<MatrixSystem> system =
-            as_given.with({patches, rays, settings.seed, settings.memory}, limits.watch);
+        TracedSettings coarser = settings;
+        coarser.patches = patches;
+        coarser.rays = rays;
+        const std::unique_ptr<MatrixSystem> system = as_given.with(coarser, limits.watch);
         RefinementRow row{what, system->settings(), system->space().patches().size(), system->space().size(), {}};
         for (int c = 0; c < system->channels(); ++c) {
             auto& leading = row.leading.emplace_back();

@@ -1,6 +1,6 @@
 #include "operators/matrix/row_share.h"
 
-#include "operators/matrix/ray_table.h"
+#include "operators/matrix/row_tracing.h"
 
 #include <numeric>
 
@@ -19,7 +19,7 @@ RowShare::RowShare(const PatchSpace& space, std::uint32_t rays, Processes* proce
     std::size_t before = 0, p = 0;
     for (std::uint32_t f = 0; f < facets; ++f) {
         while (p < n && before >= all * p / n) first_[p++] = f;
-        before += RayTable::rays(space.facets()[f], rays);
+        before += rays_of(space.facets()[f], rays);
     }
     numbers_.resize(end() - begin());
     std::iota(numbers_.begin(), numbers_.end(), begin());

@@ -33,7 +33,7 @@ TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings, c
     : scene_(&scene),
       settings_(settings),
       space_(traced_space(scene, settings)),
-      table_(space_, settings.rays, settings.seed, watch),
+      table_(RowShare(space_), settings.rays, settings.seed, watch, {}, settings.kept().get()),
       samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays),
       identity_(ReflectionMatrix<1>::identity(space_)) {
     is_grey(scene) ? fill<1>() : fill<4>();

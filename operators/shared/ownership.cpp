@@ -49,7 +49,7 @@ Ownership share_out(const PatchSpace& space, std::uint32_t rays, int processes, 
         for (const bool front : {true, false})
             if (const std::uint32_t f = space.facet(patch, front); f < facets) {
                 owner[f] = std::min(static_cast<int>(before / all * processes), processes - 1);
-                here += RayTable::rays(space.facets()[f], rays);
+                here += rays_of(space.facets()[f], rays);
             }
         before += here;
     }

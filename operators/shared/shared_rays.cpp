@@ -1,11 +1,10 @@
 #include "operators/shared/shared_rays.h"
 
-#include "operators/matrix/ray_table.h"
+#include "operators/matrix/row_tracing.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <ctime>
-#include <map>
 #include <utility>
 
 namespace neumann {
@@ -17,7 +16,8 @@ std::span<const double> values_of(const Vector& x) { return {x.data(), static_ca
 
 }  // namespace
 
-SharedRays::SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, Processes& processes, const Watch& watch)
+SharedRays::SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, Processes& processes, const Watch& watch,
+                       KeptRows* kept)
     : space_(&space), processes_(&processes) {
     Ownership shared = share_out(space, rays, processes.size(), processes.rank());
     facets_ = std::move(shared.facets);
@@ -30,32 +30,13 @@ SharedRays::SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_
     for (const std::uint32_t f : facets_) {
         first_of_facet_.push_back(unknown);
         unknown += space.facets()[f].cells.size();
-        first_ray_.push_back(first_ray_.back() + RayTable::rays(space.facets()[f], rays));
+        first_ray_.push_back(first_ray_.back() + rays_of(space.facets()[f], rays));
     }
     const std::clock_t begin = std::clock();
-    trace(rays, seed, watch);
+    slots_ = make_large_array<std::uint32_t>(first_ray_.back());
+    trace_rows({space, rays, seed, facets_, first_ray_}, {watch, *this, {}, kept}, slots_.get());
     seconds_ = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     find_slots(shared.number, shared.first);
-}
-
-void SharedRays::trace(std::uint32_t rays, std::uint64_t seed, const Watch& watch) {
-    std::map<std::uint32_t, SobolPoints> sobol;  // by number of rays
-    for (const std::uint32_t f : facets_) {
-        const std::uint32_t n = RayTable::rays(space_->facets()[f], rays);
-        sobol.try_emplace(n, n);
-    }
-    slots_ = make_large_array<std::uint32_t>(first_ray_.back());
-    constexpr std::size_t times = 16;  // that they ask each other whether to stop
-    for (std::size_t i = 0; i < times; ++i) {
-        if (any(watch.stop())) throw Stopped();
-        oneapi::tbb::parallel_for(
-            oneapi::tbb::blocked_range<std::size_t>(facets_.size() * i / times, facets_.size() * (i + 1) / times, 16),
-            [&](const auto& range) {
-                for (std::size_t k = range.begin(); k < range.end(); ++k)
-                    trace_row(*space_, sobol.at(RayTable::rays(space_->facets()[facets_[k]], rays)), seed, facets_[k], {},
-                              slots_.get() + first_ray_[k]);
-            });
-    }
 }
 
 void SharedRays::find_slots(const std::vector<std::uint32_t>& number, const std::vector<std::uint32_t>& first) {

@@ -6,6 +6,7 @@
 
 #include "core/base/large_array.h"
 #include "core/processes/processes.h"
+#include "operators/matrix/kept_rows.h"
 #include "operators/series/agreement.h"
 #include "operators/shared/ownership.h"
 #include "operators/watch.h"
@@ -17,7 +18,8 @@ namespace neumann {
 class SharedRays : public Agreement {
 public:
     // For all processes together. Keeps references to the space and the processes. Throws Stopped on all if `watch` stops one.
-    SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, Processes& processes, const Watch& watch = {});
+    SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, Processes& processes, const Watch& watch = {},
+               KeptRows* kept = nullptr);
 
     const PatchSpace& space() const { return *space_; }
     // The numbers of this process's facets, and for the i-th of them its first unknown, and its rays.
@@ -55,7 +57,6 @@ public:
     double seconds() const { return seconds_; }
 
 private:
-    void trace(std::uint32_t rays, std::uint64_t seed, const Watch& watch);
     void find_slots(const std::vector<std::uint32_t>& number, const std::vector<std::uint32_t>& first);
 
     const PatchSpace* space_;

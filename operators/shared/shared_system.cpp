@@ -18,7 +18,7 @@ SharedSystem::SharedSystem(const Scene& scene, const TracedSettings& settings, P
       processes_(&processes),
       petsc_(std::move(petsc)),
       space_(traced_space(scene, settings, processes.size())),
-      table_(space_, settings.rays, settings.seed, processes, watch),
+      table_(space_, settings.rays, settings.seed, processes, watch, settings.kept().get()),
       samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays) {
     double blind = 0.0;
     for (std::size_t i = 0; i < table_.facets().size(); ++i)
@@ -61,7 +61,8 @@ MatrixSystem::PowerError SharedSystem::error_of_power(int c, Eigen::Index one_at
     const SharedChannel K = channel(c);
     const Vector variance = K.variance_of_power();
     const double all = table_.sum(K.measure().sum()), none = -1.0;
-    return {table_.largest(one_at < 0 ? none : std::sqrt(variance[one_at])), table_.largest(one_at < 0 ? none : K.measure()[one_at] / all)};
+    return {table_.largest(one_at < 0 ? none : std::sqrt(variance[one_at])),
+            table_.largest(one_at < 0 ? none : K.measure()[one_at] / all)};
 }
 
 }  // namespace neumann

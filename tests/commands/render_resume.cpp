@@ -132,7 +132,7 @@ TEST_F(RenderResume, ADamagedStateIsRefused) {
     EXPECT_EQ(error(whole.substr(0, whole.size() / 2)), "a/render.samples: damaged: it ends too early\n");
     EXPECT_EQ(error(""), "a/render.samples: damaged: it ends too early\n");
     EXPECT_EQ(error(whole + "x"), "a/render.samples: damaged: something follows its end\n");
-    EXPECT_EQ(error("other" + whole), "a/render.samples: damaged: it does not begin like a saved render\n");
+    EXPECT_EQ(error("other" + whole), "a/render.samples: damaged: it does not begin as such files do\n");
     std::mt19937 random(1);
     // In the header, and anywhere.
     for (int i = 0; i < 20; ++i) {

@@ -85,6 +85,34 @@ TEST_F(LaunchedMatrices, SolveAsOneProcessDoes) {
     }
 }
 
+// Whose rays they are does not matter: three processes go on with those of two, of which one died.
+TEST_F(LaunchedMatrices, KeepTheirRays) {
+    const auto command = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{"solve", scene("cornell-box"), "--patches", "500", "--directions", "4096", "--json"};
+        all.insert(all.end(), options.begin(), options.end());
+        return all;
+    };
+    const auto terms = [&](const Json& solved) {
+        Json history = row(solved, "neumann").at("history");
+        for (Json& step : history) step.erase("seconds");
+        return history;
+    };
+    {
+        RunningCommand dying = start_on(2, command({"--keep", "rows", "--checkpoint", "0.01"}));
+        ASSERT_TRUE(wait_for("rows/rows_001_00001.kept"));
+        kill(process(1, "rows").value(), SIGKILL);
+        EXPECT_NE(dying.wait().exit_code, 0);
+    }
+    const Json shared = printed_on(3, command({"--keep", "rows"}));
+    const auto kept = names("rows");
+    EXPECT_TRUE(kept.contains("rows_002_00000.kept"));
+    // All are there: none is traced again.
+    EXPECT_EQ(terms(printed_on(2, command({"--keep", "rows"}))), terms(printed_on(2, command({}))));
+    printed_on(0, command({"--keep", "rows"}));
+    EXPECT_EQ(names("rows"), kept);
+    EXPECT_EQ(terms(shared), terms(printed_on(3, command({}))));
+}
+
 TEST_F(LaunchedMatrices, OneSpeaksOfWhatIsWrong) {
     const Finished done = run_program(on(2, neumann({"solve", scene("furnace"), "--channel", "x"})));
     EXPECT_EQ(done.exit_code, 2);
