@@ -27,6 +27,7 @@ libeigen3-dev       | Eigen 3.4 or later                      | eigen3/Eigen/src
 libspectra-dev      | Spectra                                 | Spectra/Util/Version.h
 librandom123-dev    | Random123                               | Random123/philox.h
 libxxhash-dev       | xxHash                                  | xxhash.h
+libnanoflann-dev    | nanoflann 1.4 or later                  | nanoflann.hpp
 libjs-chart.js      | Chart.js 3 or 4, for plots of pages     | /usr/share/javascript/chart.js/chart.min.js
 fonts-dejavu-core   | the DejaVu fonts, for labels (optional) |
 '

@@ -104,6 +104,27 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
                               {"relative", report->relative}};
 }
 
+// The photon maps of the first and the last replicate, and where the power of the lights goes, by the photons of the pilot.
+Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::size_t bounces) {
+    const PhotonSettings& settings = photons.settings;
+    const std::uint64_t last = record.first_replicate + std::max<std::size_t>(record.replicates, 1) - 1;
+    const auto radii = [&](double radius) {
+        return Json{radius * relative_radius(record.first_replicate), radius * relative_radius(last)};
+    };
+    Json json = {
+        {"paths", settings.paths},
+        {"caustic", {{"photons", photons.caustic_photons}, {"radius_first_last", radii(settings.caustic_radius)}}},
+        {settings.gather ? "all" : "others", {{"photons", photons.other_photons}, {"radius_first_last", radii(settings.radius)}}}};
+    const PhotonPower& power = photons.power;
+    for (std::size_t j = 0; j < power.went_on.size() && j <= bounces + 1; ++j) {
+        Json of = {{"vertex", j}, {j == 0 ? "emitted" : "arrived", j == 0 ? power.went_on[0] : power.arrived[j]}};
+        if (j > 0) of.update({{"absorbed", power.absorbed(j)}, {"went_on", power.went_on[j]}});
+        of["escaped"] = power.escaped(j);
+        json["power"].push_back(of);
+    }
+    return json;
+}
+
 Json samples_json(const BounceSeries& series) {
     Json json = {{"per_pixel", series.samples}};
     if (const auto* paths = std::get_if<PathRecord>(&series.record)) {
@@ -111,6 +132,7 @@ Json samples_json(const BounceSeries& series) {
         if (paths->first_replicate > 0) json["first_replicate"] = paths->first_replicate;
         for (const SeedRange& range : paths->merged)
             json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
+        if (paths->photons) json["photons"] = photons_json(*paths->photons, *paths, series.report.bounces.size() - 1);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},
                                                   {"expected_vertices", walk.vertices},  // null if infinite
@@ -172,9 +194,8 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
         {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
     if (rendering.processes > 1)
-        json["processes"] = {{"count", rendering.processes},
-                             {"messages", rendering.traffic.messages},
-                             {"bytes", rendering.traffic.bytes}};
+        json["processes"] = {
+            {"count", rendering.processes}, {"messages", rendering.traffic.messages}, {"bytes", rendering.traffic.bytes}};
     json["sum"] = mean_json(report.sum, report.infinite_variance(), report.rare_large_samples());
     add_discretisation(json["sum"], report.sum_discretisation);
     json["bounces"] = Json::array();

@@ -132,7 +132,7 @@ void save_render(OutputFolder& folder, const RequestOnDisk& request, const Recor
     const std::size_t terms = series.convergence.empty() ? 0 : series.convergence.front().term_error.size();
     const std::vector<double> convergence = convergence_of(series.convergence, terms);
     Json header = header_of(request, render, choice);
-    header.update({{"picture", {moments.width(), moments.height(), moments.quantities()}},
+    header.update({{"picture", {moments.width(), moments.height(), moments.quantities(), moments.pictures()}},
                    {"samples", series.samples},
                    {"seconds", series.seconds},
                    {"tally", as_json(series.tally)},
@@ -196,7 +196,7 @@ RenderState read_saved_render(const std::filesystem::path& path) {
             return {render, choice, {SeriesMoments(0, 0, 0), Tally(0), {}}, std::move(fields)};
         }
         const Json& picture = header.at("picture");
-        RenderedSeries series{{picture.at(0), picture.at(1), picture.at(2)}, tally_from(header.at("tally")), {}};
+        RenderedSeries series{{picture.at(0), picture.at(1), picture.at(2), picture.at(3)}, tally_from(header.at("tally")), {}};
         std::vector<SeriesMoments::Node> nodes;
         for (const Json& node : header.at("nodes"))
             nodes.push_back({node.at(0), node.at(1),

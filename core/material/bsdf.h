@@ -24,6 +24,7 @@
 #include "core/material/ward.h"
 
 #include <optional>
+#include <type_traits>
 #include <variant>
 
 namespace neumann {
@@ -91,6 +92,15 @@ inline double refractive_ratio(const Bsdf& bsdf) {
                 return 1.0;
         },
         bsdf);
+}
+// Whether it is known to have delta lobes alone, so that eval() is 0.
+inline bool is_delta_only(const Bsdf& bsdf) {
+    return std::visit(
+        []<class B>(const B&) {
+            return std::is_same_v<B, Conductor> || std::is_same_v<B, Dielectric> || std::is_same_v<B, ThinDielectric> ||
+                   std::is_same_v<B, Null> || std::is_same_v<B, Retroreflector>;
+        },
+        static_cast<const Bsdf::variant&>(bsdf));
 }
 inline Lobe lobe(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.lobe(); }, bsdf);

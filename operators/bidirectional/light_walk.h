@@ -65,6 +65,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
         w.emission = emission.sample(place, samplers[i].next2());
         w.x = w.from = w.emission.from;
         w.w = w.emission.w;
+        w.pdf = 0.0;
         w.beta = w.emission.weight;
         w.first_weight = w.kept_weight = max_component(w.beta);
         return true;
@@ -106,6 +107,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
                 w.weights.leave(*weights, cosine, s.pdf, camera_pdf(scene.materials, w.x, s.wo, w.wi));
             w.from = w.x;
             w.w = s.wo;
+            w.pdf = s.pdf;
             return true;
         });
     }

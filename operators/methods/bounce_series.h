@@ -7,6 +7,7 @@
 #include "operators/methods/method.h"
 #include "operators/methods/method_choice.h"
 #include "operators/methods/ways.h"
+#include "operators/photons/photon_pilot.h"
 #include "operators/pictures/health.h"
 #include "operators/pictures/missing_paths.h"
 #include "operators/pictures/rendered_series.h"
@@ -14,6 +15,7 @@
 #include "operators/walk/furnace_walk.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,7 +36,8 @@ struct PathRecord {
     // For `walk`: (albedo, the cost and second moment of a walk in a furnace of that albedo), for the scene's largest albedo and
     // others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
-    std::optional<Health> health;  // none if only pictures were wanted
+    std::shared_ptr<const PhotonPilot> photons;  // of `photon`
+    std::optional<Health> health;                // none if only pictures were wanted
 };
 
 // How a method with fields on patches ran.

@@ -80,6 +80,16 @@ struct Bidirectional : PathOptions {
     bool operator==(const Bidirectional&) const = default;
 };
 
+// Progressive photon maps: paths from the lights leave their power where they are reflected, and walks from the camera read it
+// nearby.
+struct Photon : PathOptions {
+    static constexpr const char* name = "photon";
+    std::optional<std::uint32_t> photons = {};  // paths from the lights in each pass
+    std::optional<double> radius = {};          // in the first pass; by a pilot if it is not given
+    bool gather = false;                        // one more reflection is sampled before a map is read
+    bool operator==(const Photon&) const = default;
+};
+
 // Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
 struct Classic : PathOptions {
     static constexpr const char* name = "classic";
@@ -120,9 +130,9 @@ struct Patches : FieldOptions {
 
 }  // namespace method
 
-using Method =
-    std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                 method::Bidirectional, method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
+using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
+                            method::Bidirectional, method::Photon, method::Classic, method::Pointwise, method::Matrix,
+                            method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);

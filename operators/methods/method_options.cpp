@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 
 namespace neumann {
@@ -16,9 +17,10 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Auto{},      method::Walk{},   method::Guided{},        method::Corrected{},
-                                         method::Surface{},   method::Light{},  method::Bidirectional{}, method::Classic{},
-                                         method::Pointwise{}, method::Matrix{}, method::Gather{},        method::Patches{}};
+    static const std::vector<Method> all{method::Auto{},    method::Walk{},      method::Guided{},        method::Corrected{},
+                                         method::Surface{}, method::Light{},     method::Bidirectional{}, method::Photon{},
+                                         method::Classic{}, method::Pointwise{}, method::Matrix{},        method::Gather{},
+                                         method::Patches{}};
     return all;
 }
 
@@ -81,6 +83,11 @@ std::optional<Number> number(const std::string& text) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> read_length(const std::string& text) {
+    const auto length = number<double>(text);
+    return length && *length > 0.0 && std::isfinite(*length) ? length : std::nullopt;
 }
 
 std::optional<Roulette> read_roulette(const std::string& text) {
@@ -159,6 +166,14 @@ MethodOption choice(std::string option_name, std::string type, std::string help,
     return o;
 }
 
+template <class Get, class Set>
+MethodOption flag(std::string name, std::string help, Get get, Set set) {
+    return option(
+        Kind::flag, std::move(name), "", std::move(help), get, set,
+        [](const std::string& text) { return text == "true" || text == "false" ? std::optional(text == "true") : std::nullopt; },
+        [](bool on) { return on ? "true" : ""; }, "true or false");
+}
+
 template <class Number, class Get, class Set>
 MethodOption whole(std::string name, std::string type, std::string help, std::uint64_t low, std::uint64_t high, Get get, Set set) {
     return option(
@@ -224,22 +239,32 @@ std::vector<MethodOption> make_options() {
             "directions", "N", "For guided, corrected, patches, matrix and gather: the number of rays of a patch", 1, 1u << 20,
             [](const auto& m) requires requires { m.directions; } { return m.directions; },
             [](auto& m, std::uint32_t n) { m.directions = n; }),
+        whole<std::uint32_t>(
+            "photons", "N", "For photon: the number of paths from the lights in a pass (a replicate)", 1, 1u << 28,
+            [](const auto& m) requires requires { m.photons; } { return m.photons; },
+            [](auto& m, std::uint32_t n) { m.photons = n; }),
+        option(
+            Kind::text, "radius", "R",
+            "For photon: the radius within which photons are read in the first pass, in the scene's units; smaller in later ones; "
+            "default by "
+            "a pilot",
+            [](const auto& m) requires requires { m.radius; } { return m.radius; }, [](auto& m, double r) { m.radius = r; },
+            read_length, [](const std::optional<double>& r) { return r ? fmt::format("{}", *r) : ""; }, "a length above 0"),
+        flag(
+            "gather", "For photon: sample one more reflection before the map is read (final gathering)",
+            [](const auto& m) requires requires { m.gather; } { return m.gather; }, [](auto& m, bool on) { m.gather = on; }),
         whole<int>(
             "ways", "BOUNCE",
             "For bidirectional: write pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
             "camera, with and without its weight",
             1, 1000, [](const auto& m) requires requires { m.ways; } { return m.ways; }, [](auto& m, int n) { m.ways = n; }),
-        option(
-            Kind::flag, "importance", "",
+        flag(
+            "importance",
             "For patches: show the importance K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows "
             "with "
             "the radiance given off at each point, per area and projected solid angle (m⁻²·sr⁻¹), as a mean over directions",
             [](const auto& m) requires requires { m.importance; } { return m.importance; },
-            [](auto& m, bool on) { m.importance = on; },
-            [](const std::string& text) {
-                return text == "true" || text == "false" ? std::optional(text == "true") : std::nullopt;
-            },
-            [](bool on) { return on ? "true" : ""; }, "true or false")};
+            [](auto& m, bool on) { m.importance = on; })};
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -285,7 +310,8 @@ const std::string& method_help() {
         "for all bounces; guided: the same with directions sampled from a matrix "
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
         "sampled on all surfaces; light: walks from the lights to the camera; "
-        "bidirectional: walks from both ends, joined everywhere; classic: mirrors and glass alone, which leaves out other paths; "
+        "bidirectional: walks from both ends, joined everywhere; photon: photon maps, for caustics, with a bias that falls; "
+        "classic: mirrors and glass alone, which leaves out other paths; "
         "pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K applied once "
         "more at the pixel; patches: the patches as they are";
     return text;

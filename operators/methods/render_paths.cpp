@@ -7,12 +7,14 @@
 #include "operators/methods/crew.h"
 #include "operators/methods/render_job.h"
 #include "operators/methods/sampling.h"
+#include "operators/photons/photon_pilot.h"
 #include "operators/pictures/least_errors.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -38,10 +40,10 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& j
 }
 
 // Throws InputError if the moments of all pictures might not fit in memory, before the machine starts to swap.
-void check_memory(const Goal& goal, const Film& film, int bounces) {
+void check_memory(const Goal& goal, const Film& film, int bounces, std::size_t quantities) {
     const double nodes = 7.0;  // upper bound: nodes of the tree of replicates, the result, and the samples' ranges
-    const double bytes =
-        nodes * film.crop_width * film.crop_height * (bounces + 2.0) * PixelMoments::doubles_per_quantity * sizeof(double);
+    const double bytes = nodes * film.crop_width * film.crop_height * static_cast<double>(quantities) *
+                         PixelMoments::doubles_per_quantity * sizeof(double);
     // The size is known beforehand, so it may be a larger part of the memory than for data that grows as it goes.
     const double memory = goal.memory.value_or(0.8 * usable_memory());
     if (bytes > memory)
@@ -79,16 +81,37 @@ RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
+// With the bias of photon maps as the discretisation error: the difference between the radii r and r/√2, as a part of the error
+// by r. It is 1/2 where the light is smooth and the error of order r², and less at edges of surfaces and light, where it is of
+// order r.
+template <class Difference>
+Estimate with_bias(Estimate picture, const Difference& difference, const SeriesMoments::Result& result) {
+    if (!result.has_differences()) return picture;
+    constexpr double part = 1.0 - 1.0 / std::numbers::sqrt2;
+    picture.discretisation = difference();
+    for (Rgb& x : picture.discretisation.pixels) x = glm::abs(x) / part;
+    return picture;
+}
+
+void report_bias(const SeriesMoments::Result& result, BounceSeries& series) {
+    if (!result.has_differences()) return;
+    const auto report = [](const Estimate& picture) { return report_discretisation(picture, picture_error(picture)); };
+    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) series.report.bounces[i].discretisation = report(series.term(i));
+    series.report.sum_discretisation = report(series.sum(series.report.bounces.size() - 1));
+}
+
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
                            const std::shared_ptr<const LeastErrors>& least, SeriesReport report) {
     BounceSeries out;
     out.term = [result, least](std::size_t i) {
-        PixelEstimate term = result->term(i);
+        PixelEstimate term = with_bias(
+            result->term(i), [&] { return result->difference_of_term(i); }, *result);
         if (least) term.least_error = least->of_term(i);
         return term;
     };
     out.sum = [result, least](std::size_t i) {
-        PixelEstimate sum = result->sum(i);
+        PixelEstimate sum = with_bias(
+            result->sum(i), [&] { return result->difference_of_sum(i); }, *result);
         if (least) sum.least_error = least->of_sum(i);
         return sum;
     };
@@ -116,7 +139,7 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     const Goal& goal = job.goal;
     Warnings& warnings = series.warnings;
     if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.generator != PathGenerator::light)
-        warnings.add(settings.generator == PathGenerator::bidirectional
+        warnings.add(settings.generator == PathGenerator::bidirectional || settings.generator == PathGenerator::photon
                          ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
                          : "what a mirror throws on from a light without extent is not found by the walk and is missing");
     if (series.paths == Paths::seen_directly)
@@ -169,6 +192,7 @@ Method as_it_ran(Method method, const SamplingSettings& settings) {
                 m.patches = settings.approximation->settings().patches;
                 m.directions = settings.approximation->settings().rays;
             }
+            if constexpr (std::same_as<M, method::Photon>) m.photons = settings.photons->settings.paths;
         },
         method);
     return method;
@@ -185,7 +209,7 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
     if (job.saving.from) from = std::move(job.saving.from->series);
     for (;;) {
         const int N = settings.walk.bounces;
-        check_memory(job.goal, job.scene.film, N);
+        check_memory(job.goal, job.scene.film, N, settings.quantities());
         settings.walk.rest_probability =
             verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
         Watch watch = job.watch;
@@ -244,13 +268,14 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         report_unmet(report, *least);
     }
     BounceSeries series = bounce_series(sampled, moments, least, std::move(report));
+    report_bias(*moments, series);
     series.paths = paths;
     series.method = as_it_ran(method, settings);
     const double albedo = max_component(scene.materials.largest_basic_albedo());
     warn(series, job, settings, sampled, albedo);
 
     if (const auto* both = std::get_if<method::Bidirectional>(&method); both && both->ways) {
-        check_memory(goal, scene.film, 2 * *both->ways + 2);
+        check_memory(goal, scene.film, *both->ways, 2 * (static_cast<std::size_t>(*both->ways) + 2));
         series.ways = render_ways(scene, settings, *both->ways, sampled.samples, {job.watch.stop, job.watch.progress});
     }
     if (setup_seconds > 0.0) {
@@ -258,6 +283,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         series.seconds += setup_seconds;
         if (settings.guide) series.rays += settings.guide->rays();
         if (settings.approximation) series.rays += settings.approximation->rays();
+        if (settings.photons) series.rays += settings.photons->rays;
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
 
@@ -271,6 +297,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), Pilot::bounces + Pilot::give_up);
+    record.photons = settings.photons;
     if (settings.generator == PathGenerator::walk)
         record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
     if (goal.only_pictures) {

@@ -4,6 +4,7 @@
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
 #include "operators/methods/method_options.h"
+#include "operators/photons/photon_pilot.h"
 #include "operators/walk/direct_light.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ PathGenerator kind() {
     if constexpr (std::same_as<M, method::Surface>) return PathGenerator::surface;
     if constexpr (std::same_as<M, method::Light>) return PathGenerator::light;
     if constexpr (std::same_as<M, method::Bidirectional>) return PathGenerator::bidirectional;
+    if constexpr (std::same_as<M, method::Photon>) return PathGenerator::photon;
     if constexpr (std::same_as<M, method::Classic>) return PathGenerator::classic;
     return PathGenerator::pointwise;
 }
@@ -111,6 +113,9 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
         settings.guide = make_guide(*guided, scene, bounces, seed, memory);
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
         settings.approximation = approximation(*corrected, scene, bounces, seed, memory, watch);
+    else if (const auto* photon = std::get_if<method::Photon>(&method))
+        settings.photons = std::make_shared<const PhotonPilot>(
+            scene, settings.walk, PhotonChoice{photon->photons, photon->radius, photon->gather}, settings.sampler, seed, watch);
     else
         return false;
     return true;

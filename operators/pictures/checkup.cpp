@@ -70,7 +70,9 @@ double Checkup::self_hits_at_most() const {
 
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
-    if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected) return std::nullopt;
+    if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected ||
+        settings.generator == PathGenerator::photon)
+        return std::nullopt;
     const std::uint32_t size = settings.replicate_size;
     const std::uint64_t paths = std::uint64_t{static_cast<std::uint32_t>(sampler.width())} *
                                 static_cast<std::uint32_t>(sampler.height()) * size;  // of a replicate

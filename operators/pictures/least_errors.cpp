@@ -66,6 +66,7 @@ public:
           result_(&result),
           ranges_(&ranges),
           quantities_(result.quantities()),
+          stride_(settings.quantities()),
           bounds_(bounds(scene, settings)) {
         lights_ = seen_lights(scene, settings.seed);
         find_albedo(settings.seed);
@@ -114,8 +115,10 @@ public:
     }
 
 private:
-    bool samples_are_mixtures(std::size_t q) const { return generator_ == PathGenerator::corrected && q > 1; }
-    const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * quantities_ + q]; }
+    bool samples_are_mixtures(std::size_t q) const {
+        return (generator_ == PathGenerator::corrected || generator_ == PathGenerator::photon) && q > 1;
+    }
+    const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * stride_ + q]; }
 
     Rgb difference_nearby(std::size_t pixel, std::size_t q) const {
         SampleRange all;
@@ -169,7 +172,7 @@ private:
     PathGenerator generator_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
-    std::size_t quantities_;
+    std::size_t quantities_, stride_;
     std::vector<Rgb> bounds_;
     Rgb largest_{0.0};
     Image lights_, albedo_;
@@ -188,7 +191,9 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
-        auto found = look.look(q, static_cast<double>(series.samples), t);
+        // Samples of a pass share its photons: they are one.
+        const bool is_shared = settings.generator == PathGenerator::photon && q > 1;
+        auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;
         if (q > 0) sums_[q] = sums_[q - 1];

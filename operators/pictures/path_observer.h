@@ -19,7 +19,7 @@ struct PathStep {
     int bounce = 0;           // number of reflections before the ray; for `asks`, including the one at its start
     SurfacePoint from;        // of a first ray from the camera, only the position is set
     Vec3 w{0.0};              // unit length
-    double pdf = 0.0;         // for a camera path that goes on: of w, per solid angle, or delta_pdf; otherwise 0
+    double pdf = 0.0;         // after a reflection: of w, per solid angle, or delta_pdf; otherwise 0
     Rgb beta{0.0};            // throughput along the ray, or power of a path from a light; 0 for `asks`
     bool found = false;       // the ray hits something, or the point is visible
     SurfacePoint to;          // the hit, or the point
@@ -33,6 +33,8 @@ public:
     virtual void step(std::uint32_t path, const PathStep& step) = 0;
     // The contribution of a path's last step. `pixel`: the position on the film if a path from a light found it; otherwise null.
     virtual void found(std::uint32_t, std::size_t /*quantity*/, const Rgb&, const Vec2* /*pixel*/) {}
+    // A photon map was read where the path has come to: its photon that brings most, and the path from a light that left it.
+    virtual void read(std::uint32_t, std::uint32_t /*photon_path*/, const Rgb&) {}
 };
 
 }  // namespace neumann

@@ -45,9 +45,10 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWor
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<TermEstimator, SplatSampler, CorrectedSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
+std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
     if (splats(settings.generator)) return SplatSampler(scene, settings);
     if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
+    if (settings.generator == PathGenerator::photon) return PhotonSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 
@@ -161,6 +162,8 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
                                     const Watch& watch) const {
     if (const auto* splats = std::get_if<SplatSampler>(&sampler_))
         return splats->sample_picture(replicate, picture, ranges, tally, watch);
+    if (const auto* photons = std::get_if<PhotonSampler>(&sampler_))
+        return photons->sample_picture(replicate, picture, ranges, tally, watch);
     return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);
 }
 

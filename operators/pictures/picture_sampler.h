@@ -5,6 +5,7 @@
 #include "core/scene/scene.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/path_group.h"
+#include "operators/pictures/photon_sampler.h"
 #include "operators/pictures/share.h"
 #include "operators/pictures/splat_sampler.h"
 #include "operators/pictures/tally.h"
@@ -54,6 +55,10 @@ public:
     // The pointwise method has no paths: std::logic_error.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
+    // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
+    // their numbers in the group.
+    void retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
+
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
     std::uint32_t pixels_at_once() const { return std::max(paths_at_once / settings_.replicate_size, 1u); }
@@ -71,7 +76,7 @@ private:
 
     const Scene& scene_;
     Settings settings_;
-    std::variant<TermEstimator, SplatSampler, CorrectedSampler> sampler_;
+    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler> sampler_;
     SobolPoints sobol_;
 };
 

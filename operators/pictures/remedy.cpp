@@ -33,7 +33,7 @@ std::vector<bool> deltas_of_largest(const Replay& replay, std::size_t quantity) 
 
 std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity) {
     const SamplingSettings& settings = sampler.settings();
-    const bool rest = quantity == settings.quantities() - 1;
+    const bool rest = quantity == settings.pictures() - 1;
     switch (settings.generator) {
         case PathGenerator::pointwise:
             return {scene.hide_emitters ? Remedy::ask_lights : Remedy::bidirectional};
@@ -41,6 +41,7 @@ std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, 
         case PathGenerator::classic:
             return {Remedy::ask_lights};
         case PathGenerator::light:
+        case PathGenerator::photon:
             return {Remedy::bidirectional};
         case PathGenerator::bidirectional:
             return rest ? std::vector{Remedy::more_bounces} : std::vector<Remedy>();

@@ -20,7 +20,8 @@ constexpr double patience = 3.0;
 
 // What is there before the first part.
 RenderedSeries beginning(const PictureSampler& sampler, std::optional<RenderedSeries>& from) {
-    if (!from) return {SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities()), {}};
+    const std::size_t Q = sampler.quantities();
+    if (!from) return {SeriesMoments(sampler.width(), sampler.height(), Q, sampler.settings().pictures()), Tally(Q), {}};
     RenderedSeries series = std::move(*from);
     // Where an earlier part ended is no number of samples at which an uncut render looks at its errors.
     std::erase_if(series.convergence, [](const Checkpoint& c) { return !std::has_single_bit(c.samples); });

@@ -1,7 +1,9 @@
 // Traces paths again for an observer: the same walks, compiled for size.
 #include "core/sampling/sampler.h"
+#include "operators/photons/photon_paths.h"
 #include "operators/pictures/corrected_group.h"
 #include "operators/pictures/path_group.h"
+#include "operators/pictures/photon_group.h"
 #include "operators/pictures/picture_sampler.h"
 #include "operators/pictures/splat_group.h"
 #include "operators/pictures/watched_paths.h"
@@ -24,6 +26,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
         return whole_pictures->retrace(replicate, first, observer);
     if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->retrace(replicate, first, observer);
+    if (const auto* photons = std::get_if<PhotonSampler>(&sampler_)) return photons->retrace(replicate, first, observer);
     const std::uint32_t size = settings_.replicate_size,
                         pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()), begin = first / size,
                         end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
@@ -100,6 +103,28 @@ std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_
     SplitPaths split(observer, work.walkers.walker);
     trace_group(replicate, first, end - first, points ? &*points : nullptr, work, WatchedPaths(split));
     return std::move(work.group.samples);
+}
+
+std::vector<Rgb> PhotonSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u),
+                        end = std::min(first / size + pixels_at_once, pixels_) * size;
+    std::vector<std::uint64_t> rays;
+    std::uint64_t given_up = 0;
+    const auto pass = make_pass(replicate, rays, given_up, {});
+    Workspace work(settings_.quantities());
+    trace_group(replicate, first, end - first, *pass, work, WatchedPaths(observer));
+    return std::move(work.group.samples);
+}
+
+void PhotonSampler::retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
+    PhotonTracer::Workspace work;
+    const std::uint32_t first = path / PhotonTracer::at_once * PhotonTracer::at_once;
+    photons_.trace_group(
+        replicate, first, work, [](auto...) {}, [](int, std::size_t) {}, WatchedPaths(observer));
+}
+
+void PictureSampler::retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
+    std::get<PhotonSampler>(sampler_).retrace_photon(replicate, path, observer);
 }
 
 }  // namespace neumann

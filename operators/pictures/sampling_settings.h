@@ -12,6 +12,7 @@ namespace neumann {
 
 class Approximation;
 class Guide;
+struct PhotonPilot;
 
 enum class PathGenerator {
     walk,           // walks from the camera that sample the BSDF
@@ -20,6 +21,7 @@ enum class PathGenerator {
     surface,        // walks from the camera that sample the next vertex on all surfaces
     light,          // light tracing
     bidirectional,  // bidirectional path tracing
+    photon,         // photon maps
     classic,        // walks from the camera that follow delta lobes alone
     pointwise       // separate walks for each term
 };
@@ -32,6 +34,7 @@ struct SamplingSettings {
     PathGenerator generator = PathGenerator::walk;
     std::shared_ptr<const Guide> guide = {};                  // for `guided`
     std::shared_ptr<const Approximation> approximation = {};  // for `corrected`
+    std::shared_ptr<const PhotonPilot> photons = {};          // for `photon`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;
@@ -42,7 +45,10 @@ struct SamplingSettings {
     // place of the terms.
     bool ways_of_last_bounce = false;
 
-    std::size_t quantities() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
+    // The terms 0 … N and the rest, or ways; and all quantities of a sample: with `photon` the differences of terms between two
+    // radii follow them.
+    std::size_t pictures() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
+    std::size_t quantities() const { return pictures() * (generator == PathGenerator::photon ? 2 : 1); }
 };
 
 }  // namespace neumann

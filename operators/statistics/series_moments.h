@@ -43,7 +43,11 @@ public:
         std::shared_ptr<std::vector<double>> data;  // shared with results
     };
 
-    SeriesMoments(int width, int height, std::size_t quantities) : width_(width), height_(height), quantities_(quantities) {}
+    SeriesMoments(int width, int height, std::size_t quantities) : SeriesMoments(width, height, quantities, quantities) {}
+    // Of which only the first `pictures` are terms, and the others are the parts of these that depend on how they were made, in the
+    // same order (Result::difference_of_term()); or all are.
+    SeriesMoments(int width, int height, std::size_t quantities, std::size_t pictures)
+        : width_(width), height_(height), quantities_(quantities), pictures_(pictures) {}
 
     // `node` must start where the present replicates end. Returns memory that is free again, if any, for the next node.
     std::vector<double> add(MomentsNode node);
@@ -58,6 +62,7 @@ public:
     std::uint64_t first() const { return nodes_.empty() ? 0 : nodes_.front().first; }
     std::uint64_t replicates() const;
     std::size_t quantities() const { return quantities_; }
+    std::size_t pictures() const { return pictures_; }
     std::size_t doubles_per_pixel() const { return quantities_ * PixelMoments::doubles_per_quantity; }
     int width() const { return width_; }
     int height() const { return height_; }
@@ -74,7 +79,7 @@ private:
     std::vector<double> join(Node node);
 
     int width_, height_;
-    std::size_t quantities_;
+    std::size_t quantities_, pictures_;
     std::vector<Node> nodes_;
     SampleRanges ranges_;  // of all nodes together
 };
@@ -90,6 +95,11 @@ public:
     MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
     PictureMeans means_of_term(std::size_t i) const { return means(i, false); }
     PictureMeans means_of_sum(std::size_t i) const { return means(i, true); }
+
+    // The mean of what goes with term i, or with the sum up to it, if the moments have that.
+    bool has_differences() const { return stride_ > quantities_; }
+    Image difference_of_term(std::size_t i) const { return differences(i, i); }
+    Image difference_of_sum(std::size_t i) const { return differences(0, i); }
 
     // The mean at one pixel.
     Rgb term_at(std::size_t pixel, std::size_t i) const { return at(pixel, i, false).first; }
@@ -108,10 +118,11 @@ private:
     PictureMeans means(std::size_t i, bool sum) const;
     // Mean and standard error at one pixel.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
-    bool pixels_are_independent() const { return data_->size() <= pixels() * quantities_ * PixelMoments::doubles_per_quantity; }
+    Image differences(std::size_t first, std::size_t last) const;
+    bool pixels_are_independent() const { return data_->size() <= pixels() * stride_ * PixelMoments::doubles_per_quantity; }
 
     int width_ = 0, height_ = 0;
-    std::size_t quantities_ = 0;
+    std::size_t quantities_ = 0, stride_ = 0;  // pictures, and quantities of a pixel
     double count_ = 0.0;
     std::shared_ptr<const std::vector<double>> data_;
 };

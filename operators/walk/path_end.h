@@ -8,7 +8,7 @@ namespace neumann {
 struct PathEnd {
     SurfacePoint x;            // where it is
     Vec3 w{0.0};               // direction in which it leaves x
-    double pdf = 0.0;          // of w, per solid angle, or delta_pdf; only paths from the camera set it
+    double pdf = 0.0;          // of w, per solid angle, or delta_pdf
     Rgb beta{1.0};             // throughput, or the power that a path from a light carries
     double kept_weight = 0.0;  // largest channel of β when the path last survived roulette
 };

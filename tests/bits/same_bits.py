@@ -28,7 +28,7 @@ METHODS = {
     "walk": PATHS,
     "guided": [*PATHS, "--patches", "100", "--directions", "256"],
     "corrected": [*PATHS, "--patches", "100", "--directions", "16"],
-    **{name: PATHS for name in ("surface", "light", "bidirectional", "classic", "pointwise")},
+    **{name: PATHS for name in ("surface", "light", "bidirectional", "photon", "classic", "pointwise")},
     **{name: FIELDS for name in ("patches", "matrix", "gather")},
 }
 # Of the Cornell box alone.
@@ -37,6 +37,7 @@ OPTIONS = {
              "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2"],
     "light": ["--roulette throughput"],
     "bidirectional": ["--direct mis-balance --ways 2", "--roulette albedo"],
+    "photon": ["--gather --photons 3000", "--radius 20"],
     "patches": ["--importance"],
 }
 SIZE = "16"

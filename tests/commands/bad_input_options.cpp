@@ -42,6 +42,25 @@ TEST_F(BadInputOptions, RealNumbers) {
     expect_refused("--error", "small");
 }
 
+TEST_F(BadInputOptions, Photons) {
+    for (const std::string radius : {"0", "-1", "nan", "wide"})
+        EXPECT_TRUE(refusal({"--method", "photon", "--radius", radius})
+                        .starts_with("--radius: '" + radius + "' is not a length above 0\n"));
+    expect_refused("--photons", "0");
+    EXPECT_EQ(refusal({"--gather"}), "--gather belongs to --method photon, not to walk\n");
+    // A lamp above a floor that shines away from it.
+    write("dark.xml", R"(<scene version="3.0.0">
+<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film></sensor>
+<shape type="rectangle"/>
+<shape type="rectangle">
+  <transform name="to_world"><translate z="1"/></transform><emitter type="area"><rgb name="radiance" value="1"/></emitter>
+</shape></scene>)");
+    const Finished done = run({"render", "dark.xml", "-o", "a", "--method", "photon", "--spp", "4"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_EQ(done.err, "--method photon: none of 65536 paths from the lights meets a surface; take --method walk\n");
+    EXPECT_EQ(names(), (Names{"scene.xml", "dark.xml"}));
+}
+
 // A goal that no number reaches would never end.
 TEST_F(BadInputOptions, NotANumber) {
     for (const char* option : {"--time", "--error", "--tail"}) {

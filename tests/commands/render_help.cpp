@@ -29,12 +29,12 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help),
-              (std::set<std::string>{"-h,--help", "-o",           "-n",          "--tail",       "--spp",   "--time",  "--error",
-                                     "--method",  "--direct",     "--lights",    "--roulette",   "--split", "--ways",  "--sampler",
-                                     "--patches", "--directions", "--reference", "--seed",       "-t",      "-D",      "--lenient",
-                                     "--quiet",   "--json",       "--files",     "--importance", "--plan",  "--memory",
-                                     "--resume",  "--checkpoint", "--part"}));
+    EXPECT_EQ(options(help), (std::set<std::string>{
+                                 "-h,--help",    "-o",           "-n",          "--tail",       "--spp",   "--time",   "--error",
+                                 "--method",     "--direct",     "--lights",    "--roulette",   "--split", "--ways",   "--sampler",
+                                 "--patches",    "--directions", "--reference", "--seed",       "-t",      "-D",       "--lenient",
+                                 "--quiet",      "--json",       "--files",     "--importance", "--plan",  "--memory", "--resume",
+                                 "--checkpoint", "--part",       "--photons",   "--radius",     "--gather"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -47,29 +47,30 @@ TEST_F(RenderHelp, OptionsOfCompare) {
 }
 
 TEST_F(RenderHelp, OptionsOfSpectrum) {
-    EXPECT_EQ(options(printed({"help", "spectrum"})),
-              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
-                                     "--json", "--eigenvalues", "--csv", "--time", "--most", "--memory", "--petsc"}));
+    EXPECT_EQ(
+        options(printed({"help", "spectrum"})),
+        (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet", "--json",
+                               "--eigenvalues", "--csv", "--time", "--most", "--memory", "--petsc", "--keep", "--checkpoint"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSolve) {
-    EXPECT_EQ(options(printed({"help", "solve"})),
-              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
-                                     "--json", "--channel", "--error", "--most", "--csv", "--memory", "--petsc"}));
+    EXPECT_EQ(
+        options(printed({"help", "solve"})),
+        (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet", "--json",
+                               "--channel", "--error", "--most", "--csv", "--memory", "--petsc", "--keep", "--checkpoint"}));
 }
 
 TEST_F(RenderHelp, OptionsOfExport) {
     EXPECT_EQ(options(printed({"help", "export"})),
               (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
-                                     "--json", "-o", "--with-K", "--memory"}));
+                                     "--json", "-o", "--with-K", "--memory", "--keep", "--checkpoint"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStudy) {
-    EXPECT_EQ(
-        options(printed({"help", "study"})),
-        (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
-                               "--repeats", "-n", "--error", "--resume", "--checkpoint", "--seed", "-t", "-D", "--lenient", "--quiet",
-                               "--json"}));
+    EXPECT_EQ(options(printed({"help", "study"})),
+              (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
+                                     "--repeats", "-n", "--error", "--resume", "--checkpoint", "--seed", "-t", "-D", "--lenient",
+                                     "--quiet", "--json"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStress) {

@@ -4,10 +4,13 @@
 #include "core/reader/read_scene.h"
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
+#include "operators/photons/photon_pilot.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace neumann::replay_test {
 
@@ -39,6 +42,8 @@ protected:
         if (s.generator == PathGenerator::corrected)
             s.approximation = std::make_shared<const Approximation>(
                 scene, ApproximationSettings{.patches = 100, .rays = 16, .bounces = bounces, .seed = 5});
+        if (s.generator == PathGenerator::photon)
+            s.photons = std::make_shared<const PhotonPilot>(scene, s.walk, PhotonChoice{1000, {}, false}, s.sampler, s.seed);
         return s;
     }
 };
@@ -54,7 +59,7 @@ TEST_P(ReplayEvery, PixelsAreTheMeansOfReplayedSamples) {
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
         for (std::uint32_t i = 0; i < size; ++i) {
             const Replay found = replay(sampler, {pixel, replicate * size + i});
-            for (std::size_t q = 0; q < Q; ++q) own[pixel * Q + q] += found.terms[q];
+            for (std::size_t q = 0; q < found.terms.size(); ++q) own[pixel * Q + q] += found.terms[q];
             for (const ReplayedStep& step : found.steps)
                 for (const auto& f : step.found) {
                     if (!f.pixel) continue;
@@ -65,6 +70,7 @@ TEST_P(ReplayEvery, PixelsAreTheMeansOfReplayedSamples) {
     std::size_t lit = 0;
     for (std::size_t k = 0; k < own.size(); ++k) {
         const std::size_t pixel = k / Q, q = k % Q;
+        if (q >= sampler.settings().pictures()) continue;  // differences between two radii
         const double* mean = node.data.data() + k * PixelMoments::doubles_per_quantity;
         const Rgb rendered(mean[0], mean[1], mean[2]), replayed = (own[k] + splatted[k]) * (1.0 / size);
         // What comes from the lights is added to the rest in another order here.
@@ -90,7 +96,7 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
         for (const ReplayedStep& step : found.steps)
             for (const auto& f : step.found)
                 if (!f.pixel) sum[f.quantity] += f.value;
-        for (std::size_t q = 0; q < sum.size(); ++q)
+        for (std::size_t q = 0; q < found.terms.size(); ++q)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[q][c], found.terms[q][c], 1e-13 * std::abs(found.terms[q][c])) << q;
     }
 }
@@ -100,12 +106,42 @@ INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
                                          Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
                                          Case{"WalkSplit", PathGenerator::walk, SamplerKind::sobol, {3, 2}},
                                          Case{"Guided", PathGenerator::guided}, Case{"Corrected", PathGenerator::corrected},
-                                         Case{"Surface", PathGenerator::surface}, Case{"Classic", PathGenerator::classic},
-                                         Case{"Light", PathGenerator::light},
+                                         Case{"Photon", PathGenerator::photon}, Case{"Surface", PathGenerator::surface},
+                                         Case{"Classic", PathGenerator::classic}, Case{"Light", PathGenerator::light},
                                          Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
                                          Case{"Bidirectional", PathGenerator::bidirectional},
                                          Case{"BidirectionalSplit", PathGenerator::bidirectional, SamplerKind::sobol, {3, 2}}),
                          [](const auto& info) { return std::string(info.param.name); });
+
+// After the walk comes the path of the photon that brings most, joined ray by ray, and it ends where the walk read the map.
+TEST(Replay, APhotonIsFollowedToItsLight) {
+    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
+    SamplingSettings settings{.generator = PathGenerator::photon, .walk = {.bounces = 3}, .replicate_size = 4};
+    settings.photons = std::make_shared<const PhotonPilot>(scene, settings.walk, PhotonChoice{20000, {}, false}, settings.sampler, 0);
+    const PictureSampler sampler(scene, settings);
+    const double radius = settings.photons->settings.radius;
+    int followed = 0;
+    for (std::uint32_t pixel = 0; pixel < 256; pixel += 17) {
+        const Replay found = replay(sampler, {pixel, 6});
+        const auto light = std::ranges::find_if(found.steps, [](const ReplayedStep& s) { return s.step.from_light; });
+        if (light == found.steps.end()) continue;
+        ++followed;
+        EXPECT_EQ(light->step.kind, PathStep::Kind::first);
+        EXPECT_TRUE(scene.emitters.is_emitter(light->step.from.shape));
+        double nearest = std::numeric_limits<double>::infinity();
+        for (auto s = light; s != found.steps.end(); ++s) {
+            EXPECT_TRUE(s->step.from_light);
+            if (s != light) {
+                EXPECT_EQ(s->step.from.position, std::prev(s)->step.to.position);
+            }
+            for (auto seen = found.steps.begin(); seen != light; ++seen)
+                if (seen->step.kind != PathStep::Kind::asks && seen->step.found && s->step.found)
+                    nearest = std::min(nearest, glm::length(seen->step.to.position - s->step.to.position));
+        }
+        EXPECT_LE(nearest, radius);
+    }
+    EXPECT_GT(followed, 5);
+}
 
 // Of a walk by itself: its rays are joined, and its weight is the product of what the reflections leave of it.
 TEST(Replay, APathIsJoined) {
