@@ -179,6 +179,55 @@ for m in methods:
 # although it is the same walk from the other end. Which of its rays are of no use to bounce 1? And in what does its noise differ,
 # to the eye?
 #
+# ## Photons: paths that are kept
+# A path from the lamp need not be joined to the camera at once. Let it leave a *photon* wherever it is reflected: the power
+# $\Phi_p$ that arrives there, from where, and the number $j$ of the bounce by which it leaves. One such map serves all bounces
+# and all pixels (Jensen 1996). In a radius $r$ around the point $x$ that a camera ray hits, the photons of bounce $j$ say how
+# much light arrives, and
+#
+# $$(K^j L_e)(x, \omega_o) \approx \sum_p f_s(\omega_p \to \omega_o)\, \Phi_p\, k(|x_p - x|),
+# \qquad k(d) = \frac{2}{\pi r^2}\Bigl(1 - \frac{d^2}{r^2}\Bigr).$$
+
+# %%
+ball = scene("glass-ball", res=96)
+photons = ball.photons(100_000, bounces=3, seed=seed)
+figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4))
+for axis, j in zip(axes, (1, 2, 3)):
+    of = photons.bounce == j
+    seen = of & ~np.isnan(photons.pixel[:, 0])
+    for caustic, color in ((False, "C0"), (True, "C1")):
+        points = photons.pixel[seen & (photons.caustic == caustic)]
+        axis.plot(points[:, 0], points[:, 1], ",", color=color)
+    axis.set(xlim=(0, 96), ylim=(96, 0), xticks=[], yticks=[], aspect="equal", title=f"bounce {j}: {of.sum()} photons")
+plt.show()
+power = [photons.power[photons.bounce == j].sum(axis=0).mean() for j in (1, 2, 3)]
+print("power that arrives, W:", *(f"bounce {j}: {w:.3f}" for j, w in zip((1, 2, 3), power)))
+
+# %% [markdown]
+# The figure: what the camera sees of 100 000 paths' photons; orange ones came by way of the glass alone. In bounce 3 they crowd
+# in the focus: a walk from the camera would have to meet the small lamp through the glass by chance.
+#
+# **Q5.** The glass ball itself has no photons. Why not? And why are there fewer of them with every bounce, although no path has
+# been ended by roulette?
+#
+# `method="photon"` does this in passes of shrinking radius. What it does not know is of two kinds: noise, which is in the
+# standard error, and the blur of its radius, a *bias*, which no number of samples with that radius removes. It reads every map
+# with two radii, and tells from the difference how far the blur goes: the channel `discretisation`.
+
+# %%
+small = scene("glass-ball", res=32)
+by_photons = small.render(bounces=3, spp=256, method="photon", seed=seed, quiet=True)
+by_walks = small.render(bounces=3, spp=1024, method="bidirectional", seed=seed + 1, quiet=True)
+for i in (1, 2, 3):
+    a, b = by_photons.run.bounces[i], by_walks.run.bounces[i]
+    if "stderr" not in a or "stderr" not in b:
+        continue
+    blur = np.mean(by_photons.terms_discretisation[i])
+    print(f"bounce {i}: photons {a.mean:.5f} ± {a.stderr:.5f}, blur up to {blur:.5f}; from both ends {b.mean:.5f} ± {b.stderr:.5f}")
+    both = np.hypot(a.stderr, b.stderr)
+    assert abs(a.mean - b.mean) <= limit(min(a.degrees_of_freedom, b.degrees_of_freedom)) * both + blur  # three: 1 in 12 000
+
+# %% [markdown]
 # ## Russian roulette
 # A walk in a furnace of albedo $\rho$ that goes on with probability $q$ and is weighted by $1/q$ has the score
 # $X = \sum_{k \le N} (\rho/q)^k$ with $P(N \ge k) = q^k$. Its mean is $1/(1-\rho)$ for any $q$. Its second moment is, with
@@ -186,7 +235,7 @@ for m in methods:
 #
 # $$E[X^2] = \frac{1 + w q}{(1 - w q)(1 - w^2 q)} \text{ where } w^2 q = \rho^2/q < 1, \text{ and } \infty \text{ otherwise.}$$
 #
-# **Q5.** So $q$ may be smaller than $\rho$, but not than $\rho^2$. What is the variance at $q = \rho$? (A5: every score is
+# **Q6.** So $q$ may be smaller than $\rho$, but not than $\rho^2$. What is the variance at $q = \rho$? (A6: every score is
 # $N + 1$: $q/(1-q)^2$.)
 
 # %%
@@ -255,7 +304,7 @@ plt.show()
 # largest tree costs bounce 1 five times as much and wins nothing over four walks, for its sixteen start at the same point. Would
 # you have guessed?
 #
-# **Q6.** A tree that branches at *every* stop has $C^i$ walks in bounce $i$. Where does its effort go, and where is the light?
+# **Q7.** A tree that branches at *every* stop has $C^i$ walks in bounce $i$. Where does its effort go, and where is the light?
 #
 # ## Exercises
 # 1. Start the walk on the matrix in the middle of the ceiling. Predict its variances first.

@@ -30,6 +30,7 @@ PYBIND11_MODULE(_neumann, m) {
     bind_matrices(m);
     bind_solvers(m);
     bind_study(m);
+    bind_photons(m);
     bind_blame(m);
 }
 

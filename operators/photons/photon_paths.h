@@ -9,6 +9,12 @@
 
 namespace neumann {
 
+// What a path leaves at its j-th vertex, where it has arrived; `share`: 1 / the number of paths.
+inline Photon photon_of(const LightWalker& w, int j, std::uint32_t path, double share) {
+    return {glm::vec3(w.x.position),   glm::vec3(w.x.normal),         glm::vec3(w.wi),
+            glm::vec3(w.beta * share), static_cast<std::uint32_t>(j), path};
+}
+
 // Work space of a thread.
 struct PhotonTracer::Workspace {
     LightWalkers walkers;

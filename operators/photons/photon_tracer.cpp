@@ -52,8 +52,7 @@ std::optional<PhotonTracer::Photons> PhotonTracer::trace(std::uint64_t pass, con
                 add(part.power.arrived, static_cast<std::size_t>(j), mean_component(w.beta) * share);
                 const SurfaceSide side = scene_->materials.side(w.x, w.wi);
                 if (!side.bsdf || is_delta_only(*side.bsdf)) return;
-                const Photon photon{glm::vec3(w.x.position),   glm::vec3(w.x.normal),         glm::vec3(w.wi),
-                                    glm::vec3(w.beta * share), static_cast<std::uint32_t>(j), path};
+                const Photon photon = photon_of(w, j, path, share);
                 if (is_caustic) part.caustic.push_back(photon);
                 if (settings_.gather || (j > 1 && !is_caustic)) part.others.push_back(photon);
             };

@@ -21,6 +21,7 @@ from ._bounces import BounceSeries, Way, compare, read
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
+from ._photons import Photons
 from ._report import HealthWarning, NeumannWarning, Report
 from ._scene import Plan, Scene, load
 from ._study import Study
@@ -32,6 +33,7 @@ __all__ = [
     "InputError",
     "Matrices",
     "NeumannWarning",
+    "Photons",
     "Plan",
     "Report",
     "RunError",

@@ -12,6 +12,7 @@ from ._bounces import BounceSeries, Memory
 from ._display import as_table
 from ._matrices import STEPS, Matrices, Solutions
 from ._method_options import MethodOptions
+from ._photons import Photons
 from ._progress import run
 from ._report import HealthWarning, Report, warn
 from ._study import Study
@@ -115,6 +116,10 @@ class Scene:
     def plan(self) -> Plan:
         """What this scene needs of the machinery, what is left out, and why: as ``neumann plan``."""
         return Plan(_report.from_json(run(self._scene.plan())))
+
+    def photons(self, paths: int = 100_000, *, bounces: int = 8, seed: int = 0) -> Photons:
+        """Photons of bounces 1 … bounces, from so many paths from the lights: points to look at. Raises InputError."""
+        return Photons(run(_neumann.photons(self._scene, paths, bounces, seed)))
 
     def matrices(
         self,

@@ -1,0 +1,39 @@
+"""Photons: what paths from the lights leave where they are reflected."""
+
+from typing import Any, Dict
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Photons:
+    """Photons of a scene: ``scene.photons()``. Rows belong together, path by path.
+
+    Photon p lies where light of bounce j − 1 arrives that leaves as K^j Le. Surfaces that are mirrors or glass alone have none.
+
+    position: (n, 3), scene units. normal: (n, 3). wi: (n, 3), towards where it came from.
+    power: (n, 3), W in red, green and blue, as a part of that of all paths: their sum over one bounce is the power that arrives.
+    bounce: (n,), from 1 on. path: (n,), the number of the path from the light.
+    caustic: (n,), whether the path has met mirrors and glass alone before.
+    pixel: (n, 2), x and y on the film, pixel (0, 0) from 0 to 1; nan where the camera does not see it directly.
+    """
+
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    wi: NDArray[np.float64]
+    power: NDArray[np.float64]
+    bounce: NDArray[np.int32]
+    path: NDArray[np.int32]
+    caustic: NDArray[np.bool_]
+    pixel: NDArray[np.float64]
+
+    def __init__(self, made: Dict[str, Any]) -> None:
+        self.position, self.normal, self.wi, self.power = made["position"], made["normal"], made["wi"], made["power"]
+        self.bounce, self.path, self.caustic, self.pixel = made["bounce"], made["path"], made["caustic"], made["pixel"]
+
+    def __len__(self) -> int:
+        """How many photons there are."""
+        return len(self.bounce)
+
+    def __repr__(self) -> str:
+        return f"{len(self)} photons of bounces 1 to {self.bounce.max(initial=0)}"
