@@ -121,7 +121,7 @@ int render_command(const RenderRequest& given) {
     if (files.sheets || files.strips) watch.show = [&](std::size_t bounces, const auto& term) { preview.show(bounces, term); };
     watch.chosen = [&](int bounces) {
         expect_pictures();  // before anything is sampled
-        folder->expect_space(estimated_bytes(scene->film, bounces, fields, files));
+        folder->expect_space(estimated_bytes(scene->film, bounces, is_biased(make_method(request.method)), files));
     };
     watch.tell = [&](const std::string& text) {
         if (!request.quiet) fmt::print(stderr, "{}\n", text);

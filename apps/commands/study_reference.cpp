@@ -131,8 +131,9 @@ StudyMethod making_method(const StudyRequest& request) {
                         "makes one, as in walk or walk:direct=light",
                         request.reference));
     }
-    if (has_fields(method.method))
-        throw InputError(fmt::format("--reference {}: fields on patches have an error of their own; take walk", request.reference));
+    if (is_biased(method.method))
+        throw InputError(fmt::format("--reference {}: {} have an error of their own; take walk", request.reference,
+                                     has_fields(method.method) ? "fields on patches" : "photon maps"));
     return method;
 }
 

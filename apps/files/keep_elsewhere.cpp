@@ -43,8 +43,8 @@ fs::path folder_beside(fs::path output) {
 
 std::string keep_elsewhere(const Rendering& rendering, const std::string& output) {
     const BounceSeries& series = rendering.series;
-    if (const auto path = temporary_folder(
-            estimated_bytes(rendering.scene->film, series.bounces(), has_fields(series.method), rendering.files))) {
+    if (const auto path =
+            temporary_folder(estimated_bytes(rendering.scene->film, series.bounces(), is_biased(series.method), rendering.files))) {
         try {
             OutputFolder folder(*path, "render");
             write_rendering(rendering, folder);

@@ -113,7 +113,7 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
     };
     Json json = {
         {"paths", settings.paths},
-        {"caustic", {{"photons", photons.caustic_photons}, {"radius_first_last", radii(settings.caustic_radius)}}},
+        {"caustic", {{"photons", photons.caustic_photons}, {"largest_radius_first_last", radii(settings.caustic_radius)}}},
         {settings.gather ? "all" : "others", {{"photons", photons.other_photons}, {"radius_first_last", radii(settings.radius)}}}};
     const PhotonPower& power = photons.power;
     for (std::size_t j = 0; j < power.went_on.size() && j <= bounces + 1; ++j) {

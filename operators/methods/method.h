@@ -147,4 +147,7 @@ inline bool has_fields(const Method& method) {
     return std::visit([]<class M>(const M&) { return HasFields<M>; }, method);
 }
 
+// Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
+inline bool is_biased(const Method& method) { return has_fields(method) || std::holds_alternative<method::Photon>(method); }
+
 }  // namespace neumann

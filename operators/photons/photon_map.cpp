@@ -1,5 +1,6 @@
 #include "operators/photons/photon_map.h"
 
+#include <boost/container/small_vector.hpp>
 #include <nanoflann.hpp>
 
 #include <limits>
@@ -79,8 +80,8 @@ void PhotonMap::find(const SurfacePoint& x, double radius, std::vector<Near>& ne
 double PhotonMap::distance(const Vec3& x, std::size_t k) const {
     if (photons_.size() < k) return std::numeric_limits<double>::infinity();
     const glm::vec3 at(x);
-    std::vector<std::uint32_t> which(k);
-    std::vector<float> distance2(k);
+    boost::container::small_vector<std::uint32_t, 32> which(k);
+    boost::container::small_vector<float, 32> distance2(k);
     tree_->index.knnSearch(&at.x, k, which.data(), distance2.data());
     return std::sqrt(double{distance2.back()});
 }

@@ -16,11 +16,10 @@ namespace {
 
 constexpr std::uint64_t pilot_stream = 0x70686f746f6e73ull;  // another seed than the pictures'
 constexpr std::uint32_t fewest_paths = 1u << 16, most_paths = 1u << 20;
-constexpr std::size_t photons_in_radius = 20, places = 1024;
+constexpr std::size_t places = 1024;
 // The largest radius, as a part of the median distance from the middle of what is seen: only what is much smaller than the shapes
 // and shadows has a bias of which two radii tell.
 constexpr double part_of_what_is_seen = 0.03;
-constexpr double part_of_caustics = 0.9;  // their edges and faint parts, too, have that many photons within the radius
 constexpr int most_mirrors = 16;
 
 std::uint32_t default_paths(const Film& film) {
@@ -62,13 +61,13 @@ std::vector<Vec3> seen_places(const Scene& scene, std::uint64_t seed) {
     return seen;
 }
 
-// The distance from these places to the k-th photon that a part of them does not exceed; ∞ if there are no such photons or places.
-double usual_distance(const PhotonMap& map, const std::vector<Vec3>& at, double part) {
-    const std::size_t k = std::min(photons_in_radius, map.photons().size());
+// The median distance from these places to the k-th photon; ∞ if there are no such photons or places.
+double usual_distance(const PhotonMap& map, const std::vector<Vec3>& at) {
+    const std::size_t k = std::min(PhotonPilot::photons_in_radius, map.photons().size());
     if (k == 0 || at.empty()) return std::numeric_limits<double>::infinity();
     std::vector<double> all;
     for (const Vec3& x : at) all.push_back(map.distance(x, k));
-    const auto place = all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
+    const auto place = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::nth_element(all.begin(), place, all.end());
     return *place;
 }
@@ -109,12 +108,12 @@ PhotonPilot::PhotonPilot(const Scene& scene, const WalkSettings& walk, const Pho
         settings.radius = settings.caustic_radius = *choice.radius;
         return;
     }
-    const PhotonMap caustic(std::move(photons->caustic)), others(std::move(photons->others));
+    const PhotonMap others(std::move(photons->others));
     std::vector<Vec3> seen = seen_places(scene, stream);
     if (seen.empty()) seen = some_of(others.photons());
     const double largest = part_of_what_is_seen * (seen.empty() ? scene.geometry.radius() : median_distance(seen));
-    settings.radius = std::min(usual_distance(others, seen, 0.5), largest);
-    settings.caustic_radius = std::min(usual_distance(caustic, some_of(caustic.photons()), part_of_caustics), settings.radius);
+    settings.radius = settings.caustic_radius = std::min(usual_distance(others, seen), largest);
+    caustics = std::make_shared<const PhotonMap>(std::move(photons->caustic));
 }
 
 }  // namespace neumann

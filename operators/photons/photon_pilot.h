@@ -3,6 +3,8 @@
 
 #include "operators/photons/photon_tracer.h"
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 
 namespace neumann {
@@ -19,7 +21,15 @@ struct PhotonPilot {
     PhotonPilot(const Scene& scene, const WalkSettings& walk, const PhotonChoice& choice, SamplerKind sampler, std::uint64_t seed,
                 const Watch& watch = {});
 
+    // r_1 of caustics at x: as far as the twentieth of the pilot's photons of caustics is away, and at most
+    // settings.caustic_radius; or that everywhere, where the radius was given. Photons crowd in a focus, and are few beside it.
+    double caustic_radius(const Vec3& x) const {
+        return caustics ? std::min(caustics->distance(x, photons_in_radius), settings.caustic_radius) : settings.caustic_radius;
+    }
+
+    static constexpr std::size_t photons_in_radius = 20;
     PhotonSettings settings;
+    std::shared_ptr<const PhotonMap> caustics;  // null where the radius was given
     std::size_t caustic_photons = 0, other_photons = 0;
     std::uint64_t rays = 0;
     PhotonPower power;

@@ -8,7 +8,8 @@ namespace neumann {
 
 struct PhotonSettings {
     std::uint32_t paths = 0;  // from the lights, in each pass
-    // In the first pass: of photons that only delta lobes have reflected (caustics), and of all others. Lengths of the scene.
+    // In the first pass: of photons that only delta lobes have reflected (caustics), at most, and of all others. Lengths of the
+    // scene.
     double caustic_radius = 0.0, radius = 0.0;
     bool gather = false;  // one more reflection is sampled before the map is read
 };

@@ -12,7 +12,7 @@
 
 #include "core/base/hot.h"
 #include "operators/photons/photon_map.h"
-#include "operators/photons/photon_settings.h"
+#include "operators/photons/photon_pilot.h"
 #include "operators/pointwise/adjoint_reflection.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
@@ -27,10 +27,10 @@
 
 namespace neumann {
 
-// The maps of a pass, and the radii with which they are read.
+// The maps of a pass, and the radii with which they are read, as a part of those of the first pass.
 struct PhotonPass {
     PhotonMap caustic, others;
-    double caustic_radius, radius;
+    double relative_radius;
 };
 
 struct PhotonWalkers : Walkers {
@@ -43,9 +43,9 @@ struct PhotonWalkers : Walkers {
 class PhotonWalk {
 public:
     // Keeps references.
-    PhotonWalk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const PhotonPass& pass,
-               bool gather)
-        : scene_(scene), direct_(direct), settings_(settings), pass_(pass), gather_(gather) {}
+    PhotonWalk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const PhotonPilot& pilot,
+               const PhotonPass& pass)
+        : scene_(scene), direct_(direct), settings_(settings), pilot_(pilot), pass_(pass), gather_(pilot.settings.gather) {}
 
     template <class Sampler, class Observer = NoObserver>
     NEUMANN_HOT void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
@@ -70,6 +70,7 @@ private:
     const Scene& scene_;
     const DirectLightSampler& direct_;
     const WalkSettings& settings_;
+    const PhotonPilot& pilot_;
     const PhotonPass& pass_;
     bool gather_;
 };
@@ -125,8 +126,10 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
                 const bool gathers = walkers.gathers[i] != 0;
                 w.asked.value = Rgb(0.0);
                 if (!is_delta_only(*side.bsdf)) {
-                    if (question == 1 && !gathers) read_map(pass_.caustic, pass_.caustic_radius, side, w, i);
-                    if (question == 1 && (gathers || !gather_)) read_map(pass_.others, pass_.radius, side, w, i);
+                    if (question == 1 && !gathers && !pass_.caustic.photons().empty())
+                        read_map(pass_.caustic, pass_.relative_radius * pilot_.caustic_radius(w.x.position), side, w, i);
+                    if (question == 1 && (gathers || !gather_))
+                        read_map(pass_.others, pass_.relative_radius * pilot_.settings.radius, side, w, i);
                     if (!gathers && direct_.questions() > 0)
                         choose_question(direct_, question % questions, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
                 }

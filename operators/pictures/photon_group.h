@@ -42,8 +42,8 @@ void PhotonSampler::trace_group(std::uint64_t replicate, std::uint32_t first, st
     }
     group.samples.assign(samples * Q, Rgb(0.0));
     TermSamples out{group.samples, work.tally.rays};
-    PhotonWalk(*scene_, *direct_, settings_.walk, pass, settings_.photons->settings.gather)(
-        std::span<const CameraRay>(group.rays), std::span(work.camera), work.walkers, out, observer);
+    PhotonWalk(*scene_, *direct_, settings_.walk, *settings_.photons, pass)(std::span<const CameraRay>(group.rays),
+                                                                            std::span(work.camera), work.walkers, out, observer);
     work.tally.given_up += out.given_up;
     for (std::uint32_t i = 0; i < samples; ++i)
         for (Rgb& x : std::span(group.samples).subspan(i * Q, Q)) x *= group.weights[i];

@@ -34,10 +34,7 @@ std::optional<PhotonPass> PhotonSampler::make_pass(std::uint64_t replicate, std:
     if (!photons) return std::nullopt;
     rays = std::move(photons->rays);
     given_up += photons->given_up;
-    const PhotonSettings& settings = settings_.photons->settings;
-    const double shrunk = relative_radius(replicate);
-    return PhotonPass{PhotonMap(std::move(photons->caustic)), PhotonMap(std::move(photons->others)),
-                      shrunk * settings.caustic_radius, shrunk * settings.radius};
+    return PhotonPass{PhotonMap(std::move(photons->caustic)), PhotonMap(std::move(photons->others)), relative_radius(replicate)};
 }
 
 bool PhotonSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,

@@ -200,7 +200,7 @@ TEST_F(StudyCommand, Refused) {
     };
     EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
               "--methods wlak: --method: wlak not in "
-              "{auto,walk,guided,corrected,surface,light,bidirectional,classic,pointwise,matrix,gather,patches}\n");
+              "{auto,walk,guided,corrected,surface,light,bidirectional,photon,classic,pointwise,matrix,gather,patches}\n");
     EXPECT_EQ(refusal({"--methods", "walk,auto"}),
               "--methods auto: a study compares methods, and auto is one of the others; name those that it is to compare\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
@@ -217,7 +217,7 @@ TEST_F(StudyCommand, Refused) {
         "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
     EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
               "--methods matrix:sampler=sobol: --sampler belongs to --method auto, walk, guided, corrected, surface, light, "
-              "bidirectional, "
+              "bidirectional, photon, "
               "classic and pointwise, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),
               "--methods patches:importance=true: ways and importance have no place in a study, which compares pictures of "
@@ -229,6 +229,8 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_EQ(refusal({"--methods", "walk", "--repeats", "1"}), "--repeats 1: a variance takes at least 2 repeats\n");
     EXPECT_EQ(refusal({"--methods", "walk", "--reference", "matrix"}),
               "--reference matrix: fields on patches have an error of their own; take walk\n");
+    EXPECT_EQ(refusal({"--methods", "walk", "--samples", "4", "--reference", "photon"}),
+              "--reference photon: photon maps have an error of their own; take walk\n");
     EXPECT_EQ(refusal({"--methods", "walk", "--reference", "nowhere"}),
               "--reference nowhere: expected the folder of an earlier render, values:A,B,…, or a method without bias that makes "
               "one, as in walk or walk:direct=light\n");
