@@ -17,6 +17,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 
 namespace neumann {
 
@@ -42,39 +43,56 @@ std::shared_ptr<const Scene> read(const PatchOptions& options) {
         read_scene(options.scene, parse_definitions(options.definitions), {.lenient = options.lenient}));
 }
 
+// Throws on all processes if one cannot use the folder.
+std::unique_ptr<RowFiles> open_rows(const PatchOptions& options, const Scene& scene,
+                                    const std::map<std::string, std::string>& definitions, Processes* processes) {
+    std::unique_ptr<RowFiles> rows;
+    std::exception_ptr wrong;
+    try {
+        rows = std::make_unique<RowFiles>(
+            *options.keep, nlohmann::ordered_json{{"hash", scene.hash}, {"definitions", definitions}, {"lenient", options.lenient}},
+            processes ? processes->rank() : 0, options.checkpoint.value_or(default_checkpoint));
+    } catch (const InputError&) {
+        wrong = std::current_exception();
+    }
+    double one_is_wrong[] = {wrong ? 1.0 : 0.0};
+    if (processes) processes->largest(one_is_wrong);
+    if (wrong) std::rethrow_exception(wrong);
+    if (one_is_wrong[0] > 0.0) throw InputError(fmt::format("--keep {}: another process cannot use this folder", *options.keep));
+    return rows;
+}
+
 }  // namespace
 
 PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(options), parse_definitions(options.definitions)) {}
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
                        std::map<std::string, std::string> definitions)
-    : PatchScene(options, scene, std::move(definitions), 0, [&](const TracedSettings& traced) {
+    : PatchScene(options, scene, std::move(definitions), nullptr, [&](const TracedSettings& traced) {
           return std::make_unique<TracedSystem>(*scene, traced, Watch{.stop = interrupted});
       }) {}
 
 PatchScene::PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc)
-    : PatchScene(options, read(options), parse_definitions(options.definitions), processes.rank(),
-                 [&](const TracedSettings& traced) {
-                     return std::make_unique<SharedSystem>(*scene_, traced, processes, petsc, Watch{.stop = interrupted});
-                 }) {}
+    : PatchScene(options, read(options), parse_definitions(options.definitions), &processes, [&](const TracedSettings& traced) {
+          return std::make_unique<SharedSystem>(*scene_, traced, processes, petsc, Watch{.stop = interrupted});
+      }) {}
 
 PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
-                       std::map<std::string, std::string> definitions, int rank,
+                       std::map<std::string, std::string> definitions, Processes* processes,
                        const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make)
     : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
     TracedSettings traced = settings(options);
-    if (!options.keep.empty())
-        rows_ = std::make_unique<RowFiles>(
-            options.keep,
-            nlohmann::ordered_json{{"hash", scene_->hash}, {"definitions", definitions_}, {"lenient", options.lenient}}, rank,
-            options.checkpoint.value_or(default_checkpoint));
-    traced.store = rows_.get();
+    // Others may use the folder again as soon as T is traced.
+    const auto rows = options.keep ? open_rows(options, *scene_, definitions_, processes) : nullptr;
+    traced.store = rows.get();
     try {
         system_ = make(traced);
     } catch (const Stopped&) {
-        if (!rows_) throw;
-        throw Stopped(
-            fmt::format("interrupted; the rays that were traced are in {}, and the same command goes on from there", options.keep));
+        if (!rows) throw;
+        throw Stopped(fmt::format("interrupted; the rays that were traced are in {}, and the same command goes on from there",
+                                  *options.keep));
+    } catch (const KeptRowsError&) {
+        throw;
     } catch (const InputError& e) {
         throw InputError(options.scene + ": " + e.what());
     }

@@ -24,9 +24,9 @@ struct PatchOptions {
     std::uint64_t patches = 2000;
     std::uint64_t rays = 64;  // per facet
     std::uint64_t seed = 0;
-    int threads = 0;               // 0: all
-    std::optional<double> memory;  // GiB
-    std::string keep;              // folder for the rows of T; empty: they are not kept
+    int threads = 0;                  // 0: all
+    std::optional<double> memory;     // GiB
+    std::optional<std::string> keep;  // folder for the rows of T
     std::optional<double> checkpoint;
     bool quiet = false;
     bool json = false;
@@ -60,13 +60,12 @@ public:
 
 private:
     PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions,
-               int rank, const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
+               Processes* processes, const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
 
     PatchOptions options_;
     ThreadLimit threads_;
     std::map<std::string, std::string> definitions_;
     std::shared_ptr<const Scene> scene_;
-    std::unique_ptr<RowStore> rows_;
     std::unique_ptr<MatrixSystem> system_;
 };
 

@@ -19,8 +19,7 @@ using Json = nlohmann::ordered_json;
 std::vector<fs::path> files_in(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().filename().string().starts_with("rows_") && entry.path().extension() == ".kept")
-            files.push_back(entry.path());
+        if (entry.path().extension() == ".kept" && is_output_name(entry.path().filename().string())) files.push_back(entry.path());
     std::ranges::sort(files);
     return files;
 }
@@ -47,13 +46,17 @@ public:
 
     void read(const std::function<bool(std::span<const std::uint32_t>, std::span<const std::uint32_t>)>& take) override {
         for (const fs::path& path : files_in(files_.folder_.path())) {
-            StateFile file(path);
-            const Json& header = file.header();
-            if (header.at("table") != table_) continue;
-            const auto facets = file.numbers<std::uint32_t>(header.at("facets")),
-                       seen = file.numbers<std::uint32_t>(header.at("rays"));
-            file.expect_end();
-            if (!take(facets, seen)) file.damaged("its rows are of other patches");
+            try {
+                StateFile file(path);
+                const Json& header = file.header();
+                if (header.at("table") != table_) continue;
+                const auto facets = file.numbers<std::uint32_t>(header.at("facets")),
+                           seen = file.numbers<std::uint32_t>(header.at("rays"));
+                file.expect_end();
+                if (!take(facets, seen)) file.damaged("its rows are of other patches");
+            } catch (const InputError& e) {
+                throw KeptRowsError(std::string(e.what()) + "; without that file its rays are traced again");
+            }
         }
     }
 

@@ -1,6 +1,8 @@
 // Rows of T that outlive the process which traced them.
 #pragma once
 
+#include "core/base/error.h"
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,12 +13,18 @@ namespace neumann {
 
 struct TracedSettings;
 
+// Kept rows that cannot be used; the message names them.
+class KeptRowsError : public InputError {
+public:
+    using InputError::InputError;
+};
+
 // Of one table. A block is some facets and their rows, one after the other.
 class KeptRows {
 public:
     virtual ~KeptRows() = default;
 
-    // Hands over each block. `take` returns false if it is not of this table.
+    // Hands over each block. `take` returns false if it is not of this table. Throws KeptRowsError.
     virtual void read(
         const std::function<bool(std::span<const std::uint32_t> facets, std::span<const std::uint32_t> seen)>& take) = 0;
     // Whether it is time to keep what was traced since the last time.

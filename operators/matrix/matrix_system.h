@@ -18,7 +18,7 @@ struct TracedSettings {
     std::uint32_t rays = 64;     // per facet; a power of two. Also the number of light samples per facet
     std::uint64_t seed = 0;
     double memory = default_memory();  // approximate limit in bytes
-    RowStore* store = nullptr;         // of the rows of T; null: they are not kept
+    RowStore* store = nullptr;         // of the rows of T, while it is traced; null: they are not kept
 
     std::unique_ptr<KeptRows> kept() const { return store ? store->rows_of(*this) : nullptr; }
 };

@@ -14,7 +14,7 @@ RayTable::RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, 
     std::vector<std::uint32_t> facets(end_ - begin_);
     std::iota(facets.begin(), facets.end(), begin_);
     trace_rows({*space_, rays, seed, facets, std::span(first_).subspan(begin_, facets.size() + 1)},
-               {watch, own, on_blind_ray, kept}, seen_.get());
+               {watch, own, own.is_shared(), on_blind_ray, kept}, seen_.get());
 }
 
 std::size_t RayTable::size(const PatchSpace& space, std::uint32_t rays) {

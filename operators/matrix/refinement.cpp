@@ -14,6 +14,7 @@ std::vector<RefinementRow> coarser_spectra(const MatrixSystem& as_given, const E
         TracedSettings coarser = settings;
         coarser.patches = patches;
         coarser.rays = rays;
+        coarser.store = nullptr;
         const std::unique_ptr<MatrixSystem> system = as_given.with(coarser, limits.watch);
         RefinementRow row{what, system->settings(), system->space().patches().size(), system->space().size(), {}};
         for (int c = 0; c < system->channels(); ++c) {

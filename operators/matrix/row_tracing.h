@@ -39,12 +39,15 @@ struct RowsToTrace {
 struct RowTracing {
     const Watch& watch;
     const Agreement& others;  // who trace theirs at the same time
+    bool are_shared;          // whether there are any
     // Called for the rays of a facet in order, and for those of other facets at the same time.
     std::function<void(const BlindRay&)> on_blind_ray = {};
     KeptRows* kept = nullptr;  // of which no blind rays are known
 };
 
-// Throws Stopped, on all processes, if `watch` stops one; what was traced is kept then, if there is where.
+// Throws Stopped, on all processes, if `watch` stops one; what was traced is kept then, if there is where. Throws KeptRowsError, on
+// all,
+// if the kept rows of one are not those that are traced here.
 void trace_rows(const RowsToTrace& rows, const RowTracing& how, std::uint32_t* seen);
 
 }  // namespace neumann

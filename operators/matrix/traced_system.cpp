@@ -36,6 +36,7 @@ TracedSystem::TracedSystem(const Scene& scene, const TracedSettings& settings, c
       table_(RowShare(space_), settings.rays, settings.seed, watch, {}, settings.kept().get()),
       samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays),
       identity_(ReflectionMatrix<1>::identity(space_)) {
+    settings_.store = nullptr;
     is_grey(scene) ? fill<1>() : fill<4>();
 }
 

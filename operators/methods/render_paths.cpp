@@ -84,20 +84,37 @@ RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
 // With the bias of photon maps as the discretisation error: the difference between the radii r and r/√2, as a part of the error
 // by r. It is 1/2 where the light is smooth and the error of order r², and less at edges of surfaces and light, where it is of
 // order r.
+constexpr double part_of_bias = 1.0 - 1.0 / std::numbers::sqrt2;
 template <class Difference>
 Estimate with_bias(Estimate picture, const Difference& difference, const SeriesMoments::Result& result) {
     if (!result.has_differences()) return picture;
-    constexpr double part = 1.0 - 1.0 / std::numbers::sqrt2;
     picture.discretisation = difference();
-    for (Rgb& x : picture.discretisation.pixels) x = glm::abs(x) / part;
+    for (Rgb& x : picture.discretisation.pixels) x = glm::abs(x) / part_of_bias;
     return picture;
 }
 
+// `relative` is without the noise of the difference itself, which in the sum is taken to be what it is for this kernel if all noise
+// is of photons: its variance is half of the picture's.
 void report_bias(const SeriesMoments::Result& result, BounceSeries& series) {
     if (!result.has_differences()) return;
-    const auto report = [](const Estimate& picture) { return report_discretisation(picture, picture_error(picture)); };
-    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) series.report.bounces[i].discretisation = report(series.term(i));
-    series.report.sum_discretisation = report(series.sum(series.report.bounces.size() - 1));
+    const auto report = [](const Estimate& picture, double noise) {
+        const double all = relative_discretisation(picture);
+        return report_discretisation(picture,
+                                     {relative_standard_error(picture), std::sqrt(std::max(all * all - noise * noise, 0.0))});
+    };
+    const auto size = [](const Image& image) {
+        double squares = 0.0;
+        for (const Rgb& x : image.pixels) squares += glm::dot(x, x);
+        return std::sqrt(squares);
+    };
+    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
+        const Estimate term = series.term(i);
+        const double mean = size(term.mean);
+        series.report.bounces[i].discretisation =
+            report(term, mean > 0.0 ? result.noise_of_difference(i) / (part_of_bias * mean) : 0.0);
+    }
+    const Estimate sum = series.sum(series.report.bounces.size() - 1);
+    series.report.sum_discretisation = report(sum, relative_standard_error(sum) / (std::numbers::sqrt2 * part_of_bias));
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
@@ -171,6 +188,14 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     if (series.report.rare_large_samples())
         warnings.add(
             "the largest samples of some bounces are rare and make much of what is there: their intervals may be too short");
+    if (goal.relative_error && series.outcome == Outcome::error_reached)
+        for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
+            const auto& bias = series.report.bounces[i].discretisation;
+            if (!bias || bias->relative <= *goal.relative_error) continue;
+            warnings.add(fmt::format("an error of {:g} is that of samples: the bias of bounce {} is estimated as {:.2g}",
+                                     *goal.relative_error, i, bias->relative));
+            break;
+        }
     if (goal.relative_error && series.outcome == Outcome::time_reached) {
         const auto& errors = series.convergence.back().term_error;
         const auto worst = std::max_element(errors.begin(), errors.end());

@@ -114,8 +114,8 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
         settings.approximation = approximation(*corrected, scene, bounces, seed, memory, watch);
     else if (const auto* photon = std::get_if<method::Photon>(&method))
-        settings.photons = std::make_shared<const PhotonPilot>(
-            scene, settings.walk, PhotonChoice{photon->photons, photon->radius, photon->gather}, settings.sampler, seed, watch);
+        settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{photon->photons, photon->radius, photon->gather},
+                                                               settings.sampler, seed, memory, watch);
     else
         return false;
     return true;

@@ -70,7 +70,8 @@ void PhotonMap::find(const SurfacePoint& x, double radius, std::vector<Near>& ne
     const auto highest = static_cast<float>(flatness * radius);
     const auto take = [&](float distance2, std::uint32_t i) {
         const Photon& photon = photons_[i];
-        if (glm::dot(photon.normal, normal) < least_cosine || std::abs(glm::dot(photon.position - at, normal)) > highest) return;
+        if (std::abs(glm::dot(photon.normal, normal)) < least_cosine || std::abs(glm::dot(photon.position - at, normal)) > highest)
+            return;
         near.push_back({&photon, double{distance2}});
     };
     Within<decltype(take)> within{static_cast<float>(radius * radius), take};

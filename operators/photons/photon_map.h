@@ -18,7 +18,7 @@ namespace neumann {
 struct Photon {
     glm::vec3 position, normal;  // geometric normal
     glm::vec3 wi;                // towards where it came from
-    glm::vec3 power;             // W, as a part of that of all paths
+    glm::vec3 power;             // W: β divided by the number of paths
     std::uint32_t bounce;        // ≥ 1
     std::uint32_t path;          // number in its pass
 };
@@ -35,7 +35,8 @@ public:
         const Photon* photon;
         double distance2;
     };
-    // Those within the radius that lie on about the same surface as x: with a normal up to 60° from its own, and a fifth of the
+    // Those within the radius that lie on about the same surface as x: with a normal up to 60° from its own or its opposite (meshes
+    // may be wound either way; the material knows its sides), and a fifth of the
     // radius at most above or below it. In an order that depends on the map and x alone. `near` is overwritten.
     void find(const SurfacePoint& x, double radius, std::vector<Near>& near) const;
     // The distance of the k-th nearest photon; ∞ if there are fewer.

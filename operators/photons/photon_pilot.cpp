@@ -15,11 +15,17 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t pilot_stream = 0x70686f746f6e73ull;  // another seed than the pictures'
-constexpr std::uint32_t fewest_paths = 1u << 16, most_paths = 1u << 20;
+constexpr std::uint32_t fewest_paths = 1u << 16, most_paths = 1u << 20, most_paths_of_pilot = 1u << 18;
+// Of the pilot's paths, whatever N is: the radii depend on the scene and the seed alone.
+constexpr int bounces = 16;
+// With its copies while a pass is made, and the tree.
+constexpr double bytes_of_photon = 3.0 * sizeof(Photon);
 constexpr std::size_t places = 1024;
 // The largest radius, as a part of the median distance from the middle of what is seen: only what is much smaller than the shapes
 // and shadows has a bias of which two radii tell.
 constexpr double part_of_what_is_seen = 0.03;
+// What is seen at a single place says nothing of the size of shapes: below this part of the scene's radius that is taken.
+constexpr double smallest_extent = 1e-4;
 constexpr int most_mirrors = 16;
 
 std::uint32_t default_paths(const Film& film) {
@@ -91,28 +97,41 @@ std::vector<Vec3> some_of(const std::vector<Photon>& photons) {
 
 }  // namespace
 
-PhotonPilot::PhotonPilot(const Scene& scene, const WalkSettings& walk, const PhotonChoice& choice, SamplerKind sampler,
-                         std::uint64_t seed, const Watch& watch)
+PhotonPilot::PhotonPilot(const Scene& scene, const PhotonChoice& choice, SamplerKind sampler, std::uint64_t seed, double memory,
+                         const Watch& watch)
     : settings{.paths = choice.paths.value_or(default_paths(scene.film)), .gather = choice.gather} {
     const std::uint64_t stream = seed ^ pilot_stream;
-    auto photons = PhotonTracer(scene, walk, settings, sampler, stream).trace(0, watch.stop);
+    PhotonSettings of_pilot = settings;
+    of_pilot.paths = std::min(settings.paths, most_paths_of_pilot);
+    const WalkSettings walk{.bounces = bounces, .rest_probability = 0.0};
+    auto photons = PhotonTracer(scene, walk, of_pilot, sampler, stream).trace(0, watch.stop);
     if (!photons) throw Stopped();
     if (!scene.emitters.empty() && !photons->reach_something)
         throw InputError(
-            fmt::format("--method photon: none of {} paths from the lights meets a surface; take --method walk", settings.paths));
+            fmt::format("--method photon: none of {} paths from the lights meets a surface; take --method walk", of_pilot.paths));
+    const double more = static_cast<double>(settings.paths) / of_pilot.paths;
     power = photons->power;
     rays = std::accumulate(photons->rays.begin(), photons->rays.end(), std::uint64_t{0});
-    caustic_photons = photons->caustic.size();
-    other_photons = photons->others.size();
+    caustic_photons = static_cast<std::size_t>(more * static_cast<double>(photons->caustic.size()));
+    other_photons = static_cast<std::size_t>(more * static_cast<double>(photons->others.size()));
+    const double bytes = bytes_of_photon * static_cast<double>(caustic_photons + other_photons);
+    if (bytes > memory)
+        throw InputError(fmt::format(
+            "--photons {}: these leave about {:.3g} million photons in a pass, which take {:.1f} GiB, and {:.1f} "
+            "may be taken; take fewer",
+            settings.paths, 1e-6 * static_cast<double>(caustic_photons + other_photons), bytes / 0x1p30, memory / 0x1p30));
     if (choice.radius) {
         settings.radius = settings.caustic_radius = *choice.radius;
         return;
     }
+    // The maps of the pictures are as much denser.
+    part_of_distance_ = 1.0 / std::sqrt(more);
     const PhotonMap others(std::move(photons->others));
     std::vector<Vec3> seen = seen_places(scene, stream);
     if (seen.empty()) seen = some_of(others.photons());
-    const double largest = part_of_what_is_seen * (seen.empty() ? scene.geometry.radius() : median_distance(seen));
-    settings.radius = settings.caustic_radius = std::min(usual_distance(others, seen), largest);
+    const double extent = seen.empty() ? 0.0 : median_distance(seen), size = scene.geometry.radius(),
+                 largest = part_of_what_is_seen * (extent > smallest_extent * size ? extent : size);
+    settings.radius = settings.caustic_radius = std::min(part_of_distance_ * usual_distance(others, seen), largest);
     caustics = std::make_shared<const PhotonMap>(std::move(photons->caustic));
 }
 

@@ -1,6 +1,7 @@
 // A pass of photons that does not enter the pictures: it chooses the radii, and shows where the power of the lights goes.
 #pragma once
 
+#include "core/base/memory.h"
 #include "operators/photons/photon_tracer.h"
 
 #include <algorithm>
@@ -16,15 +17,16 @@ struct PhotonChoice {
 };
 
 struct PhotonPilot {
-    // The same for the same seed. Throws InputError if the scene has lights and no path from them meets a surface, and Stopped if
-    // `watch` stops it.
-    PhotonPilot(const Scene& scene, const WalkSettings& walk, const PhotonChoice& choice, SamplerKind sampler, std::uint64_t seed,
-                const Watch& watch = {});
+    // The same for the same scene and seed, however many bounces are rendered. Throws InputError if the scene has lights and no
+    // path from them meets a surface, and if the photons of a pass take more than `memory` bytes; and Stopped if `watch` stops it.
+    PhotonPilot(const Scene& scene, const PhotonChoice& choice, SamplerKind sampler, std::uint64_t seed,
+                double memory = default_memory(), const Watch& watch = {});
 
     // r_1 of caustics at x: as far as the twentieth of the pilot's photons of caustics is away, and at most
     // settings.caustic_radius; or that everywhere, where the radius was given. Photons crowd in a focus, and are few beside it.
     double caustic_radius(const Vec3& x) const {
-        return caustics ? std::min(caustics->distance(x, photons_in_radius), settings.caustic_radius) : settings.caustic_radius;
+        return caustics ? std::min(part_of_distance_ * caustics->distance(x, photons_in_radius), settings.caustic_radius)
+                        : settings.caustic_radius;
     }
 
     static constexpr std::size_t photons_in_radius = 20;
@@ -33,6 +35,9 @@ struct PhotonPilot {
     std::size_t caustic_photons = 0, other_photons = 0;
     std::uint64_t rays = 0;
     PhotonPower power;
+
+private:
+    double part_of_distance_ = 1.0;  // in maps of more paths than the pilot's
 };
 
 }  // namespace neumann

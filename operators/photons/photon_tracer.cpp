@@ -44,7 +44,8 @@ std::optional<PhotonTracer::Photons> PhotonTracer::trace(std::uint64_t pass, con
             return;
         }
         Workspace work;
-        for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
+        for (std::uint32_t group = range.begin(); group < range.end() && !stopped; ++group) {
+            if (stop()) stopped = true;
             Photons& part = parts[group];
             part.rays.assign(last + 1, 0);
             const auto visit = [&](int j, std::uint32_t path, const LightWalker& w, bool is_caustic) {
@@ -68,7 +69,8 @@ std::optional<PhotonTracer::Photons> PhotonTracer::trace(std::uint64_t pass, con
     if (stopped) return std::nullopt;
     Photons all;
     all.rays.assign(last + 1, 0);
-    for (Photons& part : parts) {
+    for (Photons& counted : parts) {
+        const Photons part = std::move(counted);  // freed when it is copied
         all.caustic.insert(all.caustic.end(), part.caustic.begin(), part.caustic.end());
         all.others.insert(all.others.end(), part.others.begin(), part.others.end());
         for (std::size_t q = 0; q <= last; ++q) all.rays[q] += part.rays[q];

@@ -59,7 +59,10 @@ private:
         map.find(x, radius, near);
         const double radius2 = radius * radius;
         for (const PhotonMap::Near& n : near) {
-            const Rgb light = geometric_bsdf(side, wo, Vec3(n.photon->wi)) * Rgb(n.photon->power);
+            // With shading normals R* has |ωi·ns| / |ωi·ng| (adjoint_reflection.h), here with the facet on which the photon lies.
+            const Vec3 wi(n.photon->wi), local = side.p.frame.to_local(wi);
+            const Rgb light = eval(*side.bsdf, side.p, side.p.frame.to_local(wo), local) * Rgb(n.photon->power) *
+                              std::abs(local.z / glm::dot(Vec3(n.photon->normal), wi));
             if (is_black(light)) continue;
             const double wide = kernel(n.distance2, radius2),
                          narrow = 2.0 * n.distance2 < radius2 ? kernel(n.distance2, 0.5 * radius2) : 0.0;
@@ -114,7 +117,7 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
                 const Rgb lost = w.beta * walkers.light[terms + of];
                 if (is_finite(lost)) out.quantities[i * quantities + terms + of] += lost;  // what is not is found in the term
             }
-            observer.reads(i, largest->path, w.beta * of_largest);
+            observer.reads(i, largest->path, largest->bounce, w.beta * of_largest);
         };
         // R: read the maps, sample the lights and, along with the last light sample, the next direction.
         const std::size_t questions = std::max<std::size_t>(direct_.questions(), 1);
@@ -142,7 +145,7 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
                 w.from = receiver(side);
                 return true;
             });
-            out.rays[q] += answer(scene_, T, direct_, settings_.left_out, bounce, walkers, observer,
+            out.rays[q] += answer(scene_, T, direct_, LeftOut(), bounce, walkers, observer,
                                   [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
         }
         walkers.keep_if([&](Walker& w, std::uint32_t i) {

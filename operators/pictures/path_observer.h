@@ -33,8 +33,9 @@ public:
     virtual void step(std::uint32_t path, const PathStep& step) = 0;
     // The contribution of a path's last step. `pixel`: the position on the film if a path from a light found it; otherwise null.
     virtual void found(std::uint32_t, std::size_t /*quantity*/, const Rgb&, const Vec2* /*pixel*/) {}
-    // A photon map was read where the path has come to: its photon that brings most, and the path from a light that left it.
-    virtual void read(std::uint32_t, std::uint32_t /*photon_path*/, const Rgb&) {}
+    // A photon map was read where the path has come to: its photon that brings most, and the path from a light that left it at
+    // a vertex.
+    virtual void read(std::uint32_t, std::uint32_t /*photon_path*/, std::uint32_t /*vertex*/, const Rgb&) {}
 };
 
 }  // namespace neumann

@@ -20,6 +20,7 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
         std::uint32_t chosen;
         std::vector<ReplayedStep> steps;
         std::optional<std::uint32_t> photon_path;
+        std::uint32_t photon_vertex = 0;
         double most = 0.0;
 
         bool watches(std::uint32_t path) const override { return path == chosen; }
@@ -27,9 +28,10 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
         void found(std::uint32_t, std::size_t quantity, const Rgb& value, const Vec2* pixel) override {
             steps.back().found.push_back({quantity, value, pixel ? std::optional(*pixel) : std::nullopt});
         }
-        void read(std::uint32_t, std::uint32_t path, const Rgb& value) override {
+        void read(std::uint32_t, std::uint32_t path, std::uint32_t vertex, const Rgb& value) override {
             if (photon_path && max_component(value) <= most) return;
             photon_path = path;
+            photon_vertex = vertex;
             most = max_component(value);
         }
     } recorder;
@@ -39,7 +41,9 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
     if (recorder.photon_path) {
         const std::uint32_t path = *recorder.photon_path;
         recorder.chosen = path % PhotonTracer::at_once;
+        const std::size_t own = recorder.steps.size();
         sampler.retrace_photon(place.replicate, path, recorder);
+        recorder.steps.resize(own + recorder.photon_vertex);
     }
     const std::size_t terms = sampler.settings().pictures();
     Replay result{std::move(recorder.steps), std::vector<Rgb>(terms, Rgb(0.0))};

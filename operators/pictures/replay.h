@@ -22,7 +22,8 @@ struct ReplayedStep {
 bool is_finite(const ReplayedStep& step);
 
 struct Replay {
-    std::vector<ReplayedStep> steps;  // with photon maps followed by the path of the photon that brings most
+    std::vector<ReplayedStep> steps;  // with photon maps followed by the path of the photon that brings most, up to
+                                      // where it lies
     // The contributions to the sample's own pixel, bounces 0 … N and the rest, to the bit; zero if all come from the lights.
     std::vector<Rgb> terms;
 };

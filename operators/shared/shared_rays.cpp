@@ -34,7 +34,7 @@ SharedRays::SharedRays(const PatchSpace& space, std::uint32_t rays, std::uint64_
     }
     const std::clock_t begin = std::clock();
     slots_ = make_large_array<std::uint32_t>(first_ray_.back());
-    trace_rows({space, rays, seed, facets_, first_ray_}, {watch, *this, {}, kept}, slots_.get());
+    trace_rows({space, rays, seed, facets_, first_ray_}, {watch, *this, true, {}, kept}, slots_.get());
     seconds_ = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     find_slots(shared.number, shared.first);
 }

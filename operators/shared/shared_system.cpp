@@ -20,6 +20,7 @@ SharedSystem::SharedSystem(const Scene& scene, const TracedSettings& settings, P
       space_(traced_space(scene, settings, processes.size())),
       table_(space_, settings.rays, settings.seed, processes, watch, settings.kept().get()),
       samples_lights_(!scene.emitters.empty() && rays_that_meet_lights(scene, settings.rays) < enough_rays) {
+    settings_.store = nullptr;
     double blind = 0.0;
     for (std::size_t i = 0; i < table_.facets().size(); ++i)
         blind += static_cast<double>(std::ranges::count(table_.row(i), table_.nothing()));

@@ -108,7 +108,7 @@ SeriesMoments::Result SeriesMoments::result() const {
     result.width_ = width_;
     result.height_ = height_;
     result.quantities_ = pictures_;
-    result.stride_ = quantities_;
+    result.all_ = quantities_;
     if (nodes_.empty()) {
         result.data_ = std::make_shared<std::vector<double>>(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
                                                              doubles_per_pixel());
@@ -146,7 +146,7 @@ SeriesMoments::Result SeriesMoments::result() const {
 }
 
 std::pair<Rgb, Rgb> SeriesMoments::Result::at(std::size_t pixel, std::size_t quantity, bool sum) const {
-    const double* data = data_->data() + pixel * stride_ * stride;
+    const double* data = data_->data() + pixel * all_ * stride;
     const std::size_t m2_at = sum ? sum_m2_at : term_m2_at;
     std::pair<Rgb, Rgb> result;
     for (int c = 0; c < 3; ++c) {
@@ -158,6 +158,15 @@ std::pair<Rgb, Rgb> SeriesMoments::Result::at(std::size_t pixel, std::size_t qua
         result.second[c] = count_ > 1.0 ? std::sqrt(m2 / (count_ * (count_ - 1.0))) : std::numeric_limits<double>::infinity();
     }
     return result;
+}
+
+double SeriesMoments::Result::noise_of_difference(std::size_t i) const {
+    double squares = 0.0;
+    for (std::size_t pixel = 0; pixel < pixels(); ++pixel) {
+        const Rgb error = at(pixel, quantities_ + i, false).second;
+        squares += glm::dot(error, error);
+    }
+    return std::sqrt(squares);
 }
 
 Image SeriesMoments::Result::differences(std::size_t first, std::size_t last) const {

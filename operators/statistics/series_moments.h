@@ -44,8 +44,8 @@ public:
     };
 
     SeriesMoments(int width, int height, std::size_t quantities) : SeriesMoments(width, height, quantities, quantities) {}
-    // Of which only the first `pictures` are terms, and the others are the parts of these that depend on how they were made, in the
-    // same order (Result::difference_of_term()); or all are.
+    // Of which only the first `pictures` are terms, and the others are the differences of these between two ways to make them,
+    // in the same order (Result::difference_of_term()); or all are.
     SeriesMoments(int width, int height, std::size_t quantities, std::size_t pictures)
         : width_(width), height_(height), quantities_(quantities), pictures_(pictures) {}
 
@@ -97,8 +97,10 @@ public:
     PictureMeans means_of_sum(std::size_t i) const { return means(i, true); }
 
     // The mean of what goes with term i, or with the sum up to it, if the moments have that.
-    bool has_differences() const { return stride_ > quantities_; }
+    bool has_differences() const { return all_ > quantities_; }
     Image difference_of_term(std::size_t i) const { return differences(i, i); }
+    // √(Σ SE²) of difference_of_term(i), over pixels and channels.
+    double noise_of_difference(std::size_t i) const;
     Image difference_of_sum(std::size_t i) const { return differences(0, i); }
 
     // The mean at one pixel.
@@ -119,10 +121,10 @@ private:
     // Mean and standard error at one pixel.
     std::pair<Rgb, Rgb> at(std::size_t pixel, std::size_t i, bool sum) const;
     Image differences(std::size_t first, std::size_t last) const;
-    bool pixels_are_independent() const { return data_->size() <= pixels() * stride_ * PixelMoments::doubles_per_quantity; }
+    bool pixels_are_independent() const { return data_->size() <= pixels() * all_ * PixelMoments::doubles_per_quantity; }
 
     int width_ = 0, height_ = 0;
-    std::size_t quantities_ = 0, stride_ = 0;  // pictures, and quantities of a pixel
+    std::size_t quantities_ = 0, all_ = 0;  // pictures, and all quantities of a pixel
     double count_ = 0.0;
     std::shared_ptr<const std::vector<double>> data_;
 };

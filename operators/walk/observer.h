@@ -20,8 +20,9 @@ struct NoObserver {
               const SurfacePoint& /*y*/, bool /*seen*/) const {}
     // The last meets() or asks() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks instead.
     void finds(std::uint32_t /*path*/, std::size_t /*quantity*/, const Rgb&) const {}
-    // Of the photons that are read where the path has come to, this path from a light left the one that brings most.
-    void reads(std::uint32_t /*path*/, std::uint32_t /*photon_path*/, const Rgb&) const {}
+    // Of the photons that are read where the path has come to, this path from a light left the one that brings most,
+    // at this vertex.
+    void reads(std::uint32_t /*path*/, std::uint32_t /*photon_path*/, std::uint32_t /*vertex*/, const Rgb&) const {}
 };
 
 }  // namespace neumann

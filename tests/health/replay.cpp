@@ -43,7 +43,7 @@ protected:
             s.approximation = std::make_shared<const Approximation>(
                 scene, ApproximationSettings{.patches = 100, .rays = 16, .bounces = bounces, .seed = 5});
         if (s.generator == PathGenerator::photon)
-            s.photons = std::make_shared<const PhotonPilot>(scene, s.walk, PhotonChoice{1000, {}, false}, s.sampler, s.seed);
+            s.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{1000, {}, false}, s.sampler, s.seed);
         return s;
     }
 };
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
 TEST(Replay, APhotonIsFollowedToItsLight) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
     SamplingSettings settings{.generator = PathGenerator::photon, .walk = {.bounces = 3}, .replicate_size = 4};
-    settings.photons = std::make_shared<const PhotonPilot>(scene, settings.walk, PhotonChoice{20000, {}, false}, settings.sampler, 0);
+    settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{20000, {}, false}, settings.sampler, 0);
     const PictureSampler sampler(scene, settings);
     const double radius = settings.photons->settings.radius;
     int followed = 0;

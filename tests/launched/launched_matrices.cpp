@@ -113,6 +113,18 @@ TEST_F(LaunchedMatrices, KeepTheirRays) {
     EXPECT_EQ(terms(shared), terms(printed_on(3, command({}))));
 }
 
+TEST_F(LaunchedMatrices, AFolderThatIsInUseIsRefusedByAll) {
+    RunningCommand other = start_program(
+        neumann({"solve", scene("cornell-box"), "--patches", "4000", "--directions", "65536", "--keep", "rows", "-t", "1"}));
+    ASSERT_TRUE(wait_for("rows"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const Finished done = run_on(2, {"solve", scene("cornell-box"), "--keep", "rows"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_NE(done.err.find("rows: another run is writing there\n"), std::string::npos) << done.err;
+    other.signal(SIGKILL);
+    other.wait();
+}
+
 TEST_F(LaunchedMatrices, OneSpeaksOfWhatIsWrong) {
     const Finished done = run_program(on(2, neumann({"solve", scene("furnace"), "--channel", "x"})));
     EXPECT_EQ(done.exit_code, 2);

@@ -49,7 +49,7 @@ TEST(PhotonMap, FindsWhatLiesNearby) {
             std::vector<std::uint32_t> expected, paths;
             for (const Photon& p : all) {
                 const Vec3 d = Vec3(p.position) - x.position;
-                if (glm::length(d) < radius && glm::dot(Vec3(p.normal), x.normal) >= 0.5 &&
+                if (glm::length(d) < radius && std::abs(glm::dot(Vec3(p.normal), x.normal)) >= 0.5 &&
                     std::abs(glm::dot(d, x.normal)) <= 0.2 * radius)
                     expected.push_back(p.path);
             }

@@ -1,5 +1,6 @@
 // Photons carry the power of the lights: what arrives at each vertex is known in a furnace, and what is in the map is what arrived.
 #include "operators/photons/photon_tracer.h"
+#include "core/base/error.h"
 #include "core/reader/read_scene.h"
 #include "operators/photons/photon_pilot.h"
 #include "tests/physics/seed.h"
@@ -10,6 +11,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 namespace neumann::photon_tracer_test {
 
@@ -73,11 +76,36 @@ TEST(PhotonTracer, AllThatArrivesIsKept) {
     }
 }
 
+// A white furnace traps light for ever: the pilot ends all the same, and so does a render without a rest. Too many photons are
+// refused before they are traced.
+TEST(PhotonTracer, EndsWhereTheSeriesDoesNot) {
+    const Scene white = stock_scene("furnace", {{"albedo", "1"}, {"res", "4"}});
+    const PhotonPilot pilot(white, {20000, {}, false}, SamplerKind::sobol, fixed_seed);
+    EXPECT_GT(pilot.settings.radius, 0.0);
+    EXPECT_NEAR(pilot.power.arrived[16], pilot.power.went_on[0], 1e-9 * pilot.power.went_on[0]);
+    EXPECT_THROW(PhotonPilot(white, {1u << 28, {}, false}, SamplerKind::sobol, fixed_seed, 0x1p30), InputError);
+}
+
+// What is seen may be a single point: the radius is that of other scenes of this size.
+TEST(PhotonTracer, ASinglePointIsSeen) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "neumann_photon_point.xml";
+    std::ofstream(file) << R"(<scene version="3.0.0">
+<sensor type="distant"><point name="target" x="0" y="0" z="0"/><vector name="direction" x="0" y="0" z="-1"/>
+<film type="hdrfilm"><integer name="width" value="1"/><integer name="height" value="1"/><rfilter type="box"/></film></sensor>
+<shape type="rectangle"><transform name="to_world"><scale value="3"/></transform></shape>
+<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><translate z="2"/></transform>
+<emitter type="area"><rgb name="radiance" value="1"/></emitter></shape></scene>)";
+    const Scene scene = read_scene(file);
+    std::filesystem::remove(file);
+    const PhotonPilot pilot(scene, {}, SamplerKind::sobol, fixed_seed);
+    EXPECT_GT(pilot.settings.radius, 1e-3);
+}
+
 TEST(PhotonTracer, TheBitsDoNotDependOnThreads) {
     const Scene scene = stock_scene("glass-ball", {{"res", "32"}});
     const auto run = [&](std::size_t threads) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-        const PhotonPilot pilot(scene, {}, {}, SamplerKind::sobol, fixed_seed);
+        const PhotonPilot pilot(scene, {}, SamplerKind::sobol, fixed_seed);
         auto photons = PhotonTracer(scene, {}, pilot.settings, SamplerKind::sobol, fixed_seed).trace(2).value();
         return std::pair(pilot.settings, std::move(photons));
     };

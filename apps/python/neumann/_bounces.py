@@ -165,7 +165,7 @@ class BounceSeries:
 
     @property
     def terms_discretisation(self) -> Optional[Picture]:
-        """What patches get wrong, as it is estimated, (N + 1, height, width, 3); None where there are no patches."""
+        """What patches or photon maps get wrong, as it is estimated, (N + 1, height, width, 3); None where there are none."""
         return self._terms[2]
 
     @property
@@ -185,7 +185,7 @@ class BounceSeries:
 
     @property
     def sums_discretisation(self) -> Optional[Picture]:
-        """What patches get wrong of the sums, (N + 1, height, width, 3); None where there are no patches."""
+        """The same of the sums, (N + 1, height, width, 3)."""
         return self._sums[2]
 
     @property
