@@ -99,7 +99,7 @@ struct Case {
 // |photon − reference| ≤ t SE + bias in 95% of all blocks, bounces and channels, and in 90% of those of a scene; and nowhere
 // farther off than 4.5 SE + 2 bias. Blocks that the reference does not know to 2% are left out. Values of a scene go together (the
 // channels have the same photons, and neighbours share some), so that 150 of them are about as many as 50: 90% leaves 1.6 standard
-// deviations of their number, with intervals that are wider than 95% by the bias. Passed over ten seeds.
+// deviations of their number, with intervals that are wider than 95% by the bias. Passed over five seeds.
 TEST(PhotonPicturesSlow, AreWithinTheirStatedErrors) {
     int within_all = 0, all = 0;
     for (const Case& c : {Case{"cornell-box", "walk", 64, true}, Case{"glass-ball", "bidirectional", 512, false},
