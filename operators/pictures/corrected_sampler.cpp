@@ -1,12 +1,9 @@
 #include "operators/pictures/corrected_sampler.h"
 
 #include "operators/pictures/corrected_group.h"
-#include "operators/pictures/pixel_average.h"
+#include "operators/pictures/pixel_groups.h"
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <stdexcept>
 
@@ -44,7 +41,6 @@ CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& s
 bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                       const Watch& watch) const {
     const std::size_t Q = settings_.quantities();
-    std::atomic<bool> dropped = false;
     std::uint64_t rays = 0;
     std::optional<SharedPoints> points;
     if (points_->sets() > 0) {
@@ -52,34 +48,10 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
         if (!points) return false;
     }
     tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
-    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
-        Workspace work(Q);
-        work.tally = without_smaller_samples(tally);
-        return work;
-    });
-    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
-    const std::uint32_t groups = (pixels_ + pixels_at_once - 1) / pixels_at_once;
-    std::atomic<std::uint32_t> done = 0;
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
-        if (dropped) return;
-        Workspace& work = workspaces.local();
-        for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
-            const std::uint32_t begin = group * pixels_at_once, end = std::min(begin + pixels_at_once, pixels_);
-            trace_group(replicate, begin * size, (end - begin) * size, points ? &*points : nullptr, work);
-            for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-                average(std::span(work.group.samples).subspan((pixel - begin) * size * Q, size * Q), size, pixel, replicate,
-                        settings_.colors, work.average, std::span(ranges.of).subspan(pixel * Q, Q), work.tally);
-                std::copy(work.average.mean.begin(), work.average.mean.end(),
-                          picture.begin() + static_cast<std::ptrdiff_t>(pixel * Q));
-            }
-        }
-        done += static_cast<std::uint32_t>(range.size());
-        watch.progress({.fraction = static_cast<double>(done) / groups});
-        if (watch.stop()) dropped = true;
-    });
-    if (dropped) return false;
-    for (const Workspace& work : workspaces) tally.merge(work.tally);
-    return true;
+    return sample_groups<Workspace>(settings_, pixels_, replicate, picture, ranges, tally, watch,
+                                    [&](std::uint32_t first, std::uint32_t samples, Workspace& work) {
+                                        trace_group(replicate, first, samples, points ? &*points : nullptr, work);
+                                    });
 }
 
 }  // namespace neumann

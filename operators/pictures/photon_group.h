@@ -13,7 +13,8 @@ struct PhotonSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
     PhotonWalkers walkers;
-    std::vector<Sampler> camera;
+    std::vector<Pixel> pixels;
+    std::vector<Sampler> camera;  // of the pixels' samples
     PixelAverage average;
     Tally tally;
 };
@@ -22,31 +23,18 @@ struct PhotonSampler::Workspace {
 template <class Observer>
 void PhotonSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const PhotonPass& pass,
                                 Workspace& work, const Observer& observer) const {
-    const std::uint32_t size = settings_.replicate_size;
-    const std::size_t Q = settings_.quantities();
-    PathGroup& group = work.group;
-    group.rays.resize(samples);
-    group.weights.resize(samples);
+    const std::uint32_t size = settings_.replicate_size, begin = first / size, end = (first + samples) / size;
+    work.pixels.clear();
     work.camera.clear();
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        const std::uint32_t number = (first + i) / size;
-        const Pixel pixel = pixel_of(scene_->film, number);
-        if (i == 0 || (first + i) % size == 0)
-            work.camera.push_back(Sampler(settings_.sampler, camera_net_, settings_.seed, number));
-        else
-            work.camera.push_back(work.camera.back());
-        work.camera.back().start(replicate * size + (first + i) % size);
-        const CameraSample sample = sample_camera(*scene_, pixel.x, pixel.y, work.camera.back());
-        group.rays[i] = sample.ray;
-        group.weights[i] = sample.weight;
+    for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+        work.pixels.push_back(pixel_of(scene_->film, pixel));
+        work.camera.resize(work.camera.size() + size, Sampler(settings_.sampler, camera_net_, settings_.seed, pixel));
     }
-    group.samples.assign(samples * Q, Rgb(0.0));
-    TermSamples out{group.samples, work.tally.rays};
-    PhotonWalk(*scene_, *direct_, settings_.walk, *settings_.photons, pass)(std::span<const CameraRay>(group.rays),
-                                                                            std::span(work.camera), work.walkers, out, observer);
-    work.tally.given_up += out.given_up;
-    for (std::uint32_t i = 0; i < samples; ++i)
-        for (Rgb& x : std::span(group.samples).subspan(i * Q, Q)) x *= group.weights[i];
+    const auto read = [&](std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& out) {
+        PhotonWalk(*scene_, *direct_, settings_.walk, *settings_.photons, pass)(rays, samplers, work.walkers, out, observer);
+    };
+    work.tally.given_up += trace(*scene_, read, std::span(work.camera), std::span<const Pixel>(work.pixels), replicate, work.group,
+                                 std::span(work.tally.rays));
 }
 
 }  // namespace neumann

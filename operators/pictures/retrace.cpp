@@ -5,6 +5,7 @@
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/photon_group.h"
 #include "operators/pictures/picture_sampler.h"
+#include "operators/pictures/pixel_groups.h"
 #include "operators/pictures/splat_group.h"
 #include "operators/pictures/watched_paths.h"
 #include "operators/walk/walk.h"
@@ -95,8 +96,7 @@ private:
 }  // namespace
 
 std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u),
-                        end = std::min(first / size + pixels_at_once, pixels_) * size;
+    const std::uint32_t size = settings_.replicate_size, end = std::min(first / size + pixels_of_group(settings_), pixels_) * size;
     std::uint64_t rays = 0, given_up = 0;
     const auto points = points_->make(replicate, rays, given_up, {});
     Workspace work(settings_.quantities());
@@ -106,8 +106,7 @@ std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_
 }
 
 std::vector<Rgb> PhotonSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u),
-                        end = std::min(first / size + pixels_at_once, pixels_) * size;
+    const std::uint32_t size = settings_.replicate_size, end = std::min(first / size + pixels_of_group(settings_), pixels_) * size;
     std::vector<std::uint64_t> rays;
     std::uint64_t given_up = 0;
     const auto pass = make_pass(replicate, rays, given_up, {});
