@@ -171,6 +171,54 @@ share = {
 assert share[methods[2]] > 0.3 > max(share[methods[0]], share[methods[1]]), "patches are biased, paths are not"
 
 # %% [markdown]
+# ## Samples that know each other
+# $V \propto 1/N$ holds for independent samples. A **Markov chain** makes each path from the one before: it moves the path's random
+# numbers a little, and goes there with probability $\min(1, f'/f)$, $f$ being what the path brings (Metropolis; Veach and Guibas
+# 1997; Kelemen 2002). So it stays among paths that bring light once it has found one, and visits them in proportion to $f$. But its
+# states are alike. With $\rho_k$ the correlation of states $k$ steps apart, $N$ states are worth
+#
+# $$\frac{N}{\tau}, \qquad \tau = 1 + 2 \sum_{k \ge 1} \rho_k$$
+#
+# independent ones: $\tau$ is the **integrated autocorrelation time**. Here is where the paths of one chain meet the film, through a
+# door that is ajar, in bounce 2.
+
+# %%
+chain = scene("door-ajar", res=64).chain(2, states=20_000, seed=seed)
+x, y = (chain.position - chain.position.mean(axis=0)).T
+
+
+def correlation(x, most):
+    spectrum = np.abs(np.fft.rfft(x, 2 * len(x))) ** 2
+    return np.fft.irfft(spectrum)[:most] / np.fft.irfft(spectrum)[0]
+
+
+figure, (film, decay) = plt.subplots(1, 2, figsize=(9.6, 4))
+film.plot(*chain.position[:1500].T, lw=0.5, color="0.7")
+large = chain.accepted & chain.large
+film.plot(*chain.position[:1500].T, ".", ms=3)
+film.plot(*chain.position[:1500][large[:1500]].T, "o", ms=5, color="C1", label="new numbers")
+film.set(xlim=(0, 64), ylim=(64, 0), aspect="equal", title="1500 states on the film")
+film.legend(loc="upper right")
+for name, values in (("x", x), ("y", y)):
+    decay.plot(correlation(values, 600), label=name)
+decay.set(xlabel="steps k", ylabel="correlation of states k steps apart", title=r"$\rho_k$")
+decay.legend()
+plt.show()
+rho = correlation(x, 5000)
+end = np.argmax(rho < 0.05)  # beyond is noise
+tau = 1 + 2 * rho[1:end].sum()
+print(f"{chain}; tau is about {tau:.0f}: {len(chain)} states are worth {len(chain) / tau:.0f} independent ones")
+
+# %% [markdown]
+# The figure: small steps wander (blue), and now and then all numbers are drawn anew (orange).
+#
+# **Q4.** Most large steps are refused. Why does the chain need them all the same? (A4: small steps cannot leave an island of paths
+# that bring light, and all others are not found without luck.)
+#
+# `method="metropolis"` runs thousands of such chains for each bounce, from starts that independent paths have found, and its error
+# bars are from repeats of all of that. run.json has $\tau$, and a warning says where it is not much shorter than the chains.
+
+# %% [markdown]
 # ## How far to trust it
 # - A time is a time *on this machine, now*: run a study on an idle one, and compare only what ran in turn. `study` takes its
 #   methods in turn for that reason. Counts (rays, samples, applications of $K$) do not depend on the weather: plot against

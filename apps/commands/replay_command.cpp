@@ -78,11 +78,15 @@ std::uint32_t pixel_number(const Film& film, int x, int y) {
     return *number;
 }
 
+void expect_sample(std::uint64_t sample, std::uint64_t first, std::uint64_t count) {
+    if (sample < first || sample - first >= count)
+        throw InputError(
+            fmt::format("--sample {}: expected {} to {}, as many as the render has a pixel", sample, first, first + count - 1));
+}
+
 Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
     if (!request.number) {
-        if (*request.sample < run.first || *request.sample - run.first >= run.samples)
-            throw InputError(fmt::format("--sample {}: expected {} to {}, as many as the render has a pixel", *request.sample,
-                                         run.first, run.first + run.samples - 1));
+        if (!adaptive_of(run.render.method)) expect_sample(*request.sample, run.first, run.samples);
         return {{pixel_number(film, request.pixel[0], request.pixel[1]), *request.sample}, ""};
     }
     for (const Json& sample : run.named) {
@@ -192,7 +196,12 @@ int replay_command(const ReplayRequest& request) {
                    NEUMANN_VERSION);
     const Chosen chosen = choose(request, run, scene.film);
     const auto [render, name] = where_it_began(run, chosen.name);
-    const Replay found = replay(scene, render, name);
+    const RecordedSamples samples(scene, render);
+    if (adaptive_of(render.method)) {
+        const std::uint64_t of_pixel = samples.sampler().layout().size(name.pixel);
+        expect_sample(name.sample, run.first / render.replicate_size * of_pixel, run.samples / render.replicate_size * of_pixel);
+    }
+    const Replay found = samples.replay(name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 

@@ -125,6 +125,23 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
     return json;
 }
 
+// How the chains of each bounce have mixed. `effective_states`: those that are worth as much as independent ones.
+Json chains_json(const std::vector<ChainStatistics>& all) {
+    Json json = Json::array();
+    for (std::size_t bounce = 1; bounce < all.size(); ++bounce) {
+        const ChainStatistics& c = all[bounce];
+        const auto part = [](std::uint64_t n, std::uint64_t of) { return of == 0 ? Json() : Json(double(n) / double(of)); };
+        json.push_back({{"bounce", bounce},
+                        {"chains", c.chains},
+                        {"states", c.states},
+                        {"accepted_small_steps", part(c.small_accepted, c.small)},
+                        {"accepted_large_steps", part(c.large_accepted, c.large)},
+                        {"largest_stay", c.largest_stay},
+                        {"autocorrelation_time", c.autocorrelation_time()}});
+    }
+    return json;
+}
+
 Json samples_json(const BounceSeries& series) {
     Json json = {{"per_pixel", series.samples}};
     if (const auto* paths = std::get_if<PathRecord>(&series.record)) {
@@ -133,6 +150,9 @@ Json samples_json(const BounceSeries& series) {
         for (const SeedRange& range : paths->merged)
             json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
         if (paths->photons) json["photons"] = photons_json(*paths->photons, *paths, series.report.bounces.size() - 1);
+        if (paths->most_of_pixel > 0)
+            json["of_a_pixel_in_a_replicate"] = {{"fewest", paths->fewest_of_pixel}, {"most", paths->most_of_pixel}};
+        if (!paths->chains.empty()) json["chains"] = chains_json(paths->chains);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},
                                                   {"expected_vertices", walk.vertices},  // null if infinite

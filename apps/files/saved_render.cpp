@@ -38,6 +38,9 @@ Json as_json(const Tally& tally) {
         for (const LargestSamples::Sample& s : largest.kept()) samples.push_back({s.value, as_json(s.place)});
         json["largest"].push_back({{"count", largest.count()}, {"samples", std::move(samples)}});
     }
+    for (const ChainStatistics& c : tally.chains)
+        json["chains"].push_back({c.small, c.small_accepted, c.large, c.large_accepted, c.largest_stay, c.chains, c.states, c.sum,
+                                  c.squares, c.squares_of_chains});
     return json;
 }
 
@@ -53,6 +56,9 @@ Tally tally_from(const Json& json) {
         for (const Json& s : largest.at("samples")) samples.push_back({s.at(0), place_from(s.at(1))});
         tally.largest.emplace_back(largest.at("count").get<std::uint64_t>(), std::move(samples));
     }
+    if (json.contains("chains"))
+        for (const Json& c : json["chains"])
+            tally.chains.push_back({c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), c.at(6), c.at(7), c.at(8), c.at(9)});
     return tally;
 }
 

@@ -16,6 +16,7 @@ std::vector<std::byte> as_bytes(const SampledShare& sampled) {
     out.number(tally.given_up);
     out.numbers(tally.non_finite_count);
     out.numbers(tally.non_finite);
+    out.numbers(tally.chains);
     for (const LargestSamples& largest : tally.largest) {
         out.number(largest.count());
         out.numbers(largest.kept());
@@ -33,6 +34,7 @@ SampledShare sampled_share_from(std::span<const std::byte> bytes) {
     tally.given_up = in.number<std::uint64_t>();
     tally.non_finite_count = in.numbers<std::uint64_t>();
     tally.non_finite = in.numbers<NonFiniteSample>();
+    tally.chains = in.numbers<ChainStatistics>();
     for (LargestSamples& largest : tally.largest) {
         const auto count = in.number<std::uint64_t>();
         largest = LargestSamples(count, in.numbers<LargestSamples::Sample>());

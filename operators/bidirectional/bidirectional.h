@@ -11,6 +11,7 @@
 #include "core/base/hot.h"
 #include "operators/bidirectional/film_splats.h"
 #include "operators/bidirectional/joining_edges.h"
+#include "operators/bidirectional/made_ways.h"
 #include "operators/walk/walk_settings.h"
 
 #include <algorithm>
@@ -45,23 +46,26 @@ public:
 
     // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found) for
     // contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light subpath at a
-    // position on the film, times the number of pixels. `rays` has N + 2 entries. Returns the number of walks given up.
-    template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver>
+    // position on the film, times the number of pixels. `rays` has N + 2 entries. `ways`: which ways are made (made_ways.h); the
+    // random numbers that a way takes do not depend on which others are made. Returns the number of walks given up.
+    template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver,
+              class Ways = AllWays>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
                                     std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,
-                                    const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer = {}) const {
-        trace_light_half(T, light, work, splatted, counts, observer);
-        return trace_camera_half(T, rays, camera, work, found, counts, observer);
+                                    const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer = {},
+                                    const Ways& ways = {}) const {
+        trace_light_half(T, light, work, splatted, counts, observer, ways);
+        return trace_camera_half(T, rays, camera, work, found, counts, observer, ways);
     }
 
 private:
-    template <class Transport, class LightRandom, class OnSplat, class Observer>
+    template <class Transport, class LightRandom, class OnSplat, class Observer, class Ways>
     void trace_light_half(const Transport& T, std::span<LightRandom> samplers, BidirectionalWork& work, const OnSplat& splatted,
-                          std::span<std::uint64_t> counts, const Observer& observer) const;
-    template <class Transport, class Sampler, class OnFound, class Observer>
+                          std::span<std::uint64_t> counts, const Observer& observer, const Ways& ways) const;
+    template <class Transport, class Sampler, class OnFound, class Observer, class Ways>
     std::uint64_t trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
                                     BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
-                                    const Observer& observer) const;
+                                    const Observer& observer, const Ways& ways) const;
 
     const Scene* scene_;
     WalkSettings settings_;
@@ -70,21 +74,28 @@ private:
     LightSampler lights_;
 };
 
-template <class Transport, class LightRandom, class OnSplat, class Observer>
+template <class Transport, class LightRandom, class OnSplat, class Observer, class Ways>
 void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> samplers, BidirectionalWork& work,
-                                     const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer) const {
+                                     const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer,
+                                     const Ways& ways) const {
     const Heuristic h = settings_.direct.heuristic;
     const Ending ending{settings_.bounces, settings_.roulette, 0.0, 0};
     work.light_path.resize(samplers.size());
     for (auto& path : work.light_path) path.clear();
+    const auto end_where_made = [&](int j) {
+        if constexpr (!Ways::all)
+            work.light.keep_if([&](const LightWalker&, std::uint32_t i) { return ways.light_vertices(i) > j; });
+    };
     const auto visit = [&](int j) {
-        if (j == 0) return;
+        if (j == 0) return end_where_made(1);
         work.camera_edges.clear();
         work.camera_weights.clear();
         for (const std::uint32_t i : work.light.alive) {
             const LightWalker& v = work.light.walker[i];
             work.light_path[i].push_back(v.vertex());
-            const CameraEdge edge = camera_edge(*scene_, i, v, samplers[i]);
+            const Vec2 lens = place_on_lens(*scene_, samplers[i]);
+            if (!ways.makes(i, j + 1, 1)) continue;
+            const CameraEdge edge = camera_edge(*scene_, i, v, lens);
             if (is_black(edge.value)) continue;
             const double density = std::abs(glm::dot(v.x.normal, edge.w)) * edge.pixels_per_area / pixels_;
             const double others = v.weights.sum(h, density, camera_pdf(scene_->materials, v.x, edge.w, v.wi));
@@ -99,16 +110,17 @@ void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> 
                 splatted(edge.walker, edge.position, Found{j, j + 1, edge.value, work.camera_weights[k]});
             },
             observer);
+        end_where_made(j + 1);
     };
     walk_from_lights(
         *scene_, T, emission_, lights_, ending, h, samplers, work.light, visit,
         [&](int j, std::size_t n) { counts[static_cast<std::size_t>(j)] += n; }, observer);
 }
 
-template <class Transport, class Sampler, class OnFound, class Observer>
+template <class Transport, class Sampler, class OnFound, class Observer, class Ways>
 std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
                                                BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
-                                               const Observer& observer) const {
+                                               const Observer& observer, const Ways& ways) const {
     const Heuristic h = settings_.direct.heuristic;
     const Ending ending = settings_.ending();
     const int N = settings_.bounces;
@@ -118,15 +130,20 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
     const auto count = [&](int bounce) -> std::uint64_t& { return counts[static_cast<std::size_t>(std::min(bounce, N + 1))]; };
 
     // T: the first vertices, and (0, 2).
-    counts[0] += rays.size();
-    walkers.set_out(T, rays, observer, [&](CameraWalker& z, std::uint32_t i) {
+    const auto arrive_first = [&](CameraWalker& z, std::uint32_t i) {
+        ++counts[0];
         z.wo = -z.w;
-        found(i, Found{0, 0, emitters.emitted(z.x, z.wo), 1.0});
+        if (ways.makes(i, 0, 2)) found(i, Found{0, 0, emitters.emitted(z.x, z.wo), 1.0});
         if (z.x.is_infinite()) return false;
         const double density = scene_->camera.pixels_per_area(rays[i], z.x.position) * std::abs(glm::dot(z.x.normal, z.wo));
         z.weights = {.last = counted(h, pixels_ / density)};
         return density > 0.0;
-    });
+    };
+    if constexpr (Ways::all)
+        walkers.set_out(T, rays, observer, arrive_first);
+    else
+        walkers.set_out_some(
+            T, rays, [&](std::uint32_t i) { return ways.camera_vertices(i) > 1; }, observer, arrive_first);
 
     const Split& split = settings_.split;
     if (split.walks > 1) walkers.remember_first();
@@ -147,14 +164,18 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                     edge.found.value *= part;
                     if (!is_black(edge.found.value)) work.edges.push_back({i, edge});
                 };
-                for (int question = 0; question < questions; ++question)
-                    take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, samplers[i].next2()),
-                         splits ? 1.0 / questions : share);
+                for (int question = 0; question < questions; ++question) {
+                    const Vec2 u = samplers[i].next2();
+                    if (ways.makes(i, 1, bounce + 1))
+                        take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, u),
+                             splits ? 1.0 / questions : share);
+                }
                 if (splits && copy > 0) return true;
                 const std::vector<LightVertex>& light_path = work.light_path[i];
                 for (int s = 2; s <= N - bounce + 1 && s - 2 < static_cast<int>(light_path.size()); ++s)
-                    take(edge_to_vertex(*scene_, h, z, side, light_path[static_cast<std::size_t>(s - 2)], bounce, s),
-                         splits ? 1.0 : share);
+                    if (ways.makes(i, s, bounce + 1))
+                        take(edge_to_vertex(*scene_, h, z, side, light_path[static_cast<std::size_t>(s - 2)], bounce, s),
+                             splits ? 1.0 : share);
                 return true;
             });
             ask_visibility(
@@ -173,6 +194,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
 
             // R: sample a direction for the next vertex.
             walkers.keep_if([&](CameraWalker& z, std::uint32_t i) {
+                if (ways.camera_vertices(i) <= bounce + 1) return false;
                 const SurfaceSide side = materials.side(z.x, z.wo);
                 const Frame& frame = side.p.frame;
                 const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(z.wo), samplers[i].next2());
@@ -195,7 +217,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             walkers.follow(T, bounce, observer, [&](CameraWalker& z, std::uint32_t i) {
                 z.wo = -z.w;
                 if (emitters.is_emitter(z.x.shape)) {
-                    const Rgb emitted = emitters.emitted(z.x, z.wo);
+                    const Rgb emitted = ways.makes(i, 0, bounce + 2) ? emitters.emitted(z.x, z.wo) : Rgb(0.0);
                     if (!is_black(emitted)) {
                         double others = counted(h, lights_.pdf(z.from, z.w, z.x)) * z.weights.last;
                         if (!rest) others += counted(h, emission_.density(z.x, z.w)) * z.weights.before;

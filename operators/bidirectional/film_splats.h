@@ -58,9 +58,8 @@ void for_pixels_reached(const Film& film, const Vec2& position, const Each& each
 }
 
 // The edge from a vertex that reflects.
-template <class Sampler>
-CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalker& v, Sampler& sampler) {
-    auto edge = edge_to_lens(scene, walker, v.x, place_on_lens(scene, sampler));
+inline CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalker& v, const Vec2& lens) {
+    auto edge = edge_to_lens(scene, walker, v.x, lens);
     if (!edge) return {};
     const SurfaceSide side = scene.materials.side(v.x, edge->w);
     if (!side.bsdf) return {};

@@ -29,8 +29,8 @@ NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, co
             work.edges.clear();
             for (const std::uint32_t i : work.walkers.alive) {
                 const LightWalker& w = work.walkers.walker[i];
-                const CameraEdge edge =
-                    j == 0 ? emission_edge(scene, i, w.emission, samplers[i]) : camera_edge(scene, i, w, samplers[i]);
+                const CameraEdge edge = j == 0 ? emission_edge(scene, i, w.emission, samplers[i])
+                                               : camera_edge(scene, i, w, place_on_lens(scene, samplers[i]));
                 if (!is_black(edge.value)) work.edges.push_back(edge);
             }
             rays[quantity(j)] += work.edges.size();

@@ -36,8 +36,10 @@ struct PathRecord {
     // For `walk`: (albedo, the cost and second moment of a walk in a furnace of that albedo), for the scene's largest albedo and
     // others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
-    std::shared_ptr<const PhotonPilot> photons;  // of `photon`
-    std::optional<Health> health;                // none if only pictures were wanted
+    std::shared_ptr<const PhotonPilot> photons;            // of `photon`
+    std::uint32_t fewest_of_pixel = 0, most_of_pixel = 0;  // samples in a replicate, where pixels have different numbers
+    std::vector<ChainStatistics> chains;                   // of `metropolis`, for bounces 0 … N
+    std::optional<Health> health;                          // none if only pictures were wanted
 };
 
 // How a method with fields on patches ran.

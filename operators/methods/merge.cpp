@@ -81,6 +81,11 @@ RenderState merge(std::vector<NamedState> renders) {
                              [](const NamedState& r) { return std::tuple(r.state.render.seed, r.state.series.moments.first()); });
     const bool consecutive = are_consecutive(renders);
 
+    if (!consecutive && adaptive_of(renders.front().state.render.method))
+        throw InputError(
+            "renders with --adaptive can be merged where one goes on from the other, as the parts of --part do; these have other "
+            "seeds, or samples are missing between them");
+
     RenderState merged = std::move(renders.front().state);
     RenderedSeries& all = merged.series;
     const std::uint64_t size = merged.render.replicate_size;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "operators/pictures/allocation.h"
 #include "operators/walk/walk_settings.h"
 
 #include <cstddef>
@@ -37,6 +38,7 @@ struct Walk : PathOptions {
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
+    std::optional<LeastError> adaptive = {};  // if pixels have different numbers of samples: to make this least
     bool operator==(const Walk&) const = default;
 };
 
@@ -76,7 +78,8 @@ struct Bidirectional : PathOptions {
     DirectLightSettings direct = {};  // must be multiple importance sampling: it both samples lights and hits them
     Roulette roulette = {};
     Split split = {};
-    std::optional<int> ways = {};  // show every way (s, t) to make this bounce (ways.h)
+    std::optional<LeastError> adaptive = {};  // as of the walk
+    std::optional<int> ways = {};             // show every way (s, t) to make this bounce (ways.h)
     bool operator==(const Bidirectional&) const = default;
 };
 
@@ -88,6 +91,13 @@ struct Photon : PathOptions {
     std::optional<double> radius = {};          // in the first pass; by a pilot if it is not given
     bool gather = false;                        // one more reflection is sampled before a map is read
     bool operator==(const Photon&) const = default;
+};
+
+// Multiplexed Metropolis light transport: for each bounce, Markov chains among the paths of the bidirectional method.
+struct Metropolis : PathOptions {
+    static constexpr const char* name = "metropolis";
+    std::optional<std::uint32_t> chain = {};  // states of each chain in a replicate
+    bool operator==(const Metropolis&) const = default;
 };
 
 // Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
@@ -131,8 +141,8 @@ struct Patches : FieldOptions {
 }  // namespace method
 
 using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                            method::Bidirectional, method::Photon, method::Classic, method::Pointwise, method::Matrix,
-                            method::Gather, method::Patches>;
+                            method::Bidirectional, method::Photon, method::Metropolis, method::Classic, method::Pointwise,
+                            method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);
@@ -145,6 +155,18 @@ concept HasFields = std::derived_from<M, method::FieldOptions>;
 
 inline bool has_fields(const Method& method) {
     return std::visit([]<class M>(const M&) { return HasFields<M>; }, method);
+}
+
+// What pixels have different numbers of samples for, if they have.
+inline std::optional<LeastError> adaptive_of(const Method& method) {
+    return std::visit(
+        [](const auto& m) -> std::optional<LeastError> {
+            if constexpr (requires { m.adaptive; })
+                return m.adaptive;
+            else
+                return {};
+        },
+        method);
 }
 
 // Whether its pictures differ from the terms by an error that samples do not show, and estimate it.

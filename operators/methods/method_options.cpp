@@ -17,10 +17,10 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Auto{},    method::Walk{},      method::Guided{},        method::Corrected{},
-                                         method::Surface{}, method::Light{},     method::Bidirectional{}, method::Photon{},
-                                         method::Classic{}, method::Pointwise{}, method::Matrix{},        method::Gather{},
-                                         method::Patches{}};
+    static const std::vector<Method> all{method::Auto{},       method::Walk{},    method::Guided{},        method::Corrected{},
+                                         method::Surface{},    method::Light{},   method::Bidirectional{}, method::Photon{},
+                                         method::Metropolis{}, method::Classic{}, method::Pointwise{},     method::Matrix{},
+                                         method::Gather{},     method::Patches{}};
     return all;
 }
 
@@ -76,6 +76,7 @@ const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed},
                                        {"contribution", LightChoice::contribution},
                                        {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
+const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
 
 template <class Number>
@@ -226,6 +227,13 @@ std::vector<MethodOption> make_options() {
             samplers, [](const auto& m) requires requires { m.sampler; } { return m.sampler; },
             [](auto& m, SamplerKind s) { m.sampler = s; }),
         choice(
+            "adaptive", "WHAT",
+            "For walk and bidirectional: more samples for the pixels that need them, by a pilot, so that the largest relative "
+            "error "
+            "of a bounce (bounces) or that of the sum (sum) is least",
+            least_errors, [](const auto& m) requires requires { m.adaptive; } { return m.adaptive; },
+            [](auto& m, LeastError least) { m.adaptive = least; }),
+        choice(
             "plan", "NAME",
             "For the methods that make paths: auto leaves out what the scene does not need, as `neumann plan` tells (the default); "
             "full leaves nothing out",
@@ -253,6 +261,10 @@ std::vector<MethodOption> make_options() {
         flag(
             "gather", "For photon: sample one more reflection before the map is read (final gathering)",
             [](const auto& m) requires requires { m.gather; } { return m.gather; }, [](auto& m, bool on) { m.gather = on; }),
+        whole<std::uint32_t>(
+            "chain", "N", "For metropolis: the states of each chain in a replicate (default 512, fewer in small pictures)", 1,
+            1u << 20, [](const auto& m) requires requires { m.chain; } { return m.chain; },
+            [](auto& m, std::uint32_t n) { m.chain = n; }),
         whole<int>(
             "ways", "BOUNCE",
             "For bidirectional: write pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
@@ -311,6 +323,7 @@ const std::string& method_help() {
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
         "sampled on all surfaces; light: walks from the lights to the camera; "
         "bidirectional: walks from both ends, joined everywhere; photon: photon maps, for caustics, with a bias that falls; "
+        "metropolis: chains of paths that mutate, for light that is hard to find; "
         "classic: mirrors and glass alone, which leaves out other paths; "
         "pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K applied once "
         "more at the pixel; patches: the patches as they are";

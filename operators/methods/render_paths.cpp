@@ -22,18 +22,25 @@ namespace neumann {
 
 namespace {
 
+constexpr double shortest_chain_to_judge = 16.0;
 // The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
-// Samples per pixel in one replicate: as many as still give several replicates.
-std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& job, const Split& split) {
+// Rays of a sample of Metropolis' chains, of k + 1 rays for bounce k = 1 … N, and of half an independent path, beside those of a
+// walk.
+double walks_worth(const Method& method, double bounces) {
+    return std::holds_alternative<method::Metropolis>(method) ? 1.25 + 0.375 * bounces : 1.0;
+}
+
+// Samples per pixel in one replicate: as many as still give several replicates. `walks_worth`: what a sample costs, in walks.
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& job, const Split& split, double walks_worth) {
     if (job.saving.from) return job.saving.from->render.replicate_size;
     if (job.goal.replicates) return share_of_replicate(job.goal);
     if (goal.samples) return replicate_size(*goal.samples);
     if (!goal.seconds) return largest_replicate;
     const Film& film = job.scene.film;
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
-                 seconds = job.pilot().seconds_per_walk() * std::max(split.lights, split.walks),
+                 seconds = job.pilot().seconds_per_walk() * std::max(split.lights, split.walks) * walks_worth,
                  affordable = *goal.seconds / (pixels * seconds);
     return std::bit_floor(
         static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
@@ -74,6 +81,21 @@ void take_part(const PartOfSamples& part, std::uint64_t size, SamplingGoal& goal
                         part.n, *goal.samples, all, size));
     goal.first = all * (part.k - 1) / part.n;
     goal.samples = (all * part.k / part.n - goal.first) * size;
+}
+
+// Chains longer than a replicate has room for.
+void expect_room(const Method& method, const Film& film, std::uint32_t replicate_size) {
+    const auto* metropolis = std::get_if<method::Metropolis>(&method);
+    if (!metropolis || !metropolis->chain) return;
+    const std::uint64_t states =
+        std::uint64_t{replicate_size} * static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);
+    if (*metropolis->chain > 1 && *metropolis->chain > states / chains_at_once)
+        throw InputError(
+            fmt::format("--chain {}: a replicate of {} samples for each of {}×{} pixels has {} states of a bounce, and its {} "
+                        "chains may be of {} "
+                        "at most",
+                        *metropolis->chain, replicate_size, film.crop_width, film.crop_height, states, chains_at_once,
+                        std::max<std::uint64_t>(states / chains_at_once, 1)));
 }
 
 RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
@@ -156,7 +178,8 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     const Goal& goal = job.goal;
     Warnings& warnings = series.warnings;
     if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.generator != PathGenerator::light)
-        warnings.add(settings.generator == PathGenerator::bidirectional || settings.generator == PathGenerator::photon
+        warnings.add(settings.generator == PathGenerator::bidirectional || settings.generator == PathGenerator::photon ||
+                             settings.generator == PathGenerator::metropolis
                          ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
                          : "what a mirror throws on from a light without extent is not found by the walk and is missing");
     if (series.paths == Paths::seen_directly)
@@ -188,6 +211,16 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
     if (series.report.rare_large_samples())
         warnings.add(
             "the largest samples of some bounces are rare and make much of what is there: their intervals may be too short");
+    for (std::size_t bounce = 0; bounce < sampled.tally.chains.size(); ++bounce) {
+        const ChainStatistics& chains = sampled.tally.chains[bounce];
+        const double length = chains.chains == 0 ? 0.0 : static_cast<double>(chains.states) / static_cast<double>(chains.chains);
+        if (length < shortest_chain_to_judge || chains.autocorrelation_time() <= 0.5 * length) continue;
+        warnings.add(
+            fmt::format("the chains of bounce {} hardly leave where they start: of {:.0f} states, {:.0f} are worth one, and the "
+                        "longest stay is "
+                        "{}; light that few independent paths meet may be missing from its intervals",
+                        bounce, length, chains.autocorrelation_time(), chains.largest_stay));
+    }
     if (goal.relative_error && series.outcome == Outcome::error_reached)
         for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
             const auto& bias = series.report.bounces[i].discretisation;
@@ -205,7 +238,7 @@ void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& se
 }
 
 // The method with the options that had been left open.
-Method as_it_ran(Method method, const SamplingSettings& settings) {
+Method as_it_ran(Method method, const SamplingSettings& settings, const Film& film) {
     std::visit(
         [&]<class M>(M& m) {
             if constexpr (MakesPaths<M>) m.sampler = settings.sampler;
@@ -218,6 +251,8 @@ Method as_it_ran(Method method, const SamplingSettings& settings) {
                 m.directions = settings.approximation->settings().rays;
             }
             if constexpr (std::same_as<M, method::Photon>) m.photons = settings.photons->settings.paths;
+            if constexpr (std::same_as<M, method::Metropolis>)
+                m.chain = chain_numbers(settings.layout(film).paths(), settings.chain_length).length;
         },
         method);
     return method;
@@ -239,7 +274,7 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
             verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
         Watch watch = job.watch;
         watch.checkpoints = watch.checkpoints && !job.goal.only_pictures;
-        const RecordedRender record{as_it_ran(method, settings), job.goal.seed, N, settings.walk.rest_probability,
+        const RecordedRender record{as_it_ran(method, settings, job.scene.film), job.goal.seed, N, settings.walk.rest_probability,
                                     settings.replicate_size};
         const auto keep = [&](const RenderedSeries& so_far, bool is_last) {
             RecordedRender as_sampled = record;
@@ -277,7 +312,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         setup_seconds += clock.seconds();
     // The set-up counts towards the time limit.
     if (setup_seconds > 0.0 && to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
-    settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split);
+    settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split, walks_worth(method, settings.walk.bounces));
+    if (!job.saving.from) expect_room(method, scene.film, settings.replicate_size);
     if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
@@ -295,7 +331,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     BounceSeries series = bounce_series(sampled, moments, least, std::move(report));
     report_bias(*moments, series);
     series.paths = paths;
-    series.method = as_it_ran(method, settings);
+    series.method = as_it_ran(method, settings, scene.film);
     const double albedo = max_component(scene.materials.largest_basic_albedo());
     warn(series, job, settings, sampled, albedo);
 
@@ -309,6 +345,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         if (settings.guide) series.rays += settings.guide->rays();
         if (settings.approximation) series.rays += settings.approximation->rays();
         if (settings.photons) series.rays += settings.photons->rays;
+        if (settings.allocation) series.rays += settings.allocation->rays;
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
 
@@ -323,6 +360,17 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), Pilot::bounces + Pilot::give_up);
     record.photons = settings.photons;
+    record.chains = sampled.tally.chains;
+    if (settings.allocation) {
+        SamplingSettings as_sampled = settings;
+        as_sampled.replicate_size = sampled.replicate_size;
+        const SampleLayout layout = as_sampled.layout(scene.film);
+        record.fewest_of_pixel = layout.size(0);
+        for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) {
+            record.fewest_of_pixel = std::min(record.fewest_of_pixel, layout.size(pixel));
+            record.most_of_pixel = std::max(record.most_of_pixel, layout.size(pixel));
+        }
+    }
     if (settings.generator == PathGenerator::walk)
         record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
     if (goal.only_pictures) {

@@ -25,6 +25,7 @@ PathGenerator kind() {
     if constexpr (std::same_as<M, method::Light>) return PathGenerator::light;
     if constexpr (std::same_as<M, method::Bidirectional>) return PathGenerator::bidirectional;
     if constexpr (std::same_as<M, method::Photon>) return PathGenerator::photon;
+    if constexpr (std::same_as<M, method::Metropolis>) return PathGenerator::metropolis;
     if constexpr (std::same_as<M, method::Classic>) return PathGenerator::classic;
     return PathGenerator::pointwise;
 }
@@ -45,7 +46,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
         throw InputError(
             "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
             "point, projector, spot), of which the scene has some; take --method walk, matrix or gather");
-    if (scene.hide_emitters && splats(settings.generator))
+    if (scene.hide_emitters && (splats(settings.generator) || settings.generator == PathGenerator::metropolis))
         throw InputError(
             fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk", M::name));
     if (settings.generator == PathGenerator::light && !scene.camera.can_be_joined())
@@ -62,6 +63,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
         settings.walk.direct = {.direct = DirectLight::light};
     if constexpr (requires { m.roulette; }) settings.walk.roulette = m.roulette;
     if constexpr (requires { m.split; }) settings.walk.split = m.split;
+    if constexpr (std::same_as<M, method::Metropolis>) settings.chain_length = m.chain.value_or(settings.chain_length);
     settings.sampler = m.sampler.value_or(scene.sampler.value_or(SamplerKind::sobol));
     return settings;
 }
@@ -109,6 +111,7 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
 
 bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
             const Watch& watch) {
+    settings.walk.bounces = bounces;
     if (const auto* guided = std::get_if<method::Guided>(&method))
         settings.guide = make_guide(*guided, scene, bounces, seed, memory);
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
@@ -116,6 +119,8 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
     else if (const auto* photon = std::get_if<method::Photon>(&method))
         settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{photon->photons, photon->radius, photon->gather},
                                                                settings.sampler, seed, memory, watch);
+    else if (const std::optional<LeastError> least = adaptive_of(method))
+        settings.allocation = allocate(scene, settings, *least, watch);
     else
         return false;
     return true;

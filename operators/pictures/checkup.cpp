@@ -31,11 +31,16 @@ int bounces_of_light_paths(const SamplingSettings& settings) {
 
 // Inspects one group of paths.
 struct GroupCheckup : PathObserver {
-    GroupCheckup(std::uint64_t r, std::uint32_t f, std::uint32_t s, bool meets)
-        : replicate(r), first(f), size(s), rays_meet_surfaces(meets) {}
+    GroupCheckup(const SampleLayout& layout, std::uint64_t replicate, const PixelGroup& group, bool meets)
+        : layout(layout),
+          replicate(replicate),
+          first(layout.first_path(group.begin)),
+          paths(group.paths()),
+          rays_meet_surfaces(meets) {}
 
+    const SampleLayout& layout;
     std::uint64_t replicate;
-    std::uint32_t first, size;
+    std::uint32_t first, paths;
     bool rays_meet_surfaces;  // false if rays end at sampled points, which may lie in the plane of their start
     std::optional<BalanceSheet> camera, light;
     std::uint64_t rays = 0;
@@ -48,7 +53,7 @@ struct GroupCheckup : PathObserver {
         if (!leaves_surface || !rays_meet_surfaces) return;
         ++rays;
         if (step.found && is_self_hit(step.from, step.to))
-            self_hits.push_back({step.bounce, name_in_group(replicate, first, path, size), step.to.shape,
+            self_hits.push_back({step.bounce, layout.name(replicate, first + path), step.to.shape,
                                  glm::length(step.to.position - step.from.position)});
     }
 };
@@ -71,12 +76,11 @@ double Checkup::self_hits_at_most() const {
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
     if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected ||
-        settings.generator == PathGenerator::photon)
+        settings.generator == PathGenerator::photon || settings.generator == PathGenerator::metropolis)
         return std::nullopt;
     const std::uint32_t size = settings.replicate_size;
-    const std::uint64_t paths = std::uint64_t{static_cast<std::uint32_t>(sampler.width())} *
-                                static_cast<std::uint32_t>(sampler.height()) * size;  // of a replicate
-    const std::uint64_t groups = (paths + paths_at_once - 1) / paths_at_once, all = groups * (samples / size);
+    const SampleLayout& layout = sampler.layout();
+    const std::uint64_t groups = layout.groups(), all = groups * (samples / size);
     const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
     const std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
 
@@ -87,22 +91,21 @@ std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sample
     std::vector<std::optional<GroupCheckup>> found(count);
     oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t k) {
         const std::uint64_t group = k * all / count;
-        const auto first = static_cast<std::uint32_t>(group % groups * paths_at_once);
-        GroupCheckup& look = found[k].emplace(group / groups, first, size, settings.generator != PathGenerator::surface);
+        GroupCheckup& look = found[k].emplace(layout, group / groups, layout.group(static_cast<std::uint32_t>(group % groups)),
+                                              settings.generator != PathGenerator::surface);
         const auto stream = static_cast<std::uint32_t>(2 * k);
         const std::uint64_t seed = settings.seed ^ checkup_stream;
         if (camera_bounces > 0) look.camera.emplace(scene, false, camera_bounces, settings.walk.split.walks, seed, stream);
         if (light_bounces > 0) look.light.emplace(scene, true, light_bounces, 1, seed, stream + 1);
-        (void)sampler.retrace(look.replicate, first, look);
-        const auto number = static_cast<std::uint32_t>(std::min<std::uint64_t>(paths_at_once, paths - first));
+        (void)sampler.retrace(look.replicate, look.first, look);
         for (auto* sheet : {&look.camera, &look.light})
-            if (*sheet) (*sheet)->finish(number);
+            if (*sheet) (*sheet)->finish(look.paths);
     });
 
     Checkup result;
     std::vector<std::vector<EnergyShares>> camera, light;
     for (auto& look : found) {
-        result.paths += std::min<std::uint64_t>(paths_at_once, paths - look->first);
+        result.paths += look->paths;
         result.rays += look->rays;
         result.self_hits += look->self_hits.size();
         result.first_self_hits.insert(result.first_self_hits.end(), look->self_hits.begin(), look->self_hits.end());

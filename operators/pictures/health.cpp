@@ -35,7 +35,7 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
                const SeriesMoments::Result& result) {
     Health health;
     const std::size_t quantities = result.quantities(), pixels = result.pixels();
-    const auto samples = static_cast<double>(series.samples);
+    const SampleLayout layout = settings.layout(scene.film);
     double mean = 0.0;
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
         mean += max_component(result.sum_at(pixel, quantities - 1)) / static_cast<double>(pixels);
@@ -51,6 +51,11 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
         }
         for (const LargestSamples::Sample& sample : series.tally.largest[q].standing_out()) {
             const std::uint32_t pixel = sample.place.pixel;
+            // Paths from lights are as many for all pixels.
+            const double part = sample.place.name.pixel == pixel
+                                    ? static_cast<double>(layout.size(pixel)) / static_cast<double>(series.replicate_size)
+                                    : 1.0,
+                         samples = static_cast<double>(series.samples) * part;
             const LargestShare found{sample, share(sample.value, samples, result.term_at(pixel, q)),
                                      share(sample.value, samples, result.sum_at(pixel, quantities - 1))};
             const bool firefly = q > 0 && series.samples >= fewest_samples_to_judge && found.of_sum > 0.5 &&

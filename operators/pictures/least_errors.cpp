@@ -67,6 +67,8 @@ public:
           ranges_(&ranges),
           quantities_(result.quantities()),
           stride_(settings.quantities()),
+          layout_(settings.layout(scene.film)),
+          size_(settings.replicate_size),
           bounds_(bounds(scene, settings)) {
         lights_ = seen_lights(scene, settings.seed);
         find_albedo(settings.seed);
@@ -86,6 +88,7 @@ public:
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
             for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
                 const Rgb nearby = difference_nearby(pixel, q);
+                const double part = part_of_samples(pixel);
                 for (int c = 0; c < 3; ++c) {
                     const double mean = term.mean.pixels[pixel][c], error = term.standard_error.pixels[pixel][c];
                     double d = nearby[c];
@@ -96,7 +99,7 @@ public:
                     if (d == 0.0) continue;
                     const bool agree = error <= agreement * std::abs(mean);
                     if (!agree && samples_are_mixtures(q)) continue;
-                    double h = (agree ? rule_of_three : 1.0) * d / samples;
+                    double h = (agree ? rule_of_three : 1.0) * d / (samples * part);
                     if (mean == 0.0) h = std::min(h, bounds_[q][c]);
                     errors[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(h / t);
                 }
@@ -115,6 +118,11 @@ public:
     }
 
 private:
+    // Of a pixel, as a part of the mean number. Paths from lights are as many for all.
+    double part_of_samples(std::size_t pixel) const {
+        const double part = layout_.size(static_cast<std::uint32_t>(pixel)) / static_cast<double>(size_);
+        return splats(generator_) ? std::min(part, 1.0) : part;
+    }
     bool samples_are_mixtures(std::size_t q) const {
         return (generator_ == PathGenerator::corrected || generator_ == PathGenerator::photon) && q > 1;
     }
@@ -173,6 +181,8 @@ private:
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
     std::size_t quantities_, stride_;
+    SampleLayout layout_;
+    std::uint32_t size_;
     std::vector<Rgb> bounds_;
     Rgb largest_{0.0};
     Image lights_, albedo_;
@@ -191,8 +201,9 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
-        // Samples of a pass share its photons: they are one.
-        const bool is_shared = settings.generator == PathGenerator::photon && q > 1;
+        // Samples of a pass share its photons, and those of a chain its states: they are one.
+        const bool is_shared =
+            (settings.generator == PathGenerator::photon && q > 1) || (settings.generator == PathGenerator::metropolis && q > 0);
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;

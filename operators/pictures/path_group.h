@@ -30,19 +30,6 @@ inline std::optional<std::uint32_t> number_of(const Film& film, const Pixel& pix
     return static_cast<std::uint32_t>(row * film.crop_width + column);
 }
 
-// The place of a sample, with the paths of a replicate numbered pixel by pixel: the first path of its group, and its index there.
-struct PlaceInGroup {
-    std::uint64_t replicate;
-    std::uint32_t first, path;
-};
-inline PlaceInGroup place_in_group(const SampleName& name, std::uint32_t replicate_size) {
-    const auto path = name.pixel * replicate_size + static_cast<std::uint32_t>(name.sample % replicate_size);
-    return {name.sample / replicate_size, path / paths_at_once * paths_at_once, path % paths_at_once};
-}
-inline SampleName name_in_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t path, std::uint32_t replicate_size) {
-    return {(first + path) / replicate_size, replicate * replicate_size + (first + path) % replicate_size};
-}
-
 struct PathGroup {
     std::vector<CameraRay> rays;
     std::vector<double> weights;  // weights of the film's filter

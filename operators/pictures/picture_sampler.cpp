@@ -45,17 +45,19 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWor
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
+std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, MetropolisSampler> make_sampler(
+    const Scene& scene, const SamplingSettings& settings) {
     if (splats(settings.generator)) return SplatSampler(scene, settings);
     if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
     if (settings.generator == PathGenerator::photon) return PhotonSampler(scene, settings);
+    if (settings.generator == PathGenerator::metropolis) return MetropolisSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 
 }  // namespace
 
 PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
-    : scene_(scene), settings_(settings), sampler_(make_sampler(scene, settings)), sobol_(settings.replicate_size) {
+    : scene_(scene), settings_(settings), layout_(settings.layout(scene.film)), sampler_(make_sampler(scene, settings)) {
     if (!std::has_single_bit(settings.replicate_size))
         throw std::logic_error("PictureSampler: replicate_size is not a power of two");
 }
@@ -82,10 +84,9 @@ std::vector<Share> PictureSampler::shares(std::uint64_t first, std::uint64_t cou
         return all;
     }
     // Whole groups of pixels, so that each group is sampled as it would be without shares.
-    const std::uint32_t at_once = pixels_at_once(), groups = (pixels() + at_once - 1) / at_once,
-                        each = std::max(groups / std::max(pieces, 1u), 1u) * at_once;
-    for (std::uint32_t begin = 0; begin < pixels(); begin += std::min(each, pixels() - begin))
-        all.push_back({first, count, begin, begin + std::min(each, pixels() - begin)});
+    const std::uint32_t groups = layout_.groups(), each = std::max(groups / std::max(pieces, 1u), 1u);
+    for (std::uint32_t begin = 0; begin < groups; begin += each)
+        all.push_back({first, count, layout_.group(begin).begin, layout_.group(std::min(begin + each, groups) - 1).end});
     return all;
 }
 
@@ -164,7 +165,32 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
         return splats->sample_picture(replicate, picture, ranges, tally, watch);
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_))
         return photons->sample_picture(replicate, picture, ranges, tally, watch);
+    if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_))
+        return chains->sample_picture(replicate, picture, ranges, tally, watch);
     return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);
+}
+
+std::vector<Pixel> PictureSampler::pixels_of(const PixelGroup& group) const {
+    std::vector<Pixel> some;
+    for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel) some.push_back(pixel_of(scene_.film, pixel));
+    return some;
+}
+
+std::vector<Sampler> PictureSampler::samplers_of(const PixelGroup& group) const {
+    std::vector<Sampler> samplers;
+    for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel)
+        samplers.resize(samplers.size() + group.size, Sampler(settings_.sampler, layout_.net(group.size), settings_.seed, pixel));
+    return samplers;
+}
+
+std::vector<Rgb> PictureSampler::own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const {
+    if (const auto* splats = std::get_if<SplatSampler>(&sampler_)) return splats->own_samples(replicate, group, rays);
+    PathGroup paths;
+    const std::vector<Pixel> some = pixels_of(layout_.group(group));
+    std::vector<Sampler> samplers = samplers_of(layout_.group(group));
+    std::visit([&](const auto& estimate) { trace(scene_, estimate, std::span(samplers), std::span(some), replicate, paths, rays); },
+               std::get<TermEstimator>(sampler_));
+    return std::move(paths.samples);
 }
 
 bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
@@ -173,9 +199,8 @@ bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, s
     const std::uint64_t first = share.first, count = share.count;
     const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
-    const std::uint32_t size = settings_.replicate_size, at_once = pixels_at_once();
     oneapi::tbb::enumerable_thread_specific<PixelWork> workspaces([&] {
-        PixelWork work(at_once, quantities(), levels);
+        PixelWork work(paths_at_once, quantities(), levels);
         work.tally = without_smaller_samples(tally);
         return work;
     });
@@ -183,13 +208,10 @@ bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, s
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
     // Samples a group of consecutive pixels, starting with `begin`.
-    const auto run_pixels = [&](const auto& estimate, std::uint32_t begin, std::uint32_t end, PixelWork& work) {
-        std::vector<Pixel> some;
-        std::vector<Sampler> samplers;
-        for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-            some.push_back(pixel_of(scene_.film, pixel));
-            samplers.resize(samplers.size() + size, Sampler(settings_.sampler, sobol_, settings_.seed, pixel));
-        }
+    const auto run_pixels = [&](const auto& estimate, const PixelGroup& group, PixelWork& work) {
+        const auto [begin, end, size] = group;
+        std::vector<Pixel> some = pixels_of(group);
+        std::vector<Sampler> samplers = samplers_of(group);
         const std::size_t place = begin - share.begin;
         for (std::uint64_t r = 0; r < count; ++r) {
             work.tally.given_up += trace(scene_, estimate, std::span(samplers), std::span<const Pixel>(some), first + r, work.group,
@@ -205,15 +227,16 @@ bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, s
             std::ranges::copy(work.waiting[i].back(), data.begin() + static_cast<std::ptrdiff_t>((place + i) * stride));
     };
     // The groups of pixels do not depend on how the work is divided among threads.
-    const std::uint32_t all = share.end - share.begin, groups = (all + at_once - 1) / at_once;
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
+    const std::uint32_t all = share.end - share.begin, first_group = layout_.group_of(share.begin),
+                        end_group = layout_.group_of(share.end - 1) + 1;
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(first_group, end_group, 4), [&](const auto& range) {
         if (dropped) return;
         PixelWork& work = workspaces.local();
         std::uint32_t done = 0;
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
-            const std::uint32_t begin = share.begin + group * at_once, end = std::min(begin + at_once, share.end);
-            std::visit([&](const auto& estimate) { run_pixels(estimate, begin, end, work); }, estimator);
-            done += end - begin;
+            const PixelGroup some = layout_.group(group);
+            std::visit([&](const auto& estimate) { run_pixels(estimate, some, work); }, estimator);
+            done += some.end - some.begin;
         }
         pixels_done += done;
         watch.progress({.fraction = static_cast<double>(pixels_done) / all});

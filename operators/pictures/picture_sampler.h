@@ -4,6 +4,7 @@
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/pictures/corrected_sampler.h"
+#include "operators/pictures/metropolis_sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/photon_sampler.h"
 #include "operators/pictures/share.h"
@@ -33,6 +34,7 @@ public:
     int height() const { return scene_.film.crop_height; }
     std::size_t quantities() const { return settings_.quantities(); }
     const Settings& settings() const { return settings_; }
+    const SampleLayout& layout() const { return layout_; }
 
     // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
     // which holds the earlier replicates, unless `watch` stops it: then the work is dropped. watch.progress gets the fraction of
@@ -55,19 +57,24 @@ public:
     // The pointwise method has no paths: std::logic_error.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
+    // The samples of a group of pixels (SampleLayout) without what paths from the lights bring to pixels all over the film, in the
+    // order of retrace(); adds the rays of each quantity. For the walk and the bidirectional method.
+    std::vector<Rgb> own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const;
+
     // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
     // their numbers in the group.
     void retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
 
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
-    std::uint32_t pixels_at_once() const { return std::max(paths_at_once / settings_.replicate_size, 1u); }
     bool has_whole_pictures() const { return !std::holds_alternative<TermEstimator>(sampler_); }
     MomentsNode empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const;
     // sample(replicate, picture, ranges, tally, watch), for each replicate in turn.
     template <class Sample>
     std::optional<MomentsNode> join_pictures(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                              std::vector<double> memory, const Sample& sample) const;
+    std::vector<Pixel> pixels_of(const PixelGroup& group) const;
+    std::vector<Sampler> samplers_of(const PixelGroup& group) const;
     // Samples pixels of replicates; data and ranges are of these pixels. Whether it was not stopped.
     bool sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
                        const Watch& watch) const;
@@ -76,8 +83,8 @@ private:
 
     const Scene& scene_;
     Settings settings_;
-    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler> sampler_;
-    SobolPoints sobol_;
+    SampleLayout layout_;
+    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, MetropolisSampler> sampler_;
 };
 
 }  // namespace neumann

@@ -35,7 +35,7 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
             most = max_component(value);
         }
     } recorder;
-    const PlaceInGroup place = place_in_group(name, sampler.settings().replicate_size);
+    const PlaceInGroup place = sampler.layout().place(name);
     recorder.chosen = place.path;
     const std::vector<Rgb> samples = sampler.retrace(place.replicate, place.first, recorder);
     if (recorder.photon_path) {

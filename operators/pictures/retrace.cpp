@@ -2,6 +2,7 @@
 #include "core/sampling/sampler.h"
 #include "operators/photons/photon_paths.h"
 #include "operators/pictures/corrected_group.h"
+#include "operators/pictures/metropolis_group.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/photon_group.h"
 #include "operators/pictures/picture_sampler.h"
@@ -28,15 +29,10 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
         return whole_pictures->retrace(replicate, first, observer);
     if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->retrace(replicate, first, observer);
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_)) return photons->retrace(replicate, first, observer);
-    const std::uint32_t size = settings_.replicate_size,
-                        pixels = static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()), begin = first / size,
-                        end = std::min(begin + std::max(paths_at_once / size, 1u), pixels);
-    std::vector<Pixel> some;
-    std::vector<Sampler> samplers;
-    for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-        some.push_back(pixel_of(scene_.film, pixel));
-        samplers.resize(samplers.size() + size, Sampler(settings_.sampler, sobol_, settings_.seed, pixel));
-    }
+    if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_)) return chains->retrace(replicate, first, observer);
+    const PixelGroup pixels = layout_.group(layout_.group_of(layout_.pixel_of(first)));
+    const std::vector<Pixel> some = pixels_of(pixels);
+    std::vector<Sampler> samplers = samplers_of(pixels);
     PathGroup group;
     std::vector<std::uint64_t> rays(quantities());
     std::visit(
@@ -47,7 +43,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
                 const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
                     estimator.trace(observer, camera_rays, random, walkers, result);
                 };
-                trace(scene_, watched, std::span(samplers), std::span<const Pixel>(some), replicate, group, std::span(rays));
+                trace(scene_, watched, std::span(samplers), std::span(some), replicate, group, std::span(rays));
             }
         },
         std::get<TermEstimator>(sampler_));
@@ -56,7 +52,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
 
 std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     const std::size_t Q = settings_.quantities();
-    const std::uint32_t samples = std::min(paths_at_once, pixels_ * settings_.replicate_size - first);
+    const std::uint32_t samples = layout_.group(layout_.group_of(layout_.pixel_of(first))).paths();
     Workspace work(Q);
     PathGroup& group = work.group;
     const auto tell = [&](std::uint32_t i, std::size_t q, const Rgb& value, const Vec2* position) {
@@ -120,6 +116,66 @@ void PhotonSampler::retrace_photon(std::uint64_t replicate, std::uint32_t path, 
     const std::uint32_t first = path / PhotonTracer::at_once * PhotonTracer::at_once;
     photons_.trace_group(
         replicate, first, work, [](auto...) {}, [](int, std::size_t) {}, WatchedPaths(observer));
+}
+
+std::vector<Rgb> MetropolisSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    const std::size_t Q = settings_.quantities(), N = Q - 2;
+    const std::uint32_t size = settings_.replicate_size, samples = std::min(paths_at_once, pixels_ * size - first),
+                        group = first / chains_at_once;
+    const WatchedPaths watched(observer);
+    std::vector<Rgb> own(samples * Q, Rgb(0.0));
+    CameraWork camera;
+    trace_camera_rays(replicate, first, samples, camera, watched);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        own[i * Q] = camera.emitted[i];
+        if (observer.watches(i) && !is_black(own[i * Q])) observer.found(i, 0, own[i * Q], nullptr);
+    }
+    std::vector<std::uint64_t> rays(Q);
+    if (group < independent_.groups()) {
+        IndependentPaths::Workspace work;
+        (void)independent_.trace_group(
+            replicate, group, work,
+            [&](std::uint32_t i, const WayFound& found) {
+                if (found.bounce > static_cast<int>(N) && observer.watches(i))
+                    observer.found(i, N + 1, found.value * (static_cast<double>(size) / independent_.paths()), &found.position);
+            },
+            rays, watched);
+    }
+    const std::uint32_t batch = group / numbers_.length, step = group % numbers_.length;
+    if (batch >= batches()) return own;
+
+    std::vector<Rgb> unused(std::size_t{pixels_} * Q, Rgb(0.0));
+    Tally tally(Q);
+    const auto sums = sample_brightness(replicate, unused, tally, {});
+    const Starts starts =
+        find_starts(replicate, *sums, batch * chains_at_once, batch * chains_at_once + chains_of_batch(batch), rays);
+    for (std::size_t q = 1; q <= N; ++q) {
+        const double brightness = sums->total(q) / independent_.paths();
+        if (!(brightness > 0.0)) continue;
+        // A state counts until the chain leaves it.
+        std::vector<LeftState> of_step;
+        const auto left = [&](const LeftState& state) {
+            if (state.step == step) of_step.push_back(state);
+        };
+        ChainBatch chains(*scene_, of_chains_, independent_.area(), static_cast<int>(q));
+        const auto random = random_of(static_cast<int>(q), batch);
+        if (step == 0)
+            chains.start(independent_, replicate, starts[q], random, rays, watched);
+        else
+            chains.start(independent_, replicate, starts[q], random, rays);
+        for (std::uint32_t t = 1; t < numbers_.length; ++t) {
+            if (t == step)
+                chains.step(t, left, rays, watched);
+            else
+                chains.step(t, left, rays);
+        }
+        ChainStatistics statistics;
+        chains.end(left, statistics);
+        const double each = brightness / static_cast<double>(numbers_.states()) * size;
+        for (const LeftState& state : of_step)
+            if (observer.watches(state.chain)) observer.found(state.chain, q, state.value * each, &state.position);
+    }
+    return own;
 }
 
 void PictureSampler::retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {

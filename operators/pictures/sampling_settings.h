@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "operators/pictures/sample_layout.h"
 #include "operators/walk/walk_settings.h"
 
 #include <cstdint>
@@ -22,6 +23,7 @@ enum class PathGenerator {
     light,          // light tracing
     bidirectional,  // bidirectional path tracing
     photon,         // photon maps
+    metropolis,     // Markov chains for each bounce
     classic,        // walks from the camera that follow delta lobes alone
     pointwise       // separate walks for each term
 };
@@ -39,6 +41,9 @@ struct SamplingSettings {
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;
     std::uint32_t replicate_size = 8;  // samples per pixel; a power of two
+    std::uint32_t chain_length = 512;  // for `metropolis`: states of a chain
+    // For `walk` and `bidirectional`, if pixels have different numbers of samples: powers of 2 that are factors of replicate_size.
+    std::shared_ptr<const Allocation> allocation = {};
     // If given, pictures and their errors are of this matrix times the samples' RGB.
     std::optional<glm::dmat3> colors = {};
     // For `bidirectional`: the quantities are the strategies (s, t) for bounce N, N + 2 weighted and then N + 2 unweighted ones, in
@@ -48,6 +53,11 @@ struct SamplingSettings {
     // The terms 0 … N and the rest, or ways; and all quantities of a sample: with `photon` the differences of terms between two
     // radii follow them.
     std::size_t pictures() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
+    // Of the crop's pixels in a replicate.
+    SampleLayout layout(const Film& film) const {
+        return {static_cast<std::uint32_t>(film.crop_width) * static_cast<std::uint32_t>(film.crop_height), replicate_size,
+                allocation};
+    }
     std::size_t quantities() const { return pictures() * (generator == PathGenerator::photon ? 2 : 1); }
 };
 

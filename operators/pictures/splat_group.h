@@ -30,13 +30,12 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
                                const OnSplat& splatted, Workspace& work, const Observer& observer) const {
     const Geometry& T = scene_->geometry;
     const std::size_t Q = settings_.quantities();
-    const std::uint32_t size = settings_.replicate_size;
     const Film& film = scene_->film;
     const auto sampler_of = [&](const SobolPoints& points, std::uint32_t pixel) {
         return Sampler(settings_.sampler, points, settings_.seed, pixel);
     };
     // Each replicate starts a new (t, m, s)-net.
-    const std::uint64_t paths = (std::uint64_t{pixels_} * size + light_net - 1) / light_net * light_net;
+    const std::uint64_t paths = (std::uint64_t{layout_.paths()} + light_net - 1) / light_net * light_net;
     std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
@@ -51,10 +50,11 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     group.rays.resize(samples);
     group.weights.resize(samples);
     for (std::uint32_t i = 0; i < samples; ++i) {
-        const std::uint32_t number = (first + i) / size;
-        const Pixel pixel = pixel_of(film, number);
-        camera.push_back(i == 0 || (first + i) % size == 0 ? sampler_of(camera_points_, number) : camera.back());
-        camera.back().start(replicate * size + (first + i) % size);
+        const SampleName name = layout_.name(replicate, first + i);
+        const Pixel pixel = pixel_of(film, name.pixel);
+        const bool is_first = i == 0 || layout_.first_path(name.pixel) == first + i;
+        camera.push_back(is_first ? sampler_of(layout_.net(layout_.size(name.pixel)), name.pixel) : camera.back());
+        camera.back().start(name.sample);
         const CameraSample sample = sample_camera(*scene_, pixel.x, pixel.y, camera[i]);
         group.rays[i] = sample.ray;
         group.weights[i] = sample.weight;

@@ -22,6 +22,8 @@ public:
     // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const;
+    // As PictureSampler::own_samples().
+    std::vector<Rgb> own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
@@ -34,11 +36,10 @@ private:
     template <class OnFound, class OnSplat, class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
                      const OnSplat& splatted, Workspace& work, const Observer& observer = {}) const;
+    // Into work.group.samples, without the filters' weights, and into the chunk.
+    void sample_paths(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, Workspace& work) const;
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
                       SampleRanges& ranges, Workspace& work) const;
-    void spread(const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name, Chunk& chunk,
-                Workspace& work) const;
-    std::uint32_t pixel_at(const Vec2& position) const;
 
     const Scene* scene_;
     SamplingSettings settings_;
@@ -46,7 +47,8 @@ private:
     EmissionSampler emission_;
     LightSampler lights_;
     Bidirectional bidirectional_;
-    SobolPoints camera_points_, light_points_;
+    SampleLayout layout_;
+    SobolPoints light_points_;
 };
 
 }  // namespace neumann

@@ -29,6 +29,8 @@ void Tally::merge(const Tally& other) {
         non_finite_count[q] += other.non_finite_count[q];
     }
     given_up += other.given_up;
+    chains.resize(std::max(chains.size(), other.chains.size()));
+    for (std::size_t q = 0; q < other.chains.size(); ++q) chains[q].merge(other.chains[q]);
     non_finite.insert(non_finite.end(), other.non_finite.begin(), other.non_finite.end());
     keep_first(non_finite);
 }

@@ -1,6 +1,7 @@
 // Counters beside the pictures.
 #pragma once
 
+#include "operators/metropolis/chain_statistics.h"
 #include "operators/statistics/tail_index.h"
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct Tally {
     std::uint64_t given_up = 0;
     std::vector<std::uint64_t> non_finite_count;
     std::vector<NonFiniteSample> non_finite;  // the first ones in order of bounce, pixel and sample
+    std::vector<ChainStatistics> chains;      // of bounces 0 … N if there are chains
 };
 
 // An empty one that will be merged into `tally`, and keeps no samples that are too small for it.

@@ -6,6 +6,7 @@
 #include "core/sensor/sensor_options.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -79,15 +80,24 @@ struct Together {
     // Starts paths along camera rays and moves them to the first hits.
     template <class Transport, class Observer, class Keep>
     void set_out(const Transport& T, std::span<const CameraRay> rays, const Observer& observer, const Keep& f) {
-        begin(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            walker[i].x.position = rays[i].origin;
-            walker[i].w = rays[i].direction;
-            walker[i].pdf = 0.0;
-            walker[i].beta = Rgb(1.0);
-        }
+        begin_with(rays);
         advance(
             0, observer, [&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); }, f);
+    }
+    // The same for those paths alone for which sets_out(index) is true.
+    template <class Transport, class SetsOut, class Observer, class Keep>
+    void set_out_some(const Transport& T, std::span<const CameraRay> rays, const SetsOut& sets_out, const Observer& observer,
+                      const Keep& f) {
+        begin_with(rays);
+        keep_if([&](const Walker&, std::uint32_t i) { return sets_out(i); });
+        std::array<CameraRay, RayCaster::packet_size> packet;
+        advance(
+            0, observer,
+            [&](std::size_t k, std::size_t n, const auto& hit) {
+                for (std::size_t j = 0; j < n; ++j) packet[j] = rays[alive[k + j]];
+                return T.first_hits(std::span<const CameraRay>(packet.data(), n), hit);
+            },
+            f);
     }
 
     // For several walks from one first vertex: saves and restores the state there.
@@ -101,6 +111,16 @@ struct Together {
     }
 
 private:
+    void begin_with(std::span<const CameraRay> rays) {
+        begin(rays.size());
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            walker[i].x.position = rays[i].origin;
+            walker[i].w = rays[i].direction;
+            walker[i].pdf = 0.0;
+            walker[i].beta = Rgb(1.0);
+        }
+    }
+
     std::vector<Walker> first_;
     std::vector<std::uint32_t> first_alive_;
 };

@@ -42,6 +42,27 @@ TEST_F(BadInputOptions, RealNumbers) {
     expect_refused("--error", "small");
 }
 
+TEST_F(BadInputOptions, Chains) {
+    expect_refused("--chain", "0");
+    EXPECT_EQ(refusal({"--chain", "10"}), "--chain belongs to --method metropolis, not to walk\n");
+    write("small.xml", R"(<scene version="3.0.0">
+<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film></sensor>
+<shape type="sphere"><emitter type="area"><rgb name="radiance" value="1"/></emitter></shape></scene>)");
+    const Finished done = run({"render", "small.xml", "-o", "a", "--method", "metropolis", "--spp", "64", "--chain", "100"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_EQ(
+        done.err,
+        "--chain 100: a replicate of 16 samples for each of 8×8 pixels has 1024 states of a bounce, and its 64 chains may be of "
+        "16 at most\n");
+    EXPECT_EQ(names(), (Names{"scene.xml", "small.xml"}));
+}
+
+TEST_F(BadInputOptions, Adaptive) {
+    expect_refused("--adaptive", "everything");
+    EXPECT_EQ(refusal({"--method", "light", "--adaptive", "sum"}),
+              "--adaptive belongs to --method walk and bidirectional, not to light\n");
+}
+
 TEST_F(BadInputOptions, Photons) {
     for (const std::string radius : {"0", "-1", "nan", "wide"})
         EXPECT_TRUE(refusal({"--method", "photon", "--radius", radius})

@@ -18,6 +18,7 @@ surface, R scatters it there; operators/NOTATION.md is the dictionary.
 
 from ._blame import Blame, blame
 from ._bounces import BounceSeries, Way, compare, read
+from ._chain import Chain
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
@@ -29,6 +30,7 @@ from ._study import Study
 __all__ = [
     "Blame",
     "BounceSeries",
+    "Chain",
     "HealthWarning",
     "InputError",
     "Matrices",

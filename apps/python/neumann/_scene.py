@@ -9,6 +9,7 @@ import numpy as np
 from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
 from ._bounces import BounceSeries, Memory
+from ._chain import Chain
 from ._display import as_table
 from ._matrices import STEPS, Matrices, Solutions
 from ._method_options import MethodOptions
@@ -116,6 +117,10 @@ class Scene:
     def plan(self) -> Plan:
         """What this scene needs of the machinery, what is left out, and why: as ``neumann plan``."""
         return Plan(_report.from_json(run(self._scene.plan())))
+
+    def chain(self, bounce: int, *, states: int = 1000, seed: int = 0) -> Chain:
+        """The walk of one Markov chain of a bounce from 1 on, as method="metropolis" has many. Raises InputError."""
+        return Chain(run(_neumann.chain(self._scene, bounce, states, seed)), bounce)
 
     def photons(self, paths: int = 100_000, *, bounces: int = 8, seed: int = 0) -> Photons:
         """Photons of bounces 1 … bounces, from so many paths from the lights: points to look at. Raises InputError."""

@@ -1,0 +1,36 @@
+"""The walk of a Markov chain among the paths of one bounce."""
+
+from typing import Any, Dict
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Chain:
+    """States of a chain, one after the other: ``scene.chain(bounce)``.
+
+    A state is a path from both ends: s vertices from the light, bounce + 2 − s from the camera, drawn from random numbers. The chain
+    visits states in proportion to their size.
+
+    position: (n, 2), x and y on the film, pixel (0, 0) from 0 to 1. s: (n,). size: (n,), the mean channel of what the path brings, as a
+    pixel's radiance times the number of pixels. accepted: (n,), False where the step was refused and the state is the one before once
+    more. large: (n,), whether the step drew all numbers anew, or moved them a little.
+    """
+
+    position: NDArray[np.float64]
+    s: NDArray[np.int32]
+    size: NDArray[np.float64]
+    accepted: NDArray[np.bool_]
+    large: NDArray[np.bool_]
+
+    def __init__(self, made: Dict[str, Any], bounce: int) -> None:
+        self.position, self.s, self.size = made["position"], made["s"], made["size"]
+        self.accepted, self.large = made["accepted"], made["large"]
+        self.bounce = bounce
+
+    def __len__(self) -> int:
+        """How many states there are."""
+        return len(self.s)
+
+    def __repr__(self) -> str:
+        return f"a chain of {len(self)} states of bounce {self.bounce}, {self.accepted[1:].mean() if len(self) > 1 else 1.0:.0%} of steps accepted"

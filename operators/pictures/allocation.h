@@ -1,0 +1,44 @@
+// How the samples of a picture are best distributed over its pixels, by a pilot whose own samples are not used for anything else,
+// so that the picture stays unbiased.
+//
+// With V_kb the variance of a sample of bounce k in block b, as a part of the bounce's squared size, c_b what a sample costs, and
+// s_b samples in each pixel, the error of bounce k is e_k² = Σ_b V_kb / s_b. At given cost Σ_b c_b s_b the largest of these errors
+// is least where
+//
+//     s_b ∝ √(Σ_k λ_k V_kb / c_b),     λ_k ≥ 0,  Σ λ_k = 1,  λ_k > 0 only for the bounces with the largest error;
+//
+// λ is found by making it larger where the error is above the mean, again and again. For the sum there is one V.
+#pragma once
+
+#include "operators/pictures/sampling_settings.h"
+#include "operators/watch.h"
+
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+enum class LeastError {
+    of_bounces,  // the largest relative error of a bounce
+    of_sum       // the relative error of the sum of all bounces
+};
+
+// V_kb for each k, k by k, and c_b.
+struct BlockCosts {
+    std::size_t blocks = 0;
+    std::vector<double> variances, costs;
+
+    std::size_t errors() const { return variances.size() / blocks; }
+    std::span<const double> variance(std::size_t k) const { return std::span(variances).subspan(k * blocks, blocks); }
+};
+
+// s_b that make the largest e_k least, with Σ c_b s_b = Σ c_b.
+std::vector<double> best_numbers(const BlockCosts& costs);
+// The nearest powers of 2 to σ s_b, as exponents within ±most, with the largest σ for which they cost no more than Σ c_b.
+std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, int most);
+
+// For the walk and the bidirectional method; the same for all seeds. Throws Stopped if `watch` stops it.
+std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
+                                           const Watch& watch = {});
+
+}  // namespace neumann

@@ -1,0 +1,77 @@
+#include "operators/pictures/sample_layout.h"
+
+#include "operators/pictures/path_group.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace neumann {
+
+SampleLayout::SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation)
+    : pixels_(pixels), size_(size), allocation_(std::move(allocation)) {
+    if (!allocation_) {
+        nets_.emplace_back(size);
+        return;
+    }
+    std::uint32_t paths = 0, largest = 1;
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        const std::uint32_t here = this->size(pixel);
+        largest = std::max(largest, here);
+        first_path_.push_back(paths);
+        paths += here;
+        if (pixel == 0 || here != this->size(pixel - 1) || (pixel + 1 - group_begin_.back()) * here > std::max(paths_at_once, here))
+            group_begin_.push_back(pixel);
+    }
+    first_path_.push_back(paths);
+    group_begin_.push_back(pixels);
+    for (std::uint32_t points = 1; points <= largest; points *= 2) nets_.emplace_back(points);
+}
+
+std::uint32_t SampleLayout::size(std::uint32_t pixel) const {
+    if (!allocation_) return size_;
+    const int k = allocation_->exponents[pixel];
+    return k >= 0 ? size_ << k : std::max(size_ >> -k, 1u);
+}
+
+std::uint32_t SampleLayout::paths() const { return allocation_ ? first_path_.back() : pixels_ * size_; }
+
+std::uint32_t SampleLayout::first_path(std::uint32_t pixel) const { return allocation_ ? first_path_[pixel] : pixel * size_; }
+
+std::uint32_t SampleLayout::pixel_of(std::uint32_t path) const {
+    if (!allocation_) return path / size_;
+    return static_cast<std::uint32_t>(std::ranges::upper_bound(first_path_, path) - first_path_.begin()) - 1;
+}
+
+std::uint32_t SampleLayout::groups() const {
+    if (allocation_) return static_cast<std::uint32_t>(group_begin_.size()) - 1;
+    const std::uint32_t at_once = std::max(paths_at_once / size_, 1u);
+    return (pixels_ + at_once - 1) / at_once;
+}
+
+PixelGroup SampleLayout::group(std::uint32_t number) const {
+    if (allocation_) return {group_begin_[number], group_begin_[number + 1], size(group_begin_[number])};
+    const std::uint32_t at_once = std::max(paths_at_once / size_, 1u);
+    return {number * at_once, std::min((number + 1) * at_once, pixels_), size_};
+}
+
+std::uint32_t SampleLayout::group_of(std::uint32_t pixel) const {
+    if (!allocation_) return pixel / std::max(paths_at_once / size_, 1u);
+    return static_cast<std::uint32_t>(std::ranges::upper_bound(group_begin_, pixel) - group_begin_.begin()) - 1;
+}
+
+SampleName SampleLayout::name(std::uint64_t replicate, std::uint32_t path) const {
+    const std::uint32_t pixel = pixel_of(path);
+    return {pixel, replicate * size(pixel) + (path - first_path(pixel))};
+}
+
+PlaceInGroup SampleLayout::place(const SampleName& name) const {
+    const std::uint32_t here = size(name.pixel), first = first_path(group(group_of(name.pixel)).begin);
+    return {name.sample / here, first, first_path(name.pixel) + static_cast<std::uint32_t>(name.sample % here) - first};
+}
+
+const SobolPoints& SampleLayout::net(std::uint32_t size) const {
+    return allocation_ ? nets_[static_cast<std::size_t>(std::countr_zero(size))] : nets_.front();
+}
+
+}  // namespace neumann

@@ -1,0 +1,62 @@
+// How many samples each pixel has in a replicate, and how the paths of a replicate are numbered: pixel by pixel. Usually all pixels
+// have the same number; an allocation (allocation.h) gives some 2^k times as many.
+#pragma once
+
+#include "core/sampling/sobol_points.h"
+#include "operators/statistics/sample_place.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace neumann {
+
+struct Allocation {
+    std::vector<std::int8_t> exponents;  // k of all pixels of the crop, row by row
+    std::uint64_t rays = 0;              // cast to find them
+};
+
+// Consecutive pixels with as many samples each, whose paths advance together.
+struct PixelGroup {
+    std::uint32_t begin, end, size;
+    std::uint32_t paths() const { return (end - begin) * size; }
+};
+
+// The place of a sample: the first path of its group, and its index there.
+struct PlaceInGroup {
+    std::uint64_t replicate;
+    std::uint32_t first, path;
+};
+
+class SampleLayout {
+public:
+    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many; otherwise size · 2^k, at least 1.
+    SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {});
+
+    std::uint32_t size(std::uint32_t pixel) const;
+    std::uint32_t pixels() const { return pixels_; }
+    // In a replicate.
+    std::uint32_t paths() const;
+    std::uint32_t first_path(std::uint32_t pixel) const;
+    std::uint32_t pixel_of(std::uint32_t path) const;
+
+    std::uint32_t groups() const;
+    PixelGroup group(std::uint32_t number) const;
+    // Of which this pixel is one.
+    std::uint32_t group_of(std::uint32_t pixel) const;
+
+    SampleName name(std::uint64_t replicate, std::uint32_t path) const;
+    PlaceInGroup place(const SampleName& name) const;
+
+    // Sobol' points for a pixel with so many samples.
+    const SobolPoints& net(std::uint32_t size) const;
+
+private:
+    std::uint32_t pixels_, size_;
+    std::shared_ptr<const Allocation> allocation_;
+    std::vector<std::uint32_t> first_path_;   // of each pixel, and their number
+    std::vector<std::uint32_t> group_begin_;  // pixels; and the number of pixels
+    std::vector<SobolPoints> nets_;           // of 1, 2, 4, … points where there is an allocation; otherwise of `size`
+};
+
+}  // namespace neumann
