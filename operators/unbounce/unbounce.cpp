@@ -98,6 +98,13 @@ PictureMeans means_of(const std::array<UnbouncedChannel, 3>& channels, const Vec
     return means;
 }
 
+void expect_regions(const Regions& regions, const LightPictures& pictures) {
+    for (const int light : regions.of_pixel)
+        if (light != Regions::none && (light < 0 || static_cast<std::size_t>(light) >= pictures.lights()))
+            throw InputError(fmt::format("a pixel is in region {}, expected 1 to {}, as many as there are pictures", light + 1,
+                                         pictures.lights()));
+}
+
 void expect_light(const RegionMeans& pictures) {
     for (const MatrixXd& T : pictures.mean)
         if ((T.diagonal().array() > 0.0).any()) return;
@@ -111,6 +118,7 @@ Unbounced unbounce(const LightPictures& pictures, const Regions& regions, const 
     if (pictures.lights() < 2)
         throw InputError(
             fmt::format("{} is the only picture; expected one for each of at least two lights", pictures.names.front()));
+    expect_regions(regions, pictures);
     const VectorXd shares = regions.sizes(pictures.lights()) / static_cast<double>(regions.of_pixel.size());
     Unbounced result;
     result.regions = regions;
@@ -131,7 +139,7 @@ Unbounced unbounce(const LightPictures& pictures, const Regions& regions, const 
         found = unbounce_channel(channel, shares, settings.bounces, settings.regularisation, settings.seed);
         if (!found.terms.value.allFinite())
             throw InputError("the matrix of pictures is singular; expected a regularisation above 0");
-        if (!settings.merged.empty())
+        if (!settings.merged.empty() && !found.lights.empty())
             add_discretisation(result, c, channel, shares, settings, differences[static_cast<std::size_t>(c)]);
     }
     for (int n = 0; n < settings.bounces; ++n) result.means.push_back(means_of(result.channels, shares, n));

@@ -1,7 +1,7 @@
 #include "operators/unbounce/unbounced_channel.h"
 
-#include "core/base/vec.h"
 #include "core/sampling/counter_based.h"
+#include "core/sampling/warp.h"
 #include "operators/unbounce/inverse_series.h"
 
 #include <algorithm>

@@ -173,7 +173,8 @@ TEST(UnbouncePixels, BadPicturesAreNamed) {
     EXPECT_EQ(refused(pictures, scene.regions), "a.exr is the only picture; expected one for each of at least two lights");
     pictures.names = {"a.exr", "b.exr"};
     pictures.picture = [](std::size_t j) { return Estimate{Image(j == 0 ? 12 : 11, 8), {}}; };
-    EXPECT_EQ(refused(pictures, scene.regions), "b.exr: 11×8 pixels, expected 12×8 as in the first picture");
+    EXPECT_EQ(refused(pictures, scene.regions), "a pixel is in region 3, expected 1 to 2, as many as there are pictures");
+    EXPECT_EQ(refused(pictures, block_regions(12, 8, 2, 1)), "b.exr: 11×8 pixels, expected 12×8 as in the first picture");
     pictures.picture = [](std::size_t) { return Estimate{Image(12, 8), {}}; };
     EXPECT_EQ(refused(pictures, block_regions(12, 8, 2, 1)),
               "all pictures are black where their lights shine; expected pictures of a scene under separate lights");
