@@ -32,6 +32,7 @@ PYBIND11_MODULE(_neumann, m) {
     bind_study(m);
     bind_photons(m);
     bind_blame(m);
+    bind_unbounce(m);
 }
 
 namespace neumann {

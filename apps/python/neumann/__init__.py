@@ -25,12 +25,14 @@ from ._photons import Photons
 from ._report import HealthWarning, NeumannWarning, Report
 from ._scene import Plan, Scene, load
 from ._study import Study
+from ._unbounce import LightPictures, Unbounced, unbounce
 
 __all__ = [
     "Blame",
     "BounceSeries",
     "HealthWarning",
     "InputError",
+    "LightPictures",
     "Matrices",
     "NeumannWarning",
     "Photons",
@@ -41,6 +43,7 @@ __all__ = [
     "Scene",
     "Solutions",
     "Study",
+    "Unbounced",
     "Way",
     "blame",
     "compare",
@@ -50,6 +53,7 @@ __all__ = [
     "series",
     "solve",
     "spectrum",
+    "unbounce",
 ]
 
 for _error in (InputError, RunError):
