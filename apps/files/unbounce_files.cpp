@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -52,7 +53,7 @@ std::optional<std::pair<int, int>> blocks_in(const std::string& folder) {
     return std::pair(json["blocks"][0].get<int>(), json["blocks"][1].get<int>());
 }
 
-Json mean_json(const MeanWithError& mean) {
+Json mean_and_stderr(const MeanWithError& mean) {
     return {{"mean", json_number(mean.mean)}, {"stderr", json_number(mean.standard_error)}};
 }
 
@@ -156,12 +157,12 @@ Json unbounce_json(const Unbounced& found, const std::vector<std::string>& names
     constexpr const char* channels[] = {"r", "g", "b"};
     for (std::size_t c = 0; c < 3; ++c) json["channels"].push_back(channel_json(found.channels[c], channels[c]));
     for (std::size_t n = 0; n < found.terms.size(); ++n) {
-        Json bounce{{"bounce", n + 1}, {"backward", mean_json(found.means[n].all)}};
+        Json bounce{{"bounce", n + 1}, {"backward", mean_and_stderr(found.means[n].all)}};
         if (!found.discretisation.empty()) bounce["backward"]["discretisation"] = json_number(found.discretisation[n]);
         if (n < forward.size()) {
             const TermAgreement& term = forward[n];
-            bounce["forward"] = mean_json(term.forward);
-            bounce["difference"] = mean_json(term.difference);
+            bounce["forward"] = mean_and_stderr(term.forward);
+            bounce["difference"] = mean_and_stderr(term.difference);
             bounce["difference"]["in_errors"] = json_number(term.deviations());
             bounce["regions"] = {{"relative_difference", json_number(term.relative_difference)},
                                  {"by_noise", json_number(term.by_noise)}};

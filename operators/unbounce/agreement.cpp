@@ -1,6 +1,7 @@
 #include "operators/unbounce/agreement.h"
 
 #include "core/base/error.h"
+#include "operators/statistics/metrics.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,7 @@ std::vector<TermAgreement> agreement(const Unbounced& backward, const std::vecto
         Estimate known = forward[n];
         if (known.standard_error.pixels.empty()) known.standard_error = Image(picture.width, picture.height);
         term.forward = picture_mean(known);
+        if (term.forward.standard_error == 0.0) term.forward.degrees_of_freedom = exact_degrees_of_freedom;
         term.difference = difference(backward.means[n].all, term.forward);
         if (!backward.discretisation.empty()) term.discretisation = backward.discretisation[n];
         add_regions(backward, forward[n], n, term);

@@ -105,6 +105,17 @@ void expect_regions(const Regions& regions, const LightPictures& pictures) {
                                          pictures.lights()));
 }
 
+// Without pixels that are black under all lights, such as those of nothing, which would make the means of regions anything.
+Regions lit_part(Regions regions, const LightPictures& pictures) {
+    const Regions lit = brightest_regions(pictures);
+    if (lit.width != regions.width || lit.height != regions.height)
+        throw InputError(fmt::format("the regions are {}×{} pixels, expected {}×{} as the pictures", regions.width, regions.height,
+                                     lit.width, lit.height));
+    for (std::size_t p = 0; p < lit.of_pixel.size(); ++p)
+        if (lit.of_pixel[p] == Regions::none) regions.of_pixel[p] = Regions::none;
+    return regions;
+}
+
 void expect_light(const RegionMeans& pictures) {
     for (const MatrixXd& T : pictures.mean)
         if ((T.diagonal().array() > 0.0).any()) return;
@@ -113,12 +124,13 @@ void expect_light(const RegionMeans& pictures) {
 
 }  // namespace
 
-Unbounced unbounce(const LightPictures& pictures, const Regions& regions, const Estimate* picture, const UnbounceSettings& settings,
-                   const Watch& watch) {
+Unbounced unbounce(const LightPictures& pictures, const Regions& given_regions, const Estimate* picture,
+                   const UnbounceSettings& settings, const Watch& watch) {
     if (pictures.lights() < 2)
         throw InputError(
             fmt::format("{} is the only picture; expected one for each of at least two lights", pictures.names.front()));
-    expect_regions(regions, pictures);
+    expect_regions(given_regions, pictures);
+    const Regions regions = lit_part(given_regions, pictures);
     const VectorXd shares = regions.sizes(pictures.lights()) / static_cast<double>(regions.of_pixel.size());
     Unbounced result;
     result.regions = regions;

@@ -46,8 +46,9 @@ struct Unbounced {
     std::size_t lights() const { return static_cast<std::size_t>(pictures.mean[0].cols()); }
 };
 
-// `picture`: of the same scene under any mixture of these lights; null: under all of them together. Throws InputError if there are
-// fewer than two lights, as checked_picture(), if the sizes differ, if all is black, and if T⁻¹ is infinite; Stopped.
+// Pixels that are black under all lights are in no region. `picture`: of the same scene under any mixture of these lights; null:
+// under all of them together. Throws InputError if there are fewer than two lights, as checked_picture(), if the sizes differ, if
+// all is black, and if T⁻¹ is infinite; Stopped.
 Unbounced unbounce(const LightPictures& pictures, const Regions& regions, const Estimate* picture, const UnbounceSettings& settings,
                    const Watch& watch = {});
 
