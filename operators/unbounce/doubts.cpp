@@ -16,8 +16,9 @@ constexpr const char* channel_names[] = {"red", "green", "blue"};
 
 // Of a family of comparisons, the chance that any of them fails by chance.
 constexpr double false_alarms = 0.001;
-// Light below this part of the largest is not spoken of.
-constexpr double least_light = 0.01;
+// Light below this part of the largest is not spoken of; of links between regions, which large regions make a little negative,
+// below the second.
+constexpr double least_light = 0.01, least_link = 0.05;
 constexpr double lost_in_noise = 0.5;
 constexpr double least_direct = 0.02, unlit_pixels = 0.01;
 
@@ -66,10 +67,10 @@ struct Writer {
         Eigen::Index row = 0, column = 0;
         int count = 0;
     };
-    static Worst negative_in(const Eigen::MatrixXd& values, const Eigen::MatrixXd& errors, double limit) {
+    static Worst negative_in(const Eigen::MatrixXd& values, const Eigen::MatrixXd& errors, double limit, double part) {
         Worst worst;
         for (Eigen::Index j = 0; j < values.cols(); ++j) {
-            const double least = least_light * values.col(j).cwiseAbs().maxCoeff();
+            const double least = part * values.col(j).cwiseAbs().maxCoeff();
             for (Eigen::Index i = 0; i < values.rows(); ++i) {
                 if (!(values(i, j) < -std::max(least, limit * errors(i, j)))) continue;
                 ++worst.count;
@@ -82,7 +83,7 @@ struct Writer {
     void negative() const {
         each_channel([&](const UnbouncedChannel& channel, const char* name) {
             const Worst term = negative_in(channel.terms.value, channel.terms.error,
-                                           limit_of(3.0 * static_cast<double>(channel.terms.value.size())));
+                                           limit_of(3.0 * static_cast<double>(channel.terms.value.size())), least_light);
             if (term.count > 0)
                 add(Kind::negative,
                     fmt::format("{}: {} value{} of terms {} negative, as light cannot be; in bounce {} the region of {} has "
@@ -91,7 +92,7 @@ struct Writer {
                                 name, term.count, term.count == 1 ? "" : "s", term.count == 1 ? "is" : "are", term.column + 1,
                                 names[at(channel, term.row)], term.value, term.error));
             const Eigen::MatrixXd& A = channel.once_more.value;
-            const Worst link = negative_in(A, channel.once_more.error, limit_of(3.0 * static_cast<double>(A.size())));
+            const Worst link = negative_in(A, channel.once_more.error, limit_of(3.0 * static_cast<double>(A.size())), least_link);
             if (link.count > 0)
                 add(Kind::negative,
                     fmt::format("{}: {} of {} links between regions are negative, the one from {} to {} by {:.3g} ± {:.1g}", name,
@@ -139,7 +140,7 @@ struct Writer {
         int foreigners = 0;
         for (Eigen::Index j = 0; j < T.value.cols(); ++j) {
             if (sizes[j] == 0.0 || T.value(j, j) <= 0.0) {
-                idle.push_back(names[static_cast<std::size_t>(j)]);
+                if (T.value.col(j).sum() > 0.0) idle.push_back(names[static_cast<std::size_t>(j)]);  // black: it shines on nothing
                 continue;
             }
             Eigen::Index other = 0;

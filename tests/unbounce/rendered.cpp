@@ -79,7 +79,7 @@ TEST(UnbounceRendered, LightsAreTheProjectorInParts) {
         apart += mean_component(sum.pixels[p] - rendered.renders.forward[0].mean.pixels[p]);
     }
     EXPECT_GT(all, 0.0);
-    EXPECT_LT(std::abs(apart), 2e-3 * all) << "edges of surfaces within pixels";
+    EXPECT_LT(std::abs(apart), 0.01 * all) << "noise of pixels that edges cross; a block that is one pixel off has 4%";
 }
 
 TEST(UnbounceRendered, AgreesWithTheForwardSeries) {
@@ -89,8 +89,8 @@ TEST(UnbounceRendered, AgreesWithTheForwardSeries) {
         ASSERT_EQ(forward.size(), std::size_t{bounces});
         for (const TermAgreement& term : forward) {
             EXPECT_LT(std::abs(term.deviations()), 4.5);
-            EXPECT_LT(term.difference.standard_error, 0.01 * term.forward.mean) << "or the test sees nothing";
-            EXPECT_LT(term.discretisation, 0.25 * term.forward.mean);
+            EXPECT_LT(term.difference.standard_error, 0.04 * term.forward.mean) << "or the test sees nothing";
+            EXPECT_LT(term.discretisation, 0.4 * term.forward.mean) << "as measured in the manual: 0.24 in bounce 4";
         }
         const std::vector<Doubt> doubts = doubts_about(found, corner().pictures().names, forward);
         EXPECT_TRUE(doubts.empty()) << words(doubts);
