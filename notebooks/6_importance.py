@@ -4,10 +4,10 @@
 # **What this teaches.** A picture can be computed from the camera or from the lamp. Behind that is one line of algebra,
 # $\langle W_e, K^i L_e \rangle = \langle K^{*i} W_e, L_e \rangle$: $K^*$, the *adjoint*, carries importance as $K$ carries light.
 # You will check it, cut a path in the middle at every place, see what importance looks like, trace light, and use one solution to
-# find the best place for a lamp.
+# find the best place for a lamp. At the end the series runs backwards: the bounces are taken out of photographs.
 
 # %%
-from lesson import limit, pictures, scene, seed
+from lesson import limit, pictures, scene, scenes, seed
 import matplotlib.pyplot as plt
 import numpy as np
 import scipy.sparse
@@ -232,6 +232,117 @@ assert np.all(lost.terms[1].mean(axis=(0, 1)) < seen.terms[1].mean(axis=(0, 1)))
 # The figure: what the mirrors throw on the floor in bounce 2 has far less noise by light tracing than by the walk, which has to
 # hit the lamp by way of a mirror by chance; and of what one sees *in* the mirrors it has nothing. Walks from the camera are good at
 # just the other half.
+
+# %% [markdown]
+# ## The series backwards
+# So far we knew the scene, and computed $L_e + K L_e + K^2 L_e + \dots$ Somebody who has only *photographs* can take the same terms out
+# of them. Put a projector in the place of the camera, cut its picture into blocks, and take a picture $T_j$ under each block alone.
+# What block $j$ shines on is *region* $j$ of what is seen. The means of the regions are the columns of a matrix $T$; the direct light
+# alone, $T^1$, is diagonal. All other light has left some region before: $T = T^1 + A\,T$, where $A$ takes the light from all
+# regions to all regions once more. So
+#
+# $$T = (I - A)^{-1}\, T^1 \qquad\Longrightarrow\qquad C^1 = T^1\, T^{-1} = I - A \quad\text{and}\quad C^n = A^{n-1}\, C^1 .$$
+#
+# $C^n$ leaves of *any* picture of this scene what has bounced $n$ times (Seitz, Matsushita and Kutulakos, 2005). Nobody has to say
+# what stands in the scene. And $T^1$ comes out of $T$ itself: no light goes from a region to itself, so $A_{rr} = 0$, and
+# $T^{-1} = (T^1)^{-1} (I - A)$ has $1 / T^1_{rr}$ on its diagonal.
+
+# %%
+corner = neumann.load(scenes.parent / "notebooks" / "corner.xml", res=32)
+lit = corner.under_lights((8, 8), spp=64, bounces=4, seed=seed, quiet=True)
+flooded = lit.pictures.sum(axis=0)
+found = lit.unbounce(quiet=True)
+bright = np.percentile(flooded, 99)
+block = 36  # in the fifth row
+pictures(
+    [flooded, lit.pictures[block], 20 * (lit.pictures[block] - lit.direct[block])],
+    ["all 64 blocks", f"block {block} alone", "20 × its bounces 2, 3, …"],
+    white=bright,
+    size=2.4,
+)
+plt.show()
+
+# %% [markdown]
+# The figure: a corner of three sheets of paper, lit from where the camera is. In the middle one block is on, and what it hits lights
+# all the rest of the corner; on the right that rest alone, made visible by a factor.
+#
+# Now the Neumann series and its inverse on one page: above, $C^n L$, taken out of the 64 pictures; below, $K^n L_e$, computed from the
+# scene, with other random numbers.
+
+# %%
+gains = [1, 2, 8, 32]
+pictures(
+    [g * t for g, t in zip(gains, found.terms)] + [g * t for g, t in zip(gains, lit.forward)],
+    [f"{g} × $C^{n} L$" for n, g in enumerate(gains, 1)] + [f"{g} × $K^{n} L_e$" for n, g in enumerate(gains, 1)],
+    white=bright,
+    columns=len(gains),
+)
+plt.show()
+print("bounce   backward ± noise    regions   forward ± noise")
+for b in found.bounces:
+    back, forth = b.backward, b.forward
+    print(
+        f"{b.bounce:6d} {back.mean:9.5f} ± {back.stderr:.5f} {back.discretisation:9.5f} {forth.mean:9.5f} ± {forth.stderr:.5f}"
+        f"   {abs(b.difference.in_errors):.1f} errors apart"
+    )
+    assert abs(b.difference.in_errors) < 4.5
+assert not [d for d in found.doubts if d.kind in ("negative", "gain", "singular", "foreign light")], str(found)
+
+# %% [markdown]
+# The table: what the backward terms are off is more than noise. 8 × 8 regions are large, and one that lies across an edge of the
+# corner *does* light itself. The column "regions" estimates that from 4 × 4 regions.
+#
+# The algebra is three lines. And the inverse has a Neumann series of its own (Bai and others, 2010): with $F$ the diagonal of $T$ and
+# $T = (I + R) F$
+#
+# $$(I - A)^{-1} = I + A + A^2 + \dots \qquad\text{and}\qquad (I + R)^{-1} = I - R + R^2 - \dots$$
+
+# %%
+T = found.T[1]  # green
+inverse = np.linalg.inv(T)
+T1 = np.diag(1 / np.diag(inverse))
+C1 = T1 @ inverse
+identity = np.eye(len(T))
+A = identity - C1
+assert np.allclose(A, found.A[1], atol=1e-9 * np.abs(A).max()) and np.allclose(C1 @ T.sum(axis=1), np.diag(T1))
+
+R = T / np.diag(T) - identity
+forward_radius, backward_radius = (np.abs(np.linalg.eigvals(M)).max() for M in (A, R))
+figure, axes = plt.subplots(figsize=(5.6, 3.4))
+for name, M, exact, color in (
+    (r"$I + A + A^2 + \dots$", A, np.linalg.inv(identity - A), "C0"),
+    (r"$I - R + R^2 - \dots$", -R, np.linalg.inv(identity + R), "C3"),
+):
+    power, total, errors = identity, 0.0, []
+    for k in range(12):
+        total = total + power
+        power = power @ M
+        errors.append((total - exact).sum() / exact.sum())
+    errors = np.array(errors)
+    axes.semilogy(np.abs(errors), color=color, alpha=0.4)
+    for above in (True, False):
+        where = np.flatnonzero((errors > 0) == above)
+        if where.size:
+            label = f"{name}, {'too much' if above else 'too little'}"
+            axes.semilogy(where, np.abs(errors[where]), "^" if above else "v", color=color, label=label)
+axes.set(xlabel="last power", ylabel="relative error of the sum", title="Forward and backward, term by term")
+axes.legend(fontsize=8)
+plt.show()
+print(f"spectral radius of A {forward_radius:.3f}, of R {backward_radius:.3f}; λ/(1 − λ) = {forward_radius / (1 - forward_radius):.3f}")
+assert forward_radius < backward_radius < 1 and abs(found.channels[1].inverse_series_radius / backward_radius - 1) < 1e-3
+
+# %% [markdown]
+# The figure: both fall like powers. Forward, the sum comes from below: each term adds light. Backward, each term takes away one bounce
+# too much or gives it back, so the sums jump from above to below. And it is slower: where $A$ has the eigenvalue $\lambda$, $R$ has about
+# $\lambda / (1 - \lambda)$, which is 1 for $\lambda = 1/2$.
+#
+# **Q5.** In a white room with $\lambda = 0.8$, the forward series converges. Bai's diverges. Is the inverse lost? (A5: no. $T$ can
+# still be inverted, by elimination; it is only this series for it that fails.)
+#
+# **Q6.** What would $C^1$ take for direct light if one sheet were a mirror, or if light reached the camera by way of a wall that it does
+# not see? (A6: a region in a mirror is bright under another region's block, and $T$ is no longer of the form above: `found.doubts` says
+# so. What is not seen is in no region: light that goes by way of it counts as one bounce where the forward series counts two. Try
+# `corner.xml` with `left="mirror"`, and the Cornell box.)
 #
 # ## Exercises
 # 1. Put the camera's importance on *one pixel* (a row of `patches.camera()`), and show $K^{*i} W_e$ as pictures. Where would you

@@ -14,6 +14,7 @@
 #include "apps/commands/spectrum_command.h"
 #include "apps/commands/stress_command.h"
 #include "apps/commands/study_command.h"
+#include "apps/commands/unbounce_command.h"
 #include "core/base/error.h"
 
 #include <CLI/CLI.hpp>
@@ -60,7 +61,8 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
             command(app, line, add_plan, plan_command),
             command(app, line, add_convert, convert_command),
             command(app, line, add_merge, merge_command),
-            command(app, line, add_blame, blame_command)};
+            command(app, line, add_blame, blame_command),
+            command(app, line, add_unbounce, unbounce_command)};
 }
 
 void read_arguments(const std::function<void(CLI::App&)>& add, std::vector<std::string> arguments) {

@@ -24,6 +24,7 @@ struct SolveRequest;
 struct SpectrumRequest;
 struct StressRequest;
 struct StudyRequest;
+struct UnbounceRequest;
 
 struct Command {
     const CLI::App* app;
@@ -50,5 +51,6 @@ CLI::App* add_solve(CLI::App& app, SolveRequest& request);
 CLI::App* add_spectrum(CLI::App& app, SpectrumRequest& request);
 CLI::App* add_stress(CLI::App& app, StressRequest& request);
 CLI::App* add_study(CLI::App& app, StudyRequest& request);
+CLI::App* add_unbounce(CLI::App& app, UnbounceRequest& request);
 
 }  // namespace neumann

@@ -96,12 +96,15 @@ std::optional<std::string_view> writer_of(std::string_view name) {
         {"study", {"study.csv", "study.json", unfinished_run_file}},
         {"compare", {"compare.json"}},
         {"blame", {"blame.json"}},
+        {"unbounce", {"unbounce.json", "unbounced.png", "backward_rest.exr"}},
         {"export",
          {"T.mtx", "R.mtx", "R_r.mtx", "R_g.mtx", "R_b.mtx", "K.mtx", "K_r.mtx", "K_g.mtx", "K_b.mtx", "Le.mtx", "b.mtx",
           "measure.mtx", "ray_measure.mtx", "patches.csv"}},
         {"conform", {"picture.exr", "reference.exr", "p-reference.exr", "p-error.exr", "difference.exr"}}};
     if (is_numbered(name, "bounce_") || is_numbered(name, "sum_") || is_way(name)) return "render";
     if (is_of_blame(name)) return "blame";
+    for (const std::string_view prefix : {"light_", "direct_", "forward_", "backward_"})
+        if (is_numbered(name, prefix)) return "unbounce";
     if (is_of_rows(name)) return "--keep";
     for (const auto& [command, its] : names)
         if (std::find(its.begin(), its.end(), name) != its.end()) return command;

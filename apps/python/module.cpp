@@ -33,6 +33,7 @@ PYBIND11_MODULE(_neumann, m) {
     bind_photons(m);
     bind_chains(m);
     bind_blame(m);
+    bind_unbounce(m);
 }
 
 namespace neumann {

@@ -36,6 +36,7 @@ void bind_study(py::module_& m);
 void bind_photons(py::module_& m);
 void bind_chains(py::module_& m);
 void bind_blame(py::module_& m);
+void bind_unbounce(py::module_& m);
 
 // (height, width, 3), row 0 at the top; float32, as in files.
 py::array_t<float> as_array(const Image& image);

@@ -185,6 +185,11 @@ Scene Scene::with(Materials other) const {
     return scene;
 }
 
+Scene Scene::with(Lights lights) const {
+    lights.of_shape.resize(geometry.shapes().size(), Emitters::none);
+    return Scene(shared_geometry_, materials, Emitters(geometry, std::move(lights)), camera, film, *this);
+}
+
 Scene Scene::with(const Film& other) const {
     Scene scene = *this;
     scene.film = film_of(camera.options(), other);

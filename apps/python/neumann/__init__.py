@@ -26,6 +26,7 @@ from ._photons import Photons
 from ._report import HealthWarning, NeumannWarning, Report
 from ._scene import Plan, Scene, load
 from ._study import Study
+from ._unbounce import LightPictures, Unbounced, unbounce
 
 __all__ = [
     "Blame",
@@ -33,6 +34,7 @@ __all__ = [
     "Chain",
     "HealthWarning",
     "InputError",
+    "LightPictures",
     "Matrices",
     "NeumannWarning",
     "Photons",
@@ -43,6 +45,7 @@ __all__ = [
     "Scene",
     "Solutions",
     "Study",
+    "Unbounced",
     "Way",
     "blame",
     "compare",
@@ -52,6 +55,7 @@ __all__ = [
     "series",
     "solve",
     "spectrum",
+    "unbounce",
 ]
 
 for _error in (InputError, RunError):

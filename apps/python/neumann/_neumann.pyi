@@ -81,6 +81,24 @@ def chain(scene: Scene, bounce: int, states: int, seed: int) -> Job: ...
 def photons(scene: Scene, paths: int, bounces: int, seed: int) -> Job: ...
 def study(scene: Scene, arguments: List[str]) -> Job: ...
 def blame(scene: Scene, pictures: Dict[int, NDArray[Any]], again: Dict[int, NDArray[Any]], arguments: List[str]) -> Job: ...
+def unbounce(
+    pictures: Any,
+    errors: Any,
+    direct: Any,
+    direct_errors: Any,
+    forward: Any,
+    forward_errors: Any,
+    picture: Any,
+    regions: Any,
+    blocks: Optional[Tuple[int, int]],
+    bounces: int,
+    regularisation: Optional[float],
+    with_direct: bool,
+    seed: int,
+) -> Job: ...
+def under_lights(
+    scene: Scene, columns: int, rows: int, width: Optional[int], bounces: int, samples: int, seed: int, threads: int
+) -> Job: ...
 def read(path: str) -> _Pictures: ...
 def compare(
     a: NDArray[Any],

@@ -17,6 +17,7 @@ from ._photons import Photons
 from ._progress import run
 from ._report import HealthWarning, Report, warn
 from ._study import Study
+from ._unbounce import LightPictures
 
 Path = Union[str, "PathLike[str]"]
 
@@ -125,6 +126,28 @@ class Scene:
     def photons(self, paths: int = 100_000, *, bounces: int = 8, seed: int = 0) -> Photons:
         """Photons of bounces 1 … bounces, from so many paths from the lights: points to look at. Raises InputError."""
         return Photons(run(_neumann.photons(self._scene, paths, bounces, seed)))
+
+    def under_lights(
+        self,
+        lights: Tuple[int, int] = (8, 8),
+        *,
+        width: Optional[int] = None,
+        spp: int = 64,
+        bounces: int = 6,
+        seed: int = 0,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> LightPictures:
+        """Its pictures under each block of a projector in the place of the camera, in place of its own lights, and the forward series under all
+        of them: what ``neumann unbounce`` renders.
+
+        lights: (columns, rows) of blocks. width: of the pictures, pixels; the film's without it. spp: samples a pixel and a light. Raises
+        InputError.
+        """
+        columns, rows = lights
+        job = _neumann.under_lights(self._scene, columns, rows, width, bounces, spp, seed, threads or 0)
+        made: LightPictures = run(job, quiet, lambda result: LightPictures((columns, rows), result))
+        return made
 
     def matrices(
         self,

@@ -1,0 +1,144 @@
+"""The Neumann series backwards: pictures of a scene under separate lights, taken apart into bounces."""
+
+from typing import Any, List, Optional, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _neumann, _report
+from ._display import as_table
+from ._progress import run
+from ._report import Report
+
+Lights = Tuple[int, int]
+
+
+class Unbounced:
+    """What ``unbounce()`` finds.
+
+    terms: Cⁿ L for n = 1, 2, …: arrays (height, width, 3), float32; terms[0] has bounced once. terms_stderr: their standard errors, None
+    where those of the pictures are not known. terms_discretisation: how far they are off because regions are large, estimated from regions
+    four times as large; None without ``lights``. rest: the picture less its terms.
+
+    bounces: for each term a Report of backward (mean, stderr, discretisation), and with forward pictures forward, difference (mean, stderr,
+    in_errors) and regions (relative_difference, by_noise). channels: for r, g and b condition, smallest_singular_value, noise, singular,
+    regularisation, and inverse_series_radius, below 1 where the series of T⁻¹ converges. doubts: kind and words, why it
+    is not to be trusted.
+
+    T, inverse, direct, A: for each channel the matrices of the regions: T (regions × lights), T⁻¹, T¹, and A = (T − T¹) T⁻¹ with errors A_stderr;
+    lights: which of the lights are in them.
+    """
+
+    def __init__(self, json: str, terms: List[Any], rest: NDArray[np.float32], channels: List[Any]) -> None:
+        data = _report.from_json(json)
+        self.terms: List[NDArray[np.float32]] = [term[0] for term in terms]
+        self.terms_stderr: Optional[List[NDArray[np.float32]]] = None if terms[0][1] is None else [term[1] for term in terms]
+        self.terms_discretisation: Optional[List[NDArray[np.float32]]] = None if terms[0][2] is None else [term[2] for term in terms]
+        self.rest: NDArray[np.float32] = rest
+        self.bounces: List[Report] = data.bounces
+        self.channels: List[Report] = data.channels
+        self.doubts: List[Report] = data.doubts
+        self.lights: List[List[int]] = [c[0] for c in channels]
+        self.T: List[NDArray[np.float64]] = [c[1] for c in channels]
+        self.inverse: List[NDArray[np.float64]] = [c[2] for c in channels]
+        self.direct: List[NDArray[np.float64]] = [c[3] for c in channels]
+        self.A: List[NDArray[np.float64]] = [c[4] for c in channels]
+        self.A_stderr: List[NDArray[np.float64]] = [c[5] for c in channels]
+
+    def __str__(self) -> str:
+        return "\n".join(doubt.words for doubt in self.doubts) or "no reason for doubt was found"
+
+    def __repr__(self) -> str:
+        return f"<Unbounced, bounces 1 to {len(self.terms)}: {', '.join(d.kind for d in self.doubts) or 'no doubts'}>"
+
+    def _repr_html_(self) -> str:
+        rows: List[List[Any]] = []
+        for b in self.bounces:
+            forward = [b.forward.mean, b.forward.stderr, b.difference.in_errors] if "forward" in b else ["", "", ""]
+            rows.append([b.bounce, b.backward.mean, b.backward.stderr, b.backward.get("discretisation", ""), *forward])
+        return as_table(["bounce", "backward", "±", "discretisation", "forward", "±", "apart, in errors"], rows, str(self))
+
+
+def unbounce(
+    pictures: ArrayLike,
+    *,
+    stderr: Optional[ArrayLike] = None,
+    direct: Optional[ArrayLike] = None,
+    direct_stderr: Optional[ArrayLike] = None,
+    forward: Optional[ArrayLike] = None,
+    forward_stderr: Optional[ArrayLike] = None,
+    picture: Optional[ArrayLike] = None,
+    regions: Optional[ArrayLike] = None,
+    lights: Optional[Lights] = None,
+    bounces: int = 6,
+    regularisation: Optional[float] = None,
+    use_direct: bool = False,
+    seed: int = 0,
+    quiet: bool = False,
+) -> Unbounced:
+    """Takes pictures of a scene under separate lights apart into bounces: as ``neumann unbounce``, on arrays.
+
+    pictures: (lights, height, width, 3), linear radiance; or a matrix T (regions, lights), a column a light, whose region r is that of light r.
+    stderr: their standard errors. direct: the direct light in them, and use_direct: take T¹ from it in place of from T⁻¹. forward: K^i Le of all
+    lights together, i = 1, 2, …, to compare with. picture: the one that is taken apart; without it the sum of all.
+
+    regions: (height, width), the number of the light, from 0, that a pixel belongs to, or −1; lights: (columns, rows), which are blocks of the
+    picture; without either the light under which a pixel is brightest. regularisation: Tikhonov's parameter. seed: of the repeats that tell
+    errors. Raises InputError.
+    """
+
+    def stack(given: Optional[ArrayLike]) -> Optional[NDArray[np.float64]]:
+        if given is None:
+            return None
+        array = np.asarray(given, dtype=float)
+        return np.repeat(array.T[:, None, :, None], 3, axis=3) if array.ndim == 2 else array
+
+    T = np.asarray(pictures, dtype=float)
+    if T.ndim == 2 and regions is None:
+        regions = np.arange(T.shape[0])[None, :]
+    job = _neumann.unbounce(
+        stack(pictures),
+        stack(stderr),
+        stack(direct),
+        stack(direct_stderr),
+        forward,
+        forward_stderr,
+        None if picture is None else np.repeat(np.asarray(picture, dtype=float)[None, :, None], 3, axis=2) if T.ndim == 2 else picture,
+        regions,
+        lights,
+        bounces,
+        regularisation,
+        use_direct,
+        seed,
+    )
+    found: Unbounced = run(job, quiet, lambda made: Unbounced(*made))
+    return found
+
+
+class LightPictures:
+    """A scene under each of a projector's lights, in the place of the camera: what ``Scene.under_lights()`` renders.
+
+    pictures and direct: (lights, height, width, 3), all bounces and bounce 1 alone; forward: (bounces, height, width, 3), K^i Le of all lights
+    together; each with standard errors of the same shape. lights: (columns, rows).
+    """
+
+    def __init__(self, lights: Lights, made: Any) -> None:
+        self.lights = lights
+        self.pictures: NDArray[np.float32]
+        (self.pictures, self.stderr, self.direct, self.direct_stderr, self.forward, self.forward_stderr, self.warnings) = made
+
+    def unbounce(self, *, bounces: Optional[int] = None, use_direct: bool = False, seed: int = 0, quiet: bool = False) -> Unbounced:
+        """``neumann.unbounce()`` of them, beside the forward terms."""
+        return unbounce(
+            self.pictures,
+            stderr=self.stderr,
+            direct=self.direct,
+            direct_stderr=self.direct_stderr,
+            forward=self.forward,
+            forward_stderr=self.forward_stderr,
+            lights=self.lights,
+            bounces=bounces or len(self.forward),
+            use_direct=use_direct,
+            seed=seed,
+            quiet=quiet,
+        )

@@ -1,0 +1,26 @@
+// Pictures of one scene under separate lights.
+#pragma once
+
+#include "core/image/image.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+// Pictures are asked for several times, so that only one need be in memory.
+struct LightPictures {
+    std::vector<std::string> names;                    // a light's, for messages; at least two
+    std::function<Estimate(std::size_t)> picture;      // W·m⁻²·sr⁻¹; without standard errors where they are not known
+    std::function<Estimate(std::size_t)> direct = {};  // what has bounced once in it; empty: not known
+
+    std::size_t lights() const { return names.size(); }
+};
+
+// The picture of a light. Throws InputError, beginning with its name, if it is not of this size or not finite.
+Estimate checked_picture(const LightPictures& pictures, std::size_t light, int width, int height);
+Estimate checked_direct(const LightPictures& pictures, std::size_t light, int width, int height);
+
+}  // namespace neumann
