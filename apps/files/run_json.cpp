@@ -7,7 +7,9 @@
 #include "apps/files/scene_json.h"
 #include "apps/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
+#include "operators/cache/record_places.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace neumann {
@@ -125,6 +127,18 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
     return json;
 }
 
+// Where the records of the cache stand.
+Json records_json(const RecordPlaces& places) {
+    std::vector<double> radii;
+    for (const Record& record : places.records()) radii.push_back(record.radius);
+    Json json = {{"number", radii.size()}, {"seen_by_camera", places.seen()}, {"rays_of_each", places.cells().size()}};
+    if (!radii.empty()) {
+        std::ranges::sort(radii);
+        json["radius_least_median_largest"] = {radii.front(), radii[radii.size() / 2], radii.back()};
+    }
+    return json;
+}
+
 Json samples_json(const BounceSeries& series) {
     Json json = {{"per_pixel", series.samples}};
     if (const auto* paths = std::get_if<PathRecord>(&series.record)) {
@@ -132,6 +146,7 @@ Json samples_json(const BounceSeries& series) {
         if (paths->first_replicate > 0) json["first_replicate"] = paths->first_replicate;
         for (const SeedRange& range : paths->merged)
             json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
+        if (paths->records) json["records"] = records_json(*paths->records);
         if (paths->photons) json["photons"] = photons_json(*paths->photons, *paths, series.report.bounces.size() - 1);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},

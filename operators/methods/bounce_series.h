@@ -36,8 +36,9 @@ struct PathRecord {
     // For `walk`: (albedo, the cost and second moment of a walk in a furnace of that albedo), for the scene's largest albedo and
     // others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
-    std::shared_ptr<const PhotonPilot> photons;  // of `photon`
-    std::optional<Health> health;                // none if only pictures were wanted
+    std::shared_ptr<const PhotonPilot> photons;   // of `photon`
+    std::shared_ptr<const RecordPlaces> records;  // of `cache`
+    std::optional<Health> health;                 // none if only pictures were wanted
 };
 
 // How a method with fields on patches ran.

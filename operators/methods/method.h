@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "operators/cache/cache_settings.h"
 #include "operators/walk/walk_settings.h"
 
 #include <cstddef>
@@ -90,6 +91,16 @@ struct Photon : PathOptions {
     bool operator==(const Photon&) const = default;
 };
 
+// An irradiance cache: records on diffuse surfaces hold the irradiance of each bounce, from that of the bounce before, and walks
+// from the camera read it nearby.
+struct Cache : PathOptions {
+    static constexpr const char* name = "cache";
+    Spacing records = Spacing::hessian;            // what says where records stand
+    std::optional<double> accuracy = {};           // the error allowed to records (cache_settings.h)
+    std::optional<std::uint32_t> directions = {};  // rays of a record in each pass
+    bool operator==(const Cache&) const = default;
+};
+
 // Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
 struct Classic : PathOptions {
     static constexpr const char* name = "classic";
@@ -131,8 +142,8 @@ struct Patches : FieldOptions {
 }  // namespace method
 
 using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                            method::Bidirectional, method::Photon, method::Classic, method::Pointwise, method::Matrix,
-                            method::Gather, method::Patches>;
+                            method::Bidirectional, method::Photon, method::Cache, method::Classic, method::Pointwise,
+                            method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);
@@ -148,6 +159,8 @@ inline bool has_fields(const Method& method) {
 }
 
 // Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
-inline bool is_biased(const Method& method) { return has_fields(method) || std::holds_alternative<method::Photon>(method); }
+inline bool is_biased(const Method& method) {
+    return has_fields(method) || std::holds_alternative<method::Photon>(method) || std::holds_alternative<method::Cache>(method);
+}
 
 }  // namespace neumann

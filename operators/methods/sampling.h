@@ -12,8 +12,8 @@ namespace neumann {
 // scene.
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed);
 
-// Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`, the radii of `photon`. Returns whether it needs
-// anything. Throws InputError, and Stopped if `watch` stops it.
+// Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`, the radii of `photon`, the places
+// of `cache`. Returns whether it needs anything. Throws InputError, and Stopped if `watch` stops it.
 bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
             const Watch& watch = {});
 

@@ -71,7 +71,7 @@ double Checkup::self_hits_at_most() const {
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
     if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected ||
-        settings.generator == PathGenerator::photon)
+        has_two_radii(settings.generator))
         return std::nullopt;
     const std::uint32_t size = settings.replicate_size;
     const std::uint64_t paths = std::uint64_t{static_cast<std::uint32_t>(sampler.width())} *

@@ -45,10 +45,12 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWor
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler> make_sampler(const Scene& scene, const SamplingSettings& settings) {
+std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler> make_sampler(
+    const Scene& scene, const SamplingSettings& settings) {
     if (splats(settings.generator)) return SplatSampler(scene, settings);
     if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
     if (settings.generator == PathGenerator::photon) return PhotonSampler(scene, settings);
+    if (settings.generator == PathGenerator::cache) return CacheSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 

@@ -1,0 +1,84 @@
+// Pictures in blocks of pixels, replicate by replicate, with their errors and their bias.
+#pragma once
+
+#include "operators/methods/sampling.h"
+#include "operators/pictures/picture_sampler.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace neumann::physics {
+
+// Means over blocks of pixels, of each channel and quantity, replicate by replicate.
+class Blocks {
+public:
+    // `part_of_bias`: what the difference between two radii is of the bias.
+    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates, double part_of_bias = 1.0)
+        : terms_(settings.pictures()), replicates_(replicates), part_of_bias_(part_of_bias) {
+        const PictureSampler sampler(scene, settings);
+        const std::size_t Q = settings.quantities();
+        const auto width = static_cast<std::size_t>(sampler.width()), size = static_cast<std::size_t>(block);
+        columns_ = width / size;
+        blocks_ = columns_ * (static_cast<std::size_t>(sampler.height()) / size);
+        quantities_ = Q;
+        Tally tally(Q);
+        for (std::uint64_t r = 0; r < replicates; ++r) {
+            const auto node = sampler.run(r, 1, tally).value();
+            std::vector<double> of(blocks_ * Q * 3, 0.0);
+            for (std::size_t pixel = 0; pixel < width * static_cast<std::size_t>(sampler.height()); ++pixel) {
+                const std::size_t b = pixel / width / size * columns_ + pixel % width / size;
+                for (std::size_t q = 0; q < Q; ++q)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        of[(b * Q + q) * 3 + c] +=
+                            node.data[(pixel * Q + q) * PixelMoments::doubles_per_quantity + c] / static_cast<double>(size * size);
+            }
+            all_.push_back(std::move(of));
+        }
+    }
+
+    struct Value {
+        double mean = 0.0, error = 0.0, bias = 0.0;
+    };
+    // Of the first n replicates.
+    Value at(std::size_t block, std::size_t term, std::size_t channel, std::uint64_t n) const {
+        const auto count = static_cast<double>(n);
+        const auto mean = [&](std::size_t q) {
+            double sum = 0.0;
+            for (std::uint64_t r = 0; r < n; ++r) sum += all_[r][(block * quantities_ + q) * 3 + channel];
+            return sum / count;
+        };
+        Value v{mean(term), 0.0, 0.0};
+        for (std::uint64_t r = 0; r < n; ++r)
+            v.error += std::pow(all_[r][(block * quantities_ + term) * 3 + channel] - v.mean, 2.0);
+        v.error = std::sqrt(v.error / (count * (count - 1.0)));
+        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / part_of_bias_;
+        return v;
+    }
+    // Of a replicate, from the differences of successive ones of [begin, end), whose means are nearly the same.
+    double variance(std::size_t block, std::size_t term, std::size_t channel, std::uint64_t begin, std::uint64_t end) const {
+        const auto value = [&](std::uint64_t r) { return all_[r][(block * quantities_ + term) * 3 + channel]; };
+        double squares = 0.0;
+        for (std::uint64_t r = begin + 1; r < end; ++r) squares += std::pow(value(r) - value(r - 1), 2.0);
+        return squares / (2.0 * static_cast<double>(end - begin - 1));
+    }
+    std::size_t blocks() const { return blocks_; }
+    std::uint64_t replicates() const { return replicates_; }
+
+private:
+    std::size_t terms_, quantities_ = 0, columns_ = 0, blocks_ = 0;
+    std::uint64_t replicates_;
+    double part_of_bias_;
+    std::vector<std::vector<double>> all_;
+};
+
+inline SamplingSettings settings_of(const Scene& scene, const Method& method, int bounces, std::uint64_t seed, double rest = 0.0) {
+    SamplingSettings settings = sampling_settings(method, scene, {}, seed);
+    settings.walk.bounces = bounces;
+    settings.walk.rest_probability = rest;
+    settings.replicate_size = is_biased(method) ? 4 : 16;
+    set_up(method, scene, bounces, seed, 1e9, settings);
+    return settings;
+}
+
+}  // namespace neumann::physics
