@@ -34,6 +34,7 @@ void bind_matrices(py::module_& m);
 void bind_solvers(py::module_& m);
 void bind_study(py::module_& m);
 void bind_photons(py::module_& m);
+void bind_records(py::module_& m);
 void bind_blame(py::module_& m);
 
 // (height, width, 3), row 0 at the top; float32, as in files.

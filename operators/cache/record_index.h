@@ -7,9 +7,10 @@
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 
-#include <cmath>
-#include <iterator>
+#include <cstdint>
+#include <utility>
 
 namespace neumann {
 
@@ -23,7 +24,7 @@ public:
     template <class F>
     void for_near(const Vec3& y, const F& f) const {
         const Point point(y.x, y.y, y.z);
-        for (auto found = tree_.qbegin(boost::geometry::index::intersects(point)); found != tree_.qend(); ++found) f(found->second);
+        tree_.query(boost::geometry::index::intersects(point), boost::make_function_output_iterator([&](const auto& of) { f(of.second); }));
     }
 
 private:

@@ -37,11 +37,12 @@ constexpr double disk_part = 0.1, smallest_part = 0.005;
 constexpr double smallest_extent = 1e-4;
 // The radius of records that the camera does not read: what they say is averaged over a hemisphere.
 constexpr double unseen_radius = 2.0;
-constexpr double turning_with_hessian = 0.25;
+// With the Hessian: s, and the largest radius as a part of R. What other rooms see lies behind what is near.
+constexpr double turning_with_hessian = 0.25, part_of_distance = 0.5;
 // Records lie within this part of their radius above or below the surface at y.
 constexpr double flat = 0.2;
 // Of a ray in a pass, and of what it finds.
-constexpr double bytes_of_ray = 128.0;
+constexpr double bytes_of_ray = 96.0;
 
 }  // namespace
 
@@ -254,11 +255,10 @@ private:
         // |λ1| + |λ2| of (h.x, h.y; h.y, h.z).
         const double mean = 0.5 * (h.x + h.z), spread = std::hypot(0.5 * (h.x - h.z), h.y),
                      curvature = 2.0 * std::max(std::abs(mean), spread);
-        // Light of which nothing is known yet is as smooth as the distances are large.
-        const double nearest = 1.0 / *std::ranges::max_element(work.inverse_distances);
-        if (!(curvature > 0.0)) return std::min(distance, nearest);
+        const double by_distance = part_of_distance * distance;
+        if (!(curvature > 0.0)) return by_distance;  // also where no light was found
         const double by_hessian = std::sqrt(std::sqrt(8.0 * settings.accuracy * E / curvature) * places_.disk_);
-        return std::min({by_hessian, by_gradient, nearest});
+        return std::min({by_hessian, by_gradient, by_distance});
     }
 
     const Scene& scene_;

@@ -13,7 +13,7 @@
 //     Hessian:      r⁴ = 8 a ℓ² E / (|λ1| + |λ2|):  (1/π r²) ∫ ½ uᵀHu ≤ a E where r = ℓ, and alike over r² elsewhere, which gives
 //                   the least sum of errors for the number of records
 //
-// and in any case at most E / |∂E/∂x|, beyond which what it says could be below 0.
+// the latter at most R/2, and both at most E / |∂E/∂x|, beyond which what a record says could be below 0.
 #pragma once
 
 #include "core/base/frame.h"

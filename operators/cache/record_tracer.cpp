@@ -25,7 +25,6 @@ struct RecordTracer::Rays {
     struct Link {
         glm::vec3 weight{0.0f};  // β ρ/π
         std::uint32_t record[2] = {};
-        std::array<float, 4> offset[2] = {};
         std::uint32_t bounce = 0;  // after so many reflections; 0: nowhere
         glm::vec2 translation{0.0f};
     };
@@ -123,7 +122,6 @@ void RecordTracer::send_out(std::uint64_t pass, std::size_t record, Rays& rays, 
                     const double part = weight_of(near, radii);
                     if (part == 0.0) continue;
                     link.record[radii] = near.record;
-                    link.offset[radii] = near.offset;
                     left -= part;
                     if (left < 0.0) break;
                 }
@@ -191,7 +189,7 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
         }
     };
     const auto said = [&](const Rays::Link& link, std::size_t radii, std::size_t k) {
-        return result.of(CachePass::Radii(radii), k)[link.record[radii]].at(link.offset[radii]);
+        return result.of(CachePass::Radii(radii), k)[link.record[radii]].value;
     };
     for (std::size_t k = 1; k <= kept_; ++k) {
         const bool of_rest = has_rest_ && k == kept_;
@@ -240,8 +238,7 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
             for (std::size_t radii = 0; radii < 2; ++radii) {
                 CachePass::Irradiance& S = next[radii][record];
                 S = irradiance(record, radii, work);
-                S.value += first[radii][record].value;
-                for (std::size_t j = 0; j < 4; ++j) S.derivative[j] += first[radii][record].derivative[j];
+                S += first[radii][record];
                 const glm::vec3 moved = glm::abs(S.value - result.of(CachePass::Radii(radii), kept_)[record].value);
                 for (int c = 0; c < 3; ++c) {
                     change[record] = std::max(change[record], moved[c]);

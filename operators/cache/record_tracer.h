@@ -2,10 +2,11 @@
 //
 //     E_1 = A L_1,    E_k = A (ρ/π E_{k−1}),    Σ_{k>N} E_k by the same recursion
 //
-// where A are the rays of all records at once: each brings direct light and, from the first diffuse surface with records nearby, what
-// one of these says, chosen by chance in proportion to its weight. A record's rays serve all its bounces, so that the terms of a pass
-// are those of one matrix; where light comes back to a record, the mean over passes is off by a part of about 1 / (rays of a record ·
-// number of records).
+// where A are the rays of all records at once: each brings direct light and, from the first diffuse surface with records nearby, the E
+// of one of these, chosen by chance in proportion to its weight. Derivatives are for the camera alone: without them a row of A ρ/π
+// is an average, ‖A ρ/π‖∞ ≤ the largest albedo, and the recursion converges where the series is sure to. A record's rays serve all its
+// bounces, so that the terms of a pass are those of one matrix; where light comes back to a record, the mean over passes is off by a
+// part of about 1 / (rays of a record · number of records).
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -37,13 +38,18 @@ public:
             for (std::size_t i = 0; i < 4; ++i) sum += offset[i] * derivative[i];
             return sum;
         }
+        Irradiance& operator+=(const Irradiance& other) {
+            value += other.value;
+            for (std::size_t i = 0; i < 4; ++i) derivative[i] += other.derivative[i];
+            return *this;
+        }
     };
 
     CachePass(const RecordPlaces& places, std::size_t bounces) : places_(&places), bounces_(bounces) {
         for (auto& values : values_) values.resize(bounces * places.records().size());
     }
 
-    // E_1 … E_{bounces−1} are kept one by one, and the last is the sum of all others, or 0 if there is no rest.
+    // E_1 … E_bounces are kept; with a rest the last is the sum of all from there on.
     std::size_t bounces() const { return bounces_; }
     std::span<Irradiance> of(Radii radii, std::size_t k) {
         const std::size_t records = places_->records().size();

@@ -102,6 +102,11 @@ std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scen
 
 }  // namespace
 
+CacheSettings settings_of(const method::Cache& cache) {
+    return {cache.records, cache.accuracy.value_or(default_accuracy(cache.records)),
+            cache.directions.value_or(default_rays_of_record)};
+}
+
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed) {
     SamplingSettings settings = std::visit([&](const auto& m) { return settings_of(m, scene); }, method);
     settings.walk.left_out = plan.walk;
@@ -120,10 +125,7 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
                                                                settings.sampler, seed, memory, watch);
     else if (const auto* cache = std::get_if<method::Cache>(&method))
         settings.records = std::make_shared<const RecordPlaces>(
-            scene,
-            CacheSettings{cache->records, cache->accuracy.value_or(default_accuracy(cache->records)),
-                          cache->directions.value_or(default_rays_of_record)},
-            settings.sampler, seed, memory, watch);
+            scene, settings_of(*cache), settings.sampler, seed, memory, watch);
     else
         return false;
     return true;

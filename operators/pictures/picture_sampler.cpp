@@ -166,6 +166,8 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
         return splats->sample_picture(replicate, picture, ranges, tally, watch);
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_))
         return photons->sample_picture(replicate, picture, ranges, tally, watch);
+    if (const auto* cache = std::get_if<CacheSampler>(&sampler_))
+        return cache->sample_picture(replicate, picture, ranges, tally, watch);
     return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);
 }
 

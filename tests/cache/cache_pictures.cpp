@@ -1,6 +1,7 @@
 // Pictures by an irradiance cache beside those of walks, bounce by bounce: they differ by no more than their standard errors and their
 // estimated bias say.
 #include "core/reader/read_scene.h"
+#include "operators/cache/record_places.h"
 #include "operators/methods/method_options.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/picture_blocks.h"

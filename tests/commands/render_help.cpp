@@ -34,7 +34,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
                                  "--method",     "--direct",     "--lights",    "--roulette",   "--split", "--ways",   "--sampler",
                                  "--patches",    "--directions", "--reference", "--seed",       "-t",      "-D",       "--lenient",
                                  "--quiet",      "--json",       "--files",     "--importance", "--plan",  "--memory", "--resume",
-                                 "--checkpoint", "--part",       "--photons",   "--radius",     "--gather"}));
+                                 "--checkpoint", "--part",       "--photons",   "--radius",     "--gather", "--records", "--accuracy"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
