@@ -26,8 +26,7 @@ py::dict as_dict(const std::vector<RecordPoint>& points, int bounces) {
         for (int c = 0; c < 3; ++c) {
             position.mutable_at(i, c) = point.record.x.position[c];
             normal.mutable_at(i, c) = point.record.frame.n[c];
-            for (int k = 0; k < bounces; ++k)
-                irradiance.mutable_at(i, k, c) = point.irradiance[static_cast<std::size_t>(k)][c];
+            for (int k = 0; k < bounces; ++k) irradiance.mutable_at(i, k, c) = point.irradiance[static_cast<std::size_t>(k)][c];
         }
         for (int c = 0; c < 2; ++c) pixel.mutable_at(i, c) = on_film[c];
         radius.mutable_at(i) = point.record.radius;

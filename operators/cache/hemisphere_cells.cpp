@@ -8,7 +8,8 @@
 namespace neumann {
 
 HemisphereCells::HemisphereCells(std::uint32_t rays)
-    : rings_(std::max(static_cast<std::uint32_t>(std::lround(std::sqrt(rays * inv_pi))), 1u)), sectors_(std::max(rays / rings_, 1u)) {
+    : rings_(std::max(static_cast<std::uint32_t>(std::lround(std::sqrt(rays * inv_pi))), 1u)),
+      sectors_(std::max(rays / rings_, 1u)) {
     const double N = sectors_;
     sector_sine_ = 2.0 * direction_on_circle(0.5 / N).y;
     for (std::uint32_t k = 0; k < sectors_; ++k) {
@@ -52,13 +53,11 @@ void HemisphereCells::translation(std::span<const double> inverse_distances, std
         weights[next] += of_difference;
         weights[cell] -= of_difference;
     };
-    for_boundaries(
-        [&](std::size_t cell, std::size_t next, double sine, std::size_t k) {
-            add(cell, next, middle_[k] * (sector_sine_ * sine * (1.0 - sine * sine)));
-        },
-        [&](std::size_t cell, std::size_t next, std::size_t j, const Vec2& u) {
-            add(cell, next, Vec2(-u.y, u.x) * (sine_[j + 1] - sine_[j]));
-        });
+    for_boundaries([&](std::size_t cell, std::size_t next, double sine,
+                       std::size_t k) { add(cell, next, middle_[k] * (sector_sine_ * sine * (1.0 - sine * sine))); },
+                   [&](std::size_t cell, std::size_t next, std::size_t j, const Vec2& u) {
+                       add(cell, next, Vec2(-u.y, u.x) * (sine_[j + 1] - sine_[j]));
+                   });
 }
 
 Vec3 HemisphereCells::hessian(std::span<const double> radiance, std::span<const double> inverse_distances) const {

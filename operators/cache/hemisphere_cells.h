@@ -1,5 +1,5 @@
-// The hemisphere over a point in M × N cells of equal projected solid angle, and what the radiance L_jk of a ray in each says of the
-// irradiance there and nearby:
+// The hemisphere over a point in M × N cells of equal projected solid angle, and what the radiance L_jk of a ray in each says of
+// the irradiance there and nearby:
 //
 //     E = π/(MN) Σ L_jk,    sin²θ from j/M to (j + 1)/M, φ from 2π k/N to 2π (k + 1)/N
 //
@@ -47,9 +47,9 @@ private:
 
     std::uint32_t rings_, sectors_;  // M, N
     std::vector<Vec2> rotation_;
-    std::vector<Vec2> middle_, edge_;      // of sectors: (cos φ, sin φ) in the middle, and where they begin
-    std::vector<double> sine_;             // of θ where rings begin, and π/2
-    double sector_sine_;                   // ∫ cos φ over a sector about 0: 2 sin(π/N)
+    std::vector<Vec2> middle_, edge_;  // of sectors: (cos φ, sin φ) in the middle, and where they begin
+    std::vector<double> sine_;         // of θ where rings begin, and π/2
+    double sector_sine_;               // ∫ cos φ over a sector about 0: 2 sin(π/N)
 };
 
 }  // namespace neumann

@@ -24,7 +24,8 @@ public:
     template <class F>
     void for_near(const Vec3& y, const F& f) const {
         const Point point(y.x, y.y, y.z);
-        tree_.query(boost::geometry::index::intersects(point), boost::make_function_output_iterator([&](const auto& of) { f(of.second); }));
+        tree_.query(boost::geometry::index::intersects(point),
+                    boost::make_function_output_iterator([&](const auto& of) { f(of.second); }));
     }
 
 private:

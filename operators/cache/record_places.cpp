@@ -114,10 +114,10 @@ private:
     // The first diffuse vertices of paths from the camera.
     std::vector<Seen> camera_vertices() {
         const Film& film = scene_.film;
-        const std::uint64_t wanted =
-            std::uint64_t{paths_a_pixel} * static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);
-        const std::uint32_t count = std::bit_floor(
-            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, fewest_camera_paths, most_camera_paths)));
+        const std::uint64_t wanted = std::uint64_t{paths_a_pixel} * static_cast<std::uint64_t>(film.crop_width) *
+                                     static_cast<std::uint64_t>(film.crop_height);
+        const std::uint32_t count =
+            std::bit_floor(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, fewest_camera_paths, most_camera_paths)));
         const SobolPoints net(count);
         std::vector<std::optional<Seen>> found(count);
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, count, 256), [&](const auto& range) {
@@ -197,10 +197,11 @@ private:
         records.push_back({vertex.x, vertex.frame, clamped(proposal.radius * (seen ? 1.0 : unseen_radius)), seen});
         const double bytes = bytes_of_ray * static_cast<double>(records.size() * places_.cells_.size());
         if (bytes > memory_)
-            throw InputError(fmt::format(
-                "--accuracy {:g}: the rays of {} records, and more are needed, take {:.1f} GiB, and {:.1f} may be taken; take a larger "
-                "number, or fewer --directions",
-                places_.settings_.accuracy, records.size(), bytes / 0x1p30, memory_ / 0x1p30));
+            throw InputError(
+                fmt::format("--accuracy {:g}: the rays of {} records, and more are needed, take {:.1f} GiB, and {:.1f} may be "
+                            "taken; take a larger "
+                            "number, or fewer --directions",
+                            places_.settings_.accuracy, records.size(), bytes / 0x1p30, memory_ / 0x1p30));
         places_.index_->add(records.back(), static_cast<std::uint32_t>(records.size() - 1));
         ahead_.insert(ahead_.end(), proposal.sees.begin(), proposal.sees.end());
     }
@@ -248,7 +249,8 @@ private:
         for (std::size_t i = 0; i < count; ++i) gradient += work.translation[i] * work.grey[i];
         const double E = cells.weight() * sum, steep = glm::length(gradient);
         const double by_gradient = steep > 0.0 ? E / steep : std::numeric_limits<double>::infinity(),
-                     distance = inverse_sum > 0.0 ? static_cast<double>(count) / inverse_sum : std::numeric_limits<double>::infinity();
+                     distance =
+                         inverse_sum > 0.0 ? static_cast<double>(count) / inverse_sum : std::numeric_limits<double>::infinity();
         const CacheSettings& settings = places_.settings_;
         if (settings.spacing == Spacing::split_sphere) return std::min(settings.accuracy * distance, by_gradient);
         const Vec3 h = cells.hessian(work.grey, work.inverse_distances);
@@ -283,8 +285,8 @@ public:
     }
 };
 
-RecordPlaces::RecordPlaces(const Scene& scene, const CacheSettings& settings, SamplerKind sampler, std::uint64_t seed, double memory,
-                           const Watch& watch)
+RecordPlaces::RecordPlaces(const Scene& scene, const CacheSettings& settings, SamplerKind sampler, std::uint64_t seed,
+                           double memory, const Watch& watch)
     : settings_(settings),
       cells_(settings.rays),
       index_(std::make_unique<Index>()),

@@ -1,5 +1,5 @@
-// Where the records of an irradiance cache stand, and how far from there they are read. The places are chosen once, before the first
-// sample: all passes fill the same ones, so that their spread is that of the samples alone.
+// Where the records of an irradiance cache stand, and how far from there they are read. The places are chosen once, before the
+// first sample: all passes fill the same ones, so that their spread is that of the samples alone.
 //
 // A record is read at y with normal n, e < 1, with the weight 1 − e (after Ward and others, 1988):
 //

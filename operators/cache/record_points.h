@@ -16,7 +16,7 @@ struct RecordPoint {
 
 // All records of a cache, in the order in which they were placed, filled once. Throws InputError as RecordPlaces does, and Stopped.
 // The same on any number of threads.
-std::vector<RecordPoint> record_points(const Scene& scene, const CacheSettings& settings, int bounces, std::uint64_t seed, double memory,
-                                       const Watch& watch = {});
+std::vector<RecordPoint> record_points(const Scene& scene, const CacheSettings& settings, int bounces, std::uint64_t seed,
+                                       double memory, const Watch& watch = {});
 
 }  // namespace neumann

@@ -63,8 +63,7 @@ std::optional<std::uint32_t> CachePass::read(const Vec3& y, const Vec3& n, std::
             sums[radii] += double{weight[radii]};
             if (weight[radii] == 0.0f) continue;
             for (std::size_t k = 0; k < bounces_; ++k)
-                E[2 * k + radii] +=
-                    Rgb(weight[radii] * values_[radii][k * places_->records().size() + of.record].at(of.offset));
+                E[2 * k + radii] += Rgb(weight[radii] * values_[radii][k * places_->records().size() + of.record].at(of.offset));
         }
         if (weight[narrow] <= most) continue;
         most = weight[narrow];

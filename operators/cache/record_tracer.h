@@ -2,11 +2,11 @@
 //
 //     E_1 = A L_1,    E_k = A (ρ/π E_{k−1}),    Σ_{k>N} E_k by the same recursion
 //
-// where A are the rays of all records at once: each brings direct light and, from the first diffuse surface with records nearby, the E
-// of one of these, chosen by chance in proportion to its weight. Derivatives are for the camera alone: without them a row of A ρ/π
-// is an average, ‖A ρ/π‖∞ ≤ the largest albedo, and the recursion converges where the series is sure to. A record's rays serve all its
-// bounces, so that the terms of a pass are those of one matrix; where light comes back to a record, the mean over passes is off by a
-// part of about 1 / (rays of a record · number of records).
+// where A are the rays of all records at once: each brings direct light and, from the first diffuse surface with records nearby,
+// the E of one of these, chosen by chance in proportion to its weight. Derivatives are for the camera alone: without them a row of
+// A ρ/π is an average, ‖A ρ/π‖∞ ≤ the largest albedo, and the recursion converges where the series is sure to. A record's rays
+// serve all its bounces, so that the terms of a pass are those of one matrix; where light comes back to a record, the mean over
+// passes is off by a part of about 1 / (rays of a record · number of records).
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -96,7 +96,7 @@ private:
     std::shared_ptr<const DirectLightSampler> direct_;
     WalkSettings walk_;  // of records: what they are asked for is reflected once more
     bool has_rest_;
-    std::size_t kept_;   // CachePass::bounces()
+    std::size_t kept_;  // CachePass::bounces()
     std::shared_ptr<const RecordPlaces> places_;
     SamplerKind sampler_;
     std::uint64_t seed_;

@@ -17,9 +17,9 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Auto{},    method::Walk{},      method::Guided{},        method::Corrected{},
-                                         method::Surface{}, method::Light{},     method::Bidirectional{}, method::Photon{},
-                                         method::Cache{},   method::Classic{},   method::Pointwise{},     method::Matrix{},
+    static const std::vector<Method> all{method::Auto{},    method::Walk{},    method::Guided{},        method::Corrected{},
+                                         method::Surface{}, method::Light{},   method::Bidirectional{}, method::Photon{},
+                                         method::Cache{},   method::Classic{}, method::Pointwise{},     method::Matrix{},
                                          method::Gather{},  method::Patches{}};
     return all;
 }
@@ -238,9 +238,8 @@ std::vector<MethodOption> make_options() {
             [](auto& m, std::size_t n) { m.patches = n; }),
         whole<std::uint32_t>(
             "directions", "N",
-            "For guided, corrected, patches, matrix and gather: the number of rays of a patch; for cache: of a record, in a pass", 1,
-            1u << 20,
-            [](const auto& m) requires requires { m.directions; } { return m.directions; },
+            "For guided, corrected, patches, matrix and gather: the number of rays of a patch; for cache: of a record, in a pass",
+            1, 1u << 20, [](const auto& m) requires requires { m.directions; } { return m.directions; },
             [](auto& m, std::uint32_t n) { m.directions = n; }),
         whole<std::uint32_t>(
             "photons", "N", "For photon: the number of paths from the lights in a pass (a replicate)", 1, 1u << 28,
@@ -258,7 +257,8 @@ std::vector<MethodOption> make_options() {
             [](const auto& m) requires requires { m.gather; } { return m.gather; }, [](auto& m, bool on) { m.gather = on; }),
         choice(
             "records", "HOW",
-            "For cache: what says how far apart records stand: hessian (the second derivatives of their irradiance, the default) or "
+            "For cache: what says how far apart records stand: hessian (the second derivatives of their irradiance, the default) "
+            "or "
             "split-sphere (the distances of what they see)",
             spacings, [](const auto& m) requires requires { m.records; } { return m.records; },
             [](auto& m, Spacing s) { m.records = s; }),

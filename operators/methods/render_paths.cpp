@@ -121,10 +121,10 @@ void report_bias(const SeriesMoments::Result& result, PathGenerator generator, B
     }
     const Estimate sum = series.sum(series.report.bounces.size() - 1);
     const double mean = size(sum.mean);
-    series.report.sum_discretisation = report(sum, generator == PathGenerator::photon
-                                                       ? relative_standard_error(sum) / (std::numbers::sqrt2 * part)
-                                                   : mean > 0.0 ? noise / (part * mean)
-                                                                : 0.0);
+    series.report.sum_discretisation =
+        report(sum, generator == PathGenerator::photon ? relative_standard_error(sum) / (std::numbers::sqrt2 * part)
+                    : mean > 0.0                       ? noise / (part * mean)
+                                                       : 0.0);
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,

@@ -124,8 +124,7 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
         settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{photon->photons, photon->radius, photon->gather},
                                                                settings.sampler, seed, memory, watch);
     else if (const auto* cache = std::get_if<method::Cache>(&method))
-        settings.records = std::make_shared<const RecordPlaces>(
-            scene, settings_of(*cache), settings.sampler, seed, memory, watch);
+        settings.records = std::make_shared<const RecordPlaces>(scene, settings_of(*cache), settings.sampler, seed, memory, watch);
     else
         return false;
     return true;

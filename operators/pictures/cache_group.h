@@ -56,7 +56,8 @@ void CacheSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
                 if (is_finite(lost)) out.quantities[i * Q + terms + q] += lost;  // what is not is found in the term
                 all += weight * E;
             }
-            observer.reads(i, static_cast<std::uint32_t>(*largest * settings_.records->cells().size() + pass.brightest_ray(*largest)),
+            observer.reads(i,
+                           static_cast<std::uint32_t>(*largest * settings_.records->cells().size() + pass.brightest_ray(*largest)),
                            std::numeric_limits<std::uint32_t>::max(), all);
             return true;
         };
@@ -64,8 +65,8 @@ void CacheSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
                             [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
         walk_to_records(*scene_, *direct_, walk, samplers, work.walkers, out.rays, out.given_up, read, find, observer);
     };
-    work.tally.given_up += trace(*scene_, sample, std::span(work.camera), std::span<const Pixel>(work.pixels), replicate, work.group,
-                                 std::span(work.tally.rays));
+    work.tally.given_up += trace(*scene_, sample, std::span(work.camera), std::span<const Pixel>(work.pixels), replicate,
+                                 work.group, std::span(work.tally.rays));
 }
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// Pictures by an irradiance cache beside those of walks, bounce by bounce: they differ by no more than their standard errors and their
-// estimated bias say.
+// Pictures by an irradiance cache beside those of walks, bounce by bounce: they differ by no more than their standard errors and
+// their estimated bias say.
 #include "core/reader/read_scene.h"
 #include "operators/cache/record_places.h"
 #include "operators/methods/method_options.h"
@@ -27,9 +27,9 @@ struct Case {
 };
 
 // |cache − reference| ≤ t SE + bias in 95% of all blocks, bounces and channels, and in 90% of those of a scene; and nowhere farther
-// off than 4.5 SE + 2 bias. Blocks that the reference does not know to 2% are left out. Values of a scene go together (all blocks of a
-// pass read the same records), so that 150 of them are about as many as 50: 90% leaves 1.6 standard deviations of their number, with
-// intervals that are wider than 95% by the bias.
+// off than 4.5 SE + 2 bias. Blocks that the reference does not know to 2% are left out. Values of a scene go together (all blocks
+// of a pass read the same records), so that 150 of them are about as many as 50: 90% leaves 1.6 standard deviations of their
+// number, with intervals that are wider than 95% by the bias.
 TEST(CachePicturesSlow, AreWithinTheirStatedErrors) {
     int within_all = 0, all = 0;
     for (const Case& c : {Case{"cornell-box", "walk", 64, true}, Case{"door-ajar", "bidirectional", 256, true},
@@ -48,8 +48,7 @@ TEST(CachePicturesSlow, AreWithinTheirStatedErrors) {
             for (std::size_t q = 0; q <= bounces + (c.rest ? 1 : 0); ++q)
                 for (std::size_t b = 0; b < cache.blocks(); ++b)
                     for (std::size_t channel = 0; channel < 3; ++channel) {
-                        const auto p = cache.at(b, q, channel, cache.replicates()),
-                                   r = reference.at(b, q, channel, c.replicates);
+                        const auto p = cache.at(b, q, channel, cache.replicates()), r = reference.at(b, q, channel, c.replicates);
                         if (r.mean == 0.0 || r.error > 0.02 * r.mean) continue;
                         const double error = std::hypot(p.error, r.error), off = std::abs(p.mean - r.mean);
                         within += off <= student_t_quantile(0.95, 127.0) * error + p.bias;
@@ -58,7 +57,8 @@ TEST(CachePicturesSlow, AreWithinTheirStatedErrors) {
                             << p.mean << " ± " << p.error << " and bias " << p.bias << ", " << r.mean << " ± " << r.error;
                         ++count;
                     }
-            std::printf("%s, %s: %zu records, %d of %d within\n", c.scene, records, settings.records->records().size(), within, count);
+            std::printf("%s, %s: %zu records, %d of %d within\n", c.scene, records, settings.records->records().size(), within,
+                        count);
             EXPECT_GE(within, 0.9 * count) << c.scene << ", " << records;
             EXPECT_GE(count, 30) << c.scene;
             within_all += within;

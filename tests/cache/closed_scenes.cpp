@@ -1,5 +1,5 @@
-// Irradiance caches where the series is known in closed form: light is the same everywhere on a surface, so that interpolation is right
-// on average and all that is left is noise. And what is the same whatever the machine does: the bits.
+// Irradiance caches where the series is known in closed form: light is the same everywhere on a surface, so that interpolation is
+// right on average and all that is left is noise. And what is the same whatever the machine does: the bits.
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
 #include "operators/cache/record_places.h"
@@ -26,8 +26,8 @@ SamplingSettings cache_settings(const Scene& scene, const char* rays) {
     return settings_of(scene, make_method({"cache", {{"directions", rays}}}), bounces, fixed_seed, 0.5);
 }
 
-// The white furnace, K^i Le = ρ^i and Σ_{i>N} ρ^i = ρ^(N+1)/(1 − ρ): 8 scenes, bounces 2 … 4 and the rest, 3 channels. 96 comparisons
-// at |z| ≤ 4.5, a false alarm in 1500 runs. Passed over 50 seeds.
+// The white furnace, K^i Le = ρ^i and Σ_{i>N} ρ^i = ρ^(N+1)/(1 − ρ): 8 scenes, bounces 2 … 4 and the rest, 3 channels. 96
+// comparisons at |z| ≤ 4.5, a false alarm in 1500 runs. Passed over 50 seeds.
 TEST(CacheClosedScenesSlow, Furnace) {
     const Rgb albedo(0.25, 0.5, 0.75);
     for (known::ClosedScene& enclosure : known::enclosures({albedo, Rgb(1.0)})) {
@@ -44,14 +44,15 @@ TEST(CacheClosedScenesSlow, Furnace) {
                 const auto found = cache.at(0, i, channel, cache.replicates());
                 EXPECT_LE(found.error, largest_error * exact);
                 EXPECT_LE(std::abs(found.mean - exact), 4.5 * found.error)
-                    << "bounce " << i << ", channel " << channel << ": " << found.mean << " ± " << found.error << ", exactly " << exact;
+                    << "bounce " << i << ", channel " << channel << ": " << found.mean << " ± " << found.error << ", exactly "
+                    << exact;
             }
     }
 }
 
-// A sphere closed by a disc that shines, two surfaces with K = [0, ρd; ρs (1 − f), ρs f], f = 3/4 (operators/known/two_patches.cpp):
-// 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48 comparisons at |z| ≤ 4.5, a false alarm in 3000 runs.
-// Passed over 50 seeds.
+// A sphere closed by a disc that shines, two surfaces with K = [0, ρd; ρs (1 − f), ρs f], f = 3/4
+// (operators/known/two_patches.cpp): 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48 comparisons at |z|
+// ≤ 4.5, a false alarm in 3000 runs. Passed over 50 seeds.
 TEST(CacheClosedScenesSlow, SphereClosedByADisc) {
     const Scene scene = read_scene(SCENES "/sphere-segment/sphere-segment.xml", {{"res", "32"}});
     const Blocks cache(scene, cache_settings(scene, "256"), 8, 256, wider - 1.0);
@@ -96,8 +97,8 @@ TEST(CacheClosedScenes, HaveTheSameBitsOnAnyNumberOfThreads) {
     EXPECT_EQ(bits(7), one);
 }
 
-// Every vertex near which a record stands is read with weights that the record itself has at its place; and places do not depend on the
-// number of bounces.
+// Every vertex near which a record stands is read with weights that the record itself has at its place; and places do not depend on
+// the number of bounces.
 TEST(CacheClosedScenes, RecordsCoverWhatIsSeen) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "32"}});
     const auto places = [&](Spacing spacing, double accuracy) {
@@ -105,7 +106,8 @@ TEST(CacheClosedScenes, RecordsCoverWhatIsSeen) {
     };
     std::vector<RecordPlaces::Near> near;
     for (const Spacing spacing : {Spacing::hessian, Spacing::split_sphere}) {
-        const RecordPlaces few = places(spacing, 2.0 * default_accuracy(spacing)), usual = places(spacing, default_accuracy(spacing));
+        const RecordPlaces few = places(spacing, 2.0 * default_accuracy(spacing)),
+                           usual = places(spacing, default_accuracy(spacing));
         EXPECT_LT(few.records().size(), usual.records().size());
         EXPECT_GT(few.seen(), 20u);
         EXPECT_LT(usual.seen(), usual.records().size());  // some of what records see is out of the picture
@@ -117,7 +119,9 @@ TEST(CacheClosedScenes, RecordsCoverWhatIsSeen) {
             EXPECT_LE(self->error, 1e-6f);
             // None stands where another one of its kind, placed before, already said enough.
             for (const auto& of : near) {
-                if (of.record < i && usual.records()[of.record].is_seen >= record.is_seen) { EXPECT_GE(of.error, 0.8f - 1e-6f); }
+                if (of.record < i && usual.records()[of.record].is_seen >= record.is_seen) {
+                    EXPECT_GE(of.error, 0.8f - 1e-6f);
+                }
             }
         }
     }

@@ -60,8 +60,8 @@ Derivatives exact(const Rectangle& light) {
     Derivatives d{moved(0.0, 0.0)};
     d.turn = Vec2(turned(h, 0.0) - turned(-h, 0.0), turned(0.0, h) - turned(0.0, -h)) / (2.0 * h);
     d.move = Vec2(moved(h, 0.0) - moved(-h, 0.0), moved(0.0, h) - moved(0.0, -h)) / (2.0 * h);
-    d.hessian = Vec3(moved(h, 0.0) - 2.0 * d.E + moved(-h, 0.0),
-                     0.25 * (moved(h, h) - moved(h, -h) - moved(-h, h) + moved(-h, -h)), moved(0.0, h) - 2.0 * d.E + moved(0.0, -h)) /
+    d.hessian = Vec3(moved(h, 0.0) - 2.0 * d.E + moved(-h, 0.0), 0.25 * (moved(h, h) - moved(h, -h) - moved(-h, h) + moved(-h, -h)),
+                     moved(0.0, h) - 2.0 * d.E + moved(0.0, -h)) /
                 (h * h);
     return d;
 }
@@ -87,17 +87,16 @@ Derivatives estimate(const HemisphereCells& cells, const Rectangle& light, std::
     return d;
 }
 
-const std::array<Rectangle, 4> lights{
-    // Above, off to one side; upright beside it; near and large; far and small, slanted.
-    Rectangle{Vec3(0.3, -0.6, 1.0), Vec3(0.9, 0.0, 0.0), Vec3(0.0, 1.1, 0.0)},
-    Rectangle{Vec3(1.2, -0.7, 0.3), Vec3(0.0, 1.5, 0.0), Vec3(0.0, 0.0, 1.4)},
-    Rectangle{Vec3(-2.0, -1.0, 0.7), Vec3(2.5, 0.2, 0.0), Vec3(-0.24, 3.0, 0.1)},
-    Rectangle{Vec3(-1.0, 1.0, 1.5), Vec3(0.4, 0.3, 0.2), Vec3(-0.3, 0.4, 0.0)}};
+const std::array<Rectangle, 4> lights{// Above, off to one side; upright beside it; near and large; far and small, slanted.
+                                      Rectangle{Vec3(0.3, -0.6, 1.0), Vec3(0.9, 0.0, 0.0), Vec3(0.0, 1.1, 0.0)},
+                                      Rectangle{Vec3(1.2, -0.7, 0.3), Vec3(0.0, 1.5, 0.0), Vec3(0.0, 0.0, 1.4)},
+                                      Rectangle{Vec3(-2.0, -1.0, 0.7), Vec3(2.5, 0.2, 0.0), Vec3(-0.24, 3.0, 0.1)},
+                                      Rectangle{Vec3(-1.0, 1.0, 1.5), Vec3(0.4, 0.3, 0.2), Vec3(-0.3, 0.4, 0.0)}};
 
 // E is unbiased for any cells. The derivatives take the light to be constant in each cell: their means over hemispheres are off in
-// proportion to the width of cells, so that means of two numbers of cells, extrapolated to width 0, are the exact derivatives but for
-// errors of second order. Those are below 3% of the largest derivative of the same order at 16 000 and 131 000 cells, which is what
-// the test allows beside 4.5 standard errors, at most 0.8%: 32 comparisons, a false alarm in 4600 runs. Passed over 200 seeds.
+// proportion to the width of cells, so that means of two numbers of cells, extrapolated to width 0, are the exact derivatives but
+// for errors of second order. Those are below 3% of the largest derivative of the same order at 16 000 and 131 000 cells, which is
+// what the test allows beside 4.5 standard errors, at most 0.8%: 32 comparisons, a false alarm in 4600 runs. Passed over 200 seeds.
 TEST(HemisphereCells, DerivativesOfTheIrradianceOfARectangle) {
     for (std::size_t which = 0; which < lights.size(); ++which) {
         const Rectangle& light = lights[which];
@@ -126,7 +125,9 @@ TEST(HemisphereCells, DerivativesOfTheIrradianceOfARectangle) {
             const double of_wide = k == 0 ? 0.0 : width[1] / (width[0] - width[1]);
             const double value = mean[1][k] + of_wide * (mean[1][k] - mean[0][k]),
                          spread = std::hypot((1.0 + of_wide) * error[1][k], of_wide * error[0][k]),
-                         size = k == 0 ? truth.E : k < 5 ? first : second;
+                         size = k == 0  ? truth.E
+                                : k < 5 ? first
+                                        : second;
             EXPECT_LE(spread, 0.008 / 4.5 * size);
             EXPECT_LE(std::abs(value - truth.all()[k]), 4.5 * spread + (k == 0 ? 0.0 : 0.03 * size))
                 << "light " << which << ", quantity " << k << ": " << value << " ± " << spread << " from " << mean[0][k] << " and "

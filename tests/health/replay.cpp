@@ -46,7 +46,8 @@ protected:
         if (s.generator == PathGenerator::photon)
             s.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{1000, {}, false}, s.sampler, s.seed);
         if (s.generator == PathGenerator::cache)
-            s.records = std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 32}, s.sampler, s.seed, 1e9);
+            s.records =
+                std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 32}, s.sampler, s.seed, 1e9);
         return s;
     }
 };
@@ -109,8 +110,9 @@ INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
                                          Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
                                          Case{"WalkSplit", PathGenerator::walk, SamplerKind::sobol, {3, 2}},
                                          Case{"Guided", PathGenerator::guided}, Case{"Corrected", PathGenerator::corrected},
-                                         Case{"Photon", PathGenerator::photon}, Case{"Cache", PathGenerator::cache}, Case{"Surface", PathGenerator::surface},
-                                         Case{"Classic", PathGenerator::classic}, Case{"Light", PathGenerator::light},
+                                         Case{"Photon", PathGenerator::photon}, Case{"Cache", PathGenerator::cache},
+                                         Case{"Surface", PathGenerator::surface}, Case{"Classic", PathGenerator::classic},
+                                         Case{"Light", PathGenerator::light},
                                          Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
                                          Case{"Bidirectional", PathGenerator::bidirectional},
                                          Case{"BidirectionalSplit", PathGenerator::bidirectional, SamplerKind::sobol, {3, 2}}),

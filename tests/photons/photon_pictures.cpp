@@ -17,8 +17,8 @@
 
 namespace neumann::photon_pictures_test {
 
-using physics::fixed_seed;
 using physics::Blocks;
+using physics::fixed_seed;
 using physics::settings_of;
 
 constexpr double part_of_bias = 1.0 - 1.0 / std::numbers::sqrt2;
