@@ -228,6 +228,50 @@ for i in (1, 2, 3):
     assert abs(a.mean - b.mean) <= limit(min(a.degrees_of_freedom, b.degrees_of_freedom)) * both + blur  # three: 1 in 12 000
 
 # %% [markdown]
+# ## Records: irradiance that is kept
+# Light that has been reflected before changes slowly along a diffuse surface. So let few points know it well, and read it nearby: an
+# *irradiance cache* (Ward 1988). A record holds $E_k = \int (T K^k L_e) \cos\theta\, d\omega$ for every $k \ge 1$, from one hemisphere
+# of rays, and $K^{k+1} L_e = \frac{\rho}{\pi} E_k$. Where a ray ends, it reads $E_{k-1}$ of the records there: $K^i L_e = K\,(K^{i-1}
+# L_e)$. The same rays tell how $E_k$ changes along the surface, and how fast that change changes, which says how far apart records
+# may stand.
+
+# %%
+cornell = scene("cornell-box", res=96)
+records = cornell.records(bounces=2, seed=seed)
+shown = records.seen & ~np.isnan(records.pixel[:, 0])
+figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.8))
+for axis, k in zip(axes, (1, 2)):
+    E = records.irradiance[shown, k - 1]
+    axis.scatter(*records.pixel[shown].T, s=9, c=np.clip(E / np.quantile(E, 0.98), 0, 1) ** (1 / 2.2), edgecolors="black", linewidths=0.2)
+    axis.set(xlim=(0, 96), ylim=(96, 0), xticks=[], yticks=[], aspect="equal", facecolor="0.5", title=f"$E_{k}$ of {shown.sum()} records")
+plt.show()
+print(records)
+print("radius: least {:.3g}, median {:.3g}, largest {:.3g}".format(*np.quantile(records.radius, (0, 0.5, 1))))
+
+# %% [markdown]
+# The figure: where records stand, in the colour of their irradiance. They crowd where walls meet and at the edges of the boxes.
+#
+# **Q6.** Why there? And why does the light of the lamp itself, $E_0$, not belong into a record? (A6: near an edge the light that a point
+# receives from the other wall changes over the distance to it. $E_0$ has sharp shadows, over which no record reaches.)
+#
+# `method="cache"` fills the records anew in every pass. What it gets wrong, besides noise, is what it reads between its records. It
+# reads all with two radii, and tells from the difference how large that error is: again `discretisation`. But here no number of samples
+# makes it smaller, only records that stand closer (`accuracy=`).
+
+# %%
+small = scene("cornell-box", res=32)
+by_records = small.render(bounces=3, spp=256, method="cache", seed=seed, quiet=True)
+by_walks = small.render(bounces=3, spp=256, method="walk", seed=seed + 1, quiet=True)
+for i in (2, 3):
+    a, b = by_records.run.bounces[i], by_walks.run.bounces[i]
+    wrong = np.mean(by_records.terms_discretisation[i])
+    noise = [np.mean(np.square(x.terms_stderr[i], dtype=float)) ** 0.5 for x in (by_records, by_walks)]
+    print(f"bounce {i}: records {a.mean:.5f} ± {a.stderr:.5f}, wrong by up to {wrong:.5f}; walks {b.mean:.5f} ± {b.stderr:.5f}")
+    print(f"          noise of a pixel: {noise[0]:.5f}, walks {noise[1]:.5f}")
+    both = np.hypot(a.stderr, b.stderr)
+    assert abs(a.mean - b.mean) <= limit(min(a.degrees_of_freedom, b.degrees_of_freedom)) * both + wrong  # two: 1 in 18 000
+
+# %% [markdown]
 # ## Russian roulette
 # A walk in a furnace of albedo $\rho$ that goes on with probability $q$ and is weighted by $1/q$ has the score
 # $X = \sum_{k \le N} (\rho/q)^k$ with $P(N \ge k) = q^k$. Its mean is $1/(1-\rho)$ for any $q$. Its second moment is, with
@@ -235,7 +279,7 @@ for i in (1, 2, 3):
 #
 # $$E[X^2] = \frac{1 + w q}{(1 - w q)(1 - w^2 q)} \text{ where } w^2 q = \rho^2/q < 1, \text{ and } \infty \text{ otherwise.}$$
 #
-# **Q6.** So $q$ may be smaller than $\rho$, but not than $\rho^2$. What is the variance at $q = \rho$? (A6: every score is
+# **Q7.** So $q$ may be smaller than $\rho$, but not than $\rho^2$. What is the variance at $q = \rho$? (A7: every score is
 # $N + 1$: $q/(1-q)^2$.)
 
 # %%
@@ -304,7 +348,7 @@ plt.show()
 # largest tree costs bounce 1 five times as much and wins nothing over four walks, for its sixteen start at the same point. Would
 # you have guessed?
 #
-# **Q7.** A tree that branches at *every* stop has $C^i$ walks in bounce $i$. Where does its effort go, and where is the light?
+# **Q8.** A tree that branches at *every* stop has $C^i$ walks in bounce $i$. Where does its effort go, and where is the light?
 #
 # ## Exercises
 # 1. Start the walk on the matrix in the middle of the ceiling. Predict its variances first.

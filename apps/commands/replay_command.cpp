@@ -125,6 +125,8 @@ std::string heading(const PathStep& step) {
             return fmt::format("from the {}", half);
         case PathStep::Kind::goes_on:
             return fmt::format("reflection {}{}", step.bounce, step.from_light ? " of the light's path" : "");
+        case PathStep::Kind::record:
+            return "from the record of the cache that brings most, its brightest ray";
         case PathStep::Kind::asks:
             return fmt::format("{} for bounce {}", step.from_light ? "looks at the camera" : "looks for light", step.bounce);
     }

@@ -133,7 +133,9 @@ StudyMethod making_method(const StudyRequest& request) {
     }
     if (is_biased(method.method))
         throw InputError(fmt::format("--reference {}: {} have an error of their own; take walk", request.reference,
-                                     has_fields(method.method) ? "fields on patches" : "photon maps"));
+                                     has_fields(method.method)                              ? "fields on patches"
+                                     : std::holds_alternative<method::Cache>(method.method) ? "irradiance caches"
+                                                                                            : "photon maps"));
     return method;
 }
 

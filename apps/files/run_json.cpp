@@ -7,7 +7,9 @@
 #include "apps/files/scene_json.h"
 #include "apps/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
+#include "operators/cache/record_places.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace neumann {
@@ -125,7 +127,19 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
     return json;
 }
 
-// How the chains of each bounce have mixed. `effective_states`: those that are worth as much as independent ones.
+// Where the records of the cache stand.
+Json records_json(const RecordPlaces& places) {
+    std::vector<double> radii;
+    for (const Record& record : places.records()) radii.push_back(record.radius);
+    Json json = {{"number", radii.size()}, {"seen_by_camera", places.seen()}, {"rays_of_each", places.cells().size()}};
+    if (!radii.empty()) {
+        std::ranges::sort(radii);
+        json["radius_least_median_largest"] = {radii.front(), radii[radii.size() / 2], radii.back()};
+    }
+    return json;
+}
+
+// How the chains of each bounce have mixed.
 Json chains_json(const std::vector<ChainStatistics>& all) {
     Json json = Json::array();
     for (std::size_t bounce = 1; bounce < all.size(); ++bounce) {
@@ -149,6 +163,7 @@ Json samples_json(const BounceSeries& series) {
         if (paths->first_replicate > 0) json["first_replicate"] = paths->first_replicate;
         for (const SeedRange& range : paths->merged)
             json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
+        if (paths->records) json["records"] = records_json(*paths->records);
         if (paths->photons) json["photons"] = photons_json(*paths->photons, *paths, series.report.bounces.size() - 1);
         if (paths->most_of_pixel > 0)
             json["of_a_pixel_in_a_replicate"] = {{"fewest", paths->fewest_of_pixel}, {"most", paths->most_of_pixel}};

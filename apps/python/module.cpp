@@ -31,6 +31,7 @@ PYBIND11_MODULE(_neumann, m) {
     bind_solvers(m);
     bind_study(m);
     bind_photons(m);
+    bind_records(m);
     bind_chains(m);
     bind_blame(m);
     bind_unbounce(m);

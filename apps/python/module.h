@@ -34,6 +34,7 @@ void bind_matrices(py::module_& m);
 void bind_solvers(py::module_& m);
 void bind_study(py::module_& m);
 void bind_photons(py::module_& m);
+void bind_records(py::module_& m);
 void bind_chains(py::module_& m);
 void bind_blame(py::module_& m);
 void bind_unbounce(py::module_& m);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "operators/cache/cache_settings.h"
 #include "operators/pictures/allocation.h"
 #include "operators/walk/walk_settings.h"
 
@@ -93,6 +94,16 @@ struct Photon : PathOptions {
     bool operator==(const Photon&) const = default;
 };
 
+// An irradiance cache: records on diffuse surfaces hold the irradiance of each bounce, from that of the bounce before, and walks
+// from the camera read it nearby.
+struct Cache : PathOptions {
+    static constexpr const char* name = "cache";
+    Spacing records = Spacing::hessian;            // what says where records stand
+    std::optional<double> accuracy = {};           // the error allowed to records (cache_settings.h)
+    std::optional<std::uint32_t> directions = {};  // rays of a record in each pass
+    bool operator==(const Cache&) const = default;
+};
+
 // Multiplexed Metropolis light transport: for each bounce, Markov chains among the paths of the bidirectional method.
 struct Metropolis : PathOptions {
     static constexpr const char* name = "metropolis";
@@ -141,8 +152,8 @@ struct Patches : FieldOptions {
 }  // namespace method
 
 using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                            method::Bidirectional, method::Photon, method::Metropolis, method::Classic, method::Pointwise,
-                            method::Matrix, method::Gather, method::Patches>;
+                            method::Bidirectional, method::Photon, method::Cache, method::Metropolis, method::Classic,
+                            method::Pointwise, method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);
@@ -170,6 +181,8 @@ inline std::optional<LeastError> adaptive_of(const Method& method) {
 }
 
 // Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
-inline bool is_biased(const Method& method) { return has_fields(method) || std::holds_alternative<method::Photon>(method); }
+inline bool is_biased(const Method& method) {
+    return has_fields(method) || std::holds_alternative<method::Photon>(method) || std::holds_alternative<method::Cache>(method);
+}
 
 }  // namespace neumann

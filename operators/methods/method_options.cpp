@@ -17,10 +17,10 @@ namespace {
 using Kind = MethodOption::Kind;
 
 const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Auto{},       method::Walk{},    method::Guided{},        method::Corrected{},
-                                         method::Surface{},    method::Light{},   method::Bidirectional{}, method::Photon{},
-                                         method::Metropolis{}, method::Classic{}, method::Pointwise{},     method::Matrix{},
-                                         method::Gather{},     method::Patches{}};
+    static const std::vector<Method> all{method::Auto{},    method::Walk{},       method::Guided{},        method::Corrected{},
+                                         method::Surface{}, method::Light{},      method::Bidirectional{}, method::Photon{},
+                                         method::Cache{},   method::Metropolis{}, method::Classic{},       method::Pointwise{},
+                                         method::Matrix{},  method::Gather{},     method::Patches{}};
     return all;
 }
 
@@ -76,6 +76,7 @@ const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed},
                                        {"contribution", LightChoice::contribution},
                                        {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
+const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
 const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
 
@@ -244,8 +245,9 @@ std::vector<MethodOption> make_options() {
             std::uint64_t{1} << 40, [](const auto& m) requires requires { m.patches; } { return m.patches; },
             [](auto& m, std::size_t n) { m.patches = n; }),
         whole<std::uint32_t>(
-            "directions", "N", "For guided, corrected, patches, matrix and gather: the number of rays of a patch", 1, 1u << 20,
-            [](const auto& m) requires requires { m.directions; } { return m.directions; },
+            "directions", "N",
+            "For guided, corrected, patches, matrix and gather: the number of rays of a patch; for cache: of a record, in a pass",
+            1, 1u << 20, [](const auto& m) requires requires { m.directions; } { return m.directions; },
             [](auto& m, std::uint32_t n) { m.directions = n; }),
         whole<std::uint32_t>(
             "photons", "N", "For photon: the number of paths from the lights in a pass (a replicate)", 1, 1u << 28,
@@ -261,6 +263,20 @@ std::vector<MethodOption> make_options() {
         flag(
             "gather", "For photon: sample one more reflection before the map is read (final gathering)",
             [](const auto& m) requires requires { m.gather; } { return m.gather; }, [](auto& m, bool on) { m.gather = on; }),
+        choice(
+            "records", "HOW",
+            "For cache: what says how far apart records stand: hessian (the second derivatives of their irradiance, the default) "
+            "or "
+            "split-sphere (the distances of what they see)",
+            spacings, [](const auto& m) requires requires { m.records; } { return m.records; },
+            [](auto& m, Spacing s) { m.records = s; }),
+        option(
+            Kind::text, "accuracy", "A",
+            "For cache: the error allowed to records; with hessian relative, on average within the usual distance of records "
+            "(default 0.05); with split-sphere their reach as a part of the distance of what they see (default 0.25). A larger one "
+            "makes fewer records",
+            [](const auto& m) requires requires { m.accuracy; } { return m.accuracy; }, [](auto& m, double a) { m.accuracy = a; },
+            read_length, [](const std::optional<double>& a) { return a ? fmt::format("{}", *a) : ""; }, "a number above 0"),
         whole<std::uint32_t>(
             "chain", "N", "For metropolis: the states of each chain in a replicate (default 512, fewer in small pictures)", 1,
             1u << 20, [](const auto& m) requires requires { m.chain; } { return m.chain; },
@@ -323,6 +339,7 @@ const std::string& method_help() {
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
         "sampled on all surfaces; light: walks from the lights to the camera; "
         "bidirectional: walks from both ends, joined everywhere; photon: photon maps, for caustics, with a bias that falls; "
+        "cache: an irradiance cache, for diffuse rooms, with a bias that stays; "
         "metropolis: chains of paths that mutate, for light that is hard to find; "
         "classic: mirrors and glass alone, which leaves out other paths; "
         "pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K applied once "

@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
+#include "operators/cache/record_places.h"
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
 #include "operators/methods/crew.h"
@@ -103,21 +104,24 @@ RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
-// With the bias of photon maps as the discretisation error: the difference between the radii r and r/√2, as a part of the error
-// by r. It is 1/2 where the light is smooth and the error of order r², and less at edges of surfaces and light, where it is of
-// order r.
-constexpr double part_of_bias = 1.0 - 1.0 / std::numbers::sqrt2;
+// The bias as the discretisation error: of photon maps the difference between the radii r and r/√2, of a cache that between r√2 and
+// r, as a part of the error by r. Where the light is smooth the error is of order r², and the part 1/2 or 1; it is less at edges of
+// surfaces and light, where the error is of order r.
+double part_of_bias(PathGenerator generator) {
+    return generator == PathGenerator::cache ? wider - 1.0 : 1.0 - 1.0 / std::numbers::sqrt2;
+}
 template <class Difference>
-Estimate with_bias(Estimate picture, const Difference& difference, const SeriesMoments::Result& result) {
+Estimate with_bias(Estimate picture, const Difference& difference, double part, const SeriesMoments::Result& result) {
     if (!result.has_differences()) return picture;
     picture.discretisation = difference();
-    for (Rgb& x : picture.discretisation.pixels) x = glm::abs(x) / part_of_bias;
+    for (Rgb& x : picture.discretisation.pixels) x = glm::abs(x) / part;
     return picture;
 }
 
-// `relative` is without the noise of the difference itself, which in the sum is taken to be what it is for this kernel if all noise
-// is of photons: its variance is half of the picture's.
-void report_bias(const SeriesMoments::Result& result, BounceSeries& series) {
+// `relative` is without the noise of the difference itself. In the sum that is taken to be, with photon maps, what it is for their
+// kernel if all noise is of photons: its variance is half of the picture's; and with a cache that of the terms, as if they were
+// independent.
+void report_bias(const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series) {
     if (!result.has_differences()) return;
     const auto report = [](const Estimate& picture, double noise) {
         const double all = relative_discretisation(picture);
@@ -129,28 +133,34 @@ void report_bias(const SeriesMoments::Result& result, BounceSeries& series) {
         for (const Rgb& x : image.pixels) squares += glm::dot(x, x);
         return std::sqrt(squares);
     };
+    const double part = part_of_bias(generator);
+    double noise = 0.0;
     for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
         const Estimate term = series.term(i);
         const double mean = size(term.mean);
-        series.report.bounces[i].discretisation =
-            report(term, mean > 0.0 ? result.noise_of_difference(i) / (part_of_bias * mean) : 0.0);
+        series.report.bounces[i].discretisation = report(term, mean > 0.0 ? result.noise_of_difference(i) / (part * mean) : 0.0);
+        noise = std::hypot(noise, result.noise_of_difference(i));
     }
     const Estimate sum = series.sum(series.report.bounces.size() - 1);
-    series.report.sum_discretisation = report(sum, relative_standard_error(sum) / (std::numbers::sqrt2 * part_of_bias));
+    const double mean = size(sum.mean);
+    series.report.sum_discretisation =
+        report(sum, generator == PathGenerator::photon ? relative_standard_error(sum) / (std::numbers::sqrt2 * part)
+                    : mean > 0.0                       ? noise / (part * mean)
+                                                       : 0.0);
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
-                           const std::shared_ptr<const LeastErrors>& least, SeriesReport report) {
+                           const std::shared_ptr<const LeastErrors>& least, double part, SeriesReport report) {
     BounceSeries out;
-    out.term = [result, least](std::size_t i) {
+    out.term = [result, least, part](std::size_t i) {
         PixelEstimate term = with_bias(
-            result->term(i), [&] { return result->difference_of_term(i); }, *result);
+            result->term(i), [&] { return result->difference_of_term(i); }, part, *result);
         if (least) term.least_error = least->of_term(i);
         return term;
     };
-    out.sum = [result, least](std::size_t i) {
+    out.sum = [result, least, part](std::size_t i) {
         PixelEstimate sum = with_bias(
-            result->sum(i), [&] { return result->difference_of_sum(i); }, *result);
+            result->sum(i), [&] { return result->difference_of_sum(i); }, part, *result);
         if (least) sum.least_error = least->of_sum(i);
         return sum;
     };
@@ -251,6 +261,10 @@ Method as_it_ran(Method method, const SamplingSettings& settings, const Film& fi
                 m.directions = settings.approximation->settings().rays;
             }
             if constexpr (std::same_as<M, method::Photon>) m.photons = settings.photons->settings.paths;
+            if constexpr (std::same_as<M, method::Cache>) {
+                m.accuracy = settings.records->settings().accuracy;
+                m.directions = settings.records->settings().rays;
+            }
             if constexpr (std::same_as<M, method::Metropolis>)
                 m.chain = chain_numbers(settings.layout(film).paths(), settings.chain_length).length;
         },
@@ -328,8 +342,8 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         least = std::make_shared<const LeastErrors>(scene, settings, sampled, *moments);
         report_unmet(report, *least);
     }
-    BounceSeries series = bounce_series(sampled, moments, least, std::move(report));
-    report_bias(*moments, series);
+    BounceSeries series = bounce_series(sampled, moments, least, part_of_bias(settings.generator), std::move(report));
+    report_bias(*moments, settings.generator, series);
     series.paths = paths;
     series.method = as_it_ran(method, settings, scene.film);
     const double albedo = max_component(scene.materials.largest_basic_albedo());
@@ -345,6 +359,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         if (settings.guide) series.rays += settings.guide->rays();
         if (settings.approximation) series.rays += settings.approximation->rays();
         if (settings.photons) series.rays += settings.photons->rays;
+        if (settings.records) series.rays += settings.records->rays();
         if (settings.allocation) series.rays += settings.allocation->rays;
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
@@ -360,6 +375,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), Pilot::bounces + Pilot::give_up);
     record.photons = settings.photons;
+    record.records = settings.records;
     record.chains = sampled.tally.chains;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;

@@ -1,6 +1,7 @@
 #include "operators/methods/sampling.h"
 
 #include "core/base/error.h"
+#include "operators/cache/record_places.h"
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
 #include "operators/methods/method_options.h"
@@ -25,6 +26,7 @@ PathGenerator kind() {
     if constexpr (std::same_as<M, method::Light>) return PathGenerator::light;
     if constexpr (std::same_as<M, method::Bidirectional>) return PathGenerator::bidirectional;
     if constexpr (std::same_as<M, method::Photon>) return PathGenerator::photon;
+    if constexpr (std::same_as<M, method::Cache>) return PathGenerator::cache;
     if constexpr (std::same_as<M, method::Metropolis>) return PathGenerator::metropolis;
     if constexpr (std::same_as<M, method::Classic>) return PathGenerator::classic;
     return PathGenerator::pointwise;
@@ -102,6 +104,11 @@ std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scen
 
 }  // namespace
 
+CacheSettings settings_of(const method::Cache& cache) {
+    return {cache.records, cache.accuracy.value_or(default_accuracy(cache.records)),
+            cache.directions.value_or(default_rays_of_record)};
+}
+
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed) {
     SamplingSettings settings = std::visit([&](const auto& m) { return settings_of(m, scene); }, method);
     settings.walk.left_out = plan.walk;
@@ -119,6 +126,8 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
     else if (const auto* photon = std::get_if<method::Photon>(&method))
         settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{photon->photons, photon->radius, photon->gather},
                                                                settings.sampler, seed, memory, watch);
+    else if (const auto* cache = std::get_if<method::Cache>(&method))
+        settings.records = std::make_shared<const RecordPlaces>(scene, settings_of(*cache), settings.sampler, seed, memory, watch);
     else if (const std::optional<LeastError> least = adaptive_of(method))
         settings.allocation = allocate(scene, settings, *least, watch);
     else

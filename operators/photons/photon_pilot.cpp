@@ -1,6 +1,7 @@
 #include "operators/photons/photon_pilot.h"
 
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/scene/camera_sample.h"
 #include "operators/walk/continuation.h"
 
@@ -73,19 +74,7 @@ double usual_distance(const PhotonMap& map, const std::vector<Vec3>& at) {
     if (k == 0 || at.empty()) return std::numeric_limits<double>::infinity();
     std::vector<double> all;
     for (const Vec3& x : at) all.push_back(map.distance(x, k));
-    const auto place = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), place, all.end());
-    return *place;
-}
-
-double median_distance(const std::vector<Vec3>& places) {
-    Vec3 middle(0.0);
-    for (const Vec3& x : places) middle += x / static_cast<double>(places.size());
-    std::vector<double> all;
-    for (const Vec3& x : places) all.push_back(glm::length(x - middle));
-    const auto half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), half, all.end());
-    return *half;
+    return median(all);
 }
 
 std::vector<Vec3> some_of(const std::vector<Photon>& photons) {

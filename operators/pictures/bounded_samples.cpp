@@ -14,6 +14,7 @@ bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
             return direct == DirectLight::bsdf || direct == DirectLight::mis;
         }
         case PathGenerator::corrected:
+        case PathGenerator::cache:  // records stand at fixed places, apart from what they see
             return true;
         case PathGenerator::bidirectional:
             return !settings.ways_of_last_bounce;  // half of these have no MIS weight

@@ -124,7 +124,7 @@ private:
         return splats(generator_) ? std::min(part, 1.0) : part;
     }
     bool samples_are_mixtures(std::size_t q) const {
-        return (generator_ == PathGenerator::corrected || generator_ == PathGenerator::photon) && q > 1;
+        return (generator_ == PathGenerator::corrected || has_two_radii(generator_)) && q > 1;
     }
     const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * stride_ + q]; }
 
@@ -201,9 +201,9 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
-        // Samples of a pass share its photons, and those of a chain its states: they are one.
+        // Samples of a pass share its photons or records, and those of a chain its states: they are one.
         const bool is_shared =
-            (settings.generator == PathGenerator::photon && q > 1) || (settings.generator == PathGenerator::metropolis && q > 0);
+            (has_two_radii(settings.generator) && q > 1) || (settings.generator == PathGenerator::metropolis && q > 0);
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;

@@ -12,6 +12,7 @@ struct PathStep {
     enum class Kind {
         first,    // from the camera or from a light
         goes_on,  // after a reflection
+        record,   // from a record of a cache
         asks      // a ray to a point on a light, on the other subpath or on the lens, or in a direction sampled for direct light
     };
     Kind kind = Kind::first;
@@ -33,9 +34,9 @@ public:
     virtual void step(std::uint32_t path, const PathStep& step) = 0;
     // The contribution of a path's last step. `pixel`: the position on the film if a path from a light found it; otherwise null.
     virtual void found(std::uint32_t, std::size_t /*quantity*/, const Rgb&, const Vec2* /*pixel*/) {}
-    // A photon map was read where the path has come to: its photon that brings most, and the path from a light that left it at
-    // a vertex.
-    virtual void read(std::uint32_t, std::uint32_t /*photon_path*/, std::uint32_t /*vertex*/, const Rgb&) {}
+    // A photon map or a cache was read where the path has come to. Of the photon that brings most: the path from a light that left
+    // it at a vertex. Of the record that brings most: its brightest ray; the vertex is the last one of the path.
+    virtual void read(std::uint32_t, std::uint32_t /*read_path*/, std::uint32_t /*vertex*/, const Rgb&) {}
 };
 
 }  // namespace neumann

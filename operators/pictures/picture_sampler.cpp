@@ -45,11 +45,12 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWor
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, MetropolisSampler> make_sampler(
+std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler> make_sampler(
     const Scene& scene, const SamplingSettings& settings) {
     if (splats(settings.generator)) return SplatSampler(scene, settings);
     if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
     if (settings.generator == PathGenerator::photon) return PhotonSampler(scene, settings);
+    if (settings.generator == PathGenerator::cache) return CacheSampler(scene, settings);
     if (settings.generator == PathGenerator::metropolis) return MetropolisSampler(scene, settings);
     return make_estimator(scene, settings);
 }
@@ -165,6 +166,8 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
         return splats->sample_picture(replicate, picture, ranges, tally, watch);
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_))
         return photons->sample_picture(replicate, picture, ranges, tally, watch);
+    if (const auto* cache = std::get_if<CacheSampler>(&sampler_))
+        return cache->sample_picture(replicate, picture, ranges, tally, watch);
     if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_))
         return chains->sample_picture(replicate, picture, ranges, tally, watch);
     return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);

@@ -3,6 +3,7 @@
 
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
+#include "operators/pictures/cache_sampler.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/metropolis_sampler.h"
 #include "operators/pictures/path_group.h"
@@ -62,8 +63,8 @@ public:
     std::vector<Rgb> own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const;
 
     // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
-    // their numbers in the group.
-    void retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
+    // their numbers in the group. With a cache: the ray of a record with this number, which has number 0.
+    void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
 
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
@@ -84,7 +85,7 @@ private:
     const Scene& scene_;
     Settings settings_;
     SampleLayout layout_;
-    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, MetropolisSampler> sampler_;
+    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler> sampler_;
 };
 
 }  // namespace neumann

@@ -42,6 +42,7 @@ std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, 
             return {Remedy::ask_lights};
         case PathGenerator::light:
         case PathGenerator::photon:
+        case PathGenerator::cache:
         case PathGenerator::metropolis:
             return {Remedy::bidirectional};
         case PathGenerator::bidirectional:

@@ -2,6 +2,7 @@
 
 #include "operators/pictures/path_group.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace neumann {
@@ -19,8 +20,8 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
     struct Recorder : PathObserver {
         std::uint32_t chosen;
         std::vector<ReplayedStep> steps;
-        std::optional<std::uint32_t> photon_path;
-        std::uint32_t photon_vertex = 0;
+        std::optional<std::uint32_t> read_path;
+        std::uint32_t read_vertex = 0;
         double most = 0.0;
 
         bool watches(std::uint32_t path) const override { return path == chosen; }
@@ -29,21 +30,21 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
             steps.back().found.push_back({quantity, value, pixel ? std::optional(*pixel) : std::nullopt});
         }
         void read(std::uint32_t, std::uint32_t path, std::uint32_t vertex, const Rgb& value) override {
-            if (photon_path && max_component(value) <= most) return;
-            photon_path = path;
-            photon_vertex = vertex;
+            if (read_path && max_component(value) <= most) return;
+            read_path = path;
+            read_vertex = vertex;
             most = max_component(value);
         }
     } recorder;
     const PlaceInGroup place = sampler.layout().place(name);
     recorder.chosen = place.path;
     const std::vector<Rgb> samples = sampler.retrace(place.replicate, place.first, recorder);
-    if (recorder.photon_path) {
-        const std::uint32_t path = *recorder.photon_path;
-        recorder.chosen = path % PhotonTracer::at_once;
+    if (recorder.read_path) {
+        const std::uint32_t path = *recorder.read_path;
+        recorder.chosen = sampler.settings().generator == PathGenerator::cache ? 0 : path % PhotonTracer::at_once;
         const std::size_t own = recorder.steps.size();
-        sampler.retrace_photon(place.replicate, path, recorder);
-        recorder.steps.resize(own + recorder.photon_vertex);
+        sampler.retrace_read(place.replicate, path, recorder);
+        recorder.steps.resize(std::min(recorder.steps.size(), own + recorder.read_vertex));
     }
     const std::size_t terms = sampler.settings().pictures();
     Replay result{std::move(recorder.steps), std::vector<Rgb>(terms, Rgb(0.0))};

@@ -1,6 +1,8 @@
 // Traces paths again for an observer: the same walks, compiled for size.
 #include "core/sampling/sampler.h"
+#include "operators/cache/record_rays.h"
 #include "operators/photons/photon_paths.h"
+#include "operators/pictures/cache_group.h"
 #include "operators/pictures/corrected_group.h"
 #include "operators/pictures/metropolis_group.h"
 #include "operators/pictures/path_group.h"
@@ -29,6 +31,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
         return whole_pictures->retrace(replicate, first, observer);
     if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->retrace(replicate, first, observer);
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_)) return photons->retrace(replicate, first, observer);
+    if (const auto* cache = std::get_if<CacheSampler>(&sampler_)) return cache->retrace(replicate, first, observer);
     if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_)) return chains->retrace(replicate, first, observer);
     const PixelGroup pixels = layout_.group(layout_.group_of(layout_.pixel_of(first)));
     const std::vector<Pixel> some = pixels_of(pixels);
@@ -178,7 +181,41 @@ std::vector<Rgb> MetropolisSampler::retrace(std::uint64_t replicate, std::uint32
     return own;
 }
 
-void PictureSampler::retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
+std::vector<Rgb> CacheSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    const std::uint32_t size = settings_.replicate_size, end = std::min(first / size + pixels_of_group(settings_), pixels_) * size;
+    std::vector<std::uint64_t> rays(settings_.pictures());
+    std::uint64_t given_up = 0;
+    const auto pass = tracer_->trace(replicate, rays, given_up);
+    Workspace work(settings_.quantities());
+    trace_group(replicate, first, end - first, *pass, work, WatchedPaths(observer));
+    return std::move(work.group.samples);
+}
+
+namespace {
+
+// Reports the ray of a record. What it finds is a part of what was found where the record was read.
+class RecordRay : public PathObserver {
+public:
+    explicit RecordRay(PathObserver& observer) : observer_(observer) {}
+    void step(std::uint32_t path, const PathStep& step) override {
+        PathStep ray = step;
+        if (ray.kind == PathStep::Kind::first) ray.kind = PathStep::Kind::record;
+        observer_.step(path, ray);
+    }
+
+private:
+    PathObserver& observer_;
+};
+
+}  // namespace
+
+void CacheSampler::retrace_ray(std::uint64_t replicate, std::uint32_t ray, PathObserver& observer) const {
+    RecordRay of_record(observer);
+    tracer_->trace_ray(replicate, ray, WatchedPaths(of_record));
+}
+
+void PictureSampler::retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
+    if (const auto* cache = std::get_if<CacheSampler>(&sampler_)) return cache->retrace_ray(replicate, path, observer);
     std::get<PhotonSampler>(sampler_).retrace_photon(replicate, path, observer);
 }
 

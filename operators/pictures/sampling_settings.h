@@ -13,6 +13,7 @@ namespace neumann {
 
 class Approximation;
 class Guide;
+class RecordPlaces;
 struct PhotonPilot;
 
 enum class PathGenerator {
@@ -23,6 +24,7 @@ enum class PathGenerator {
     light,          // light tracing
     bidirectional,  // bidirectional path tracing
     photon,         // photon maps
+    cache,          // walks from the camera that read an irradiance cache
     metropolis,     // Markov chains for each bounce
     classic,        // walks from the camera that follow delta lobes alone
     pointwise       // separate walks for each term
@@ -31,12 +33,17 @@ enum class PathGenerator {
 inline bool splats(PathGenerator generator) {
     return generator == PathGenerator::light || generator == PathGenerator::bidirectional;
 }
+// Whether it reads light near a point, within two radii, which tell its bias.
+inline bool has_two_radii(PathGenerator generator) {
+    return generator == PathGenerator::photon || generator == PathGenerator::cache;
+}
 
 struct SamplingSettings {
     PathGenerator generator = PathGenerator::walk;
     std::shared_ptr<const Guide> guide = {};                  // for `guided`
     std::shared_ptr<const Approximation> approximation = {};  // for `corrected`
     std::shared_ptr<const PhotonPilot> photons = {};          // for `photon`
+    std::shared_ptr<const RecordPlaces> records = {};         // for `cache`
     WalkSettings walk;
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;
@@ -50,15 +57,15 @@ struct SamplingSettings {
     // place of the terms.
     bool ways_of_last_bounce = false;
 
-    // The terms 0 … N and the rest, or ways; and all quantities of a sample: with `photon` the differences of terms between two
-    // radii follow them.
+    // The terms 0 … N and the rest, or ways; and all quantities of a sample: with `photon` and `cache` the differences of terms
+    // between two radii follow them.
     std::size_t pictures() const { return (static_cast<std::size_t>(walk.bounces) + 2) * (ways_of_last_bounce ? 2 : 1); }
     // Of the crop's pixels in a replicate.
     SampleLayout layout(const Film& film) const {
         return {static_cast<std::uint32_t>(film.crop_width) * static_cast<std::uint32_t>(film.crop_height), replicate_size,
                 allocation};
     }
-    std::size_t quantities() const { return pictures() * (generator == PathGenerator::photon ? 2 : 1); }
+    std::size_t quantities() const { return pictures() * (has_two_radii(generator) ? 2 : 1); }
 };
 
 }  // namespace neumann

@@ -33,8 +33,8 @@ public:
     void finds(std::uint32_t path, std::size_t quantity, const Rgb& value) const {
         if (observer_->watches(path) && !is_black(value)) observer_->found(path, quantity, value, nullptr);
     }
-    void reads(std::uint32_t path, std::uint32_t photon_path, std::uint32_t vertex, const Rgb& value) const {
-        if (observer_->watches(path)) observer_->read(path, photon_path, vertex, value);
+    void reads(std::uint32_t path, std::uint32_t read_path, std::uint32_t vertex, const Rgb& value) const {
+        if (observer_->watches(path)) observer_->read(path, read_path, vertex, value);
     }
 
 private:

@@ -20,9 +20,9 @@ struct NoObserver {
               const SurfacePoint& /*y*/, bool /*seen*/) const {}
     // The last meets() or asks() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks instead.
     void finds(std::uint32_t /*path*/, std::size_t /*quantity*/, const Rgb&) const {}
-    // Of the photons that are read where the path has come to, this path from a light left the one that brings most,
-    // at this vertex.
-    void reads(std::uint32_t /*path*/, std::uint32_t /*photon_path*/, std::uint32_t /*vertex*/, const Rgb&) const {}
+    // Of what is read where the path has come to, photons or records, this brings most: what the path from a light with this
+    // number left at this vertex, or the ray of a record with this number.
+    void reads(std::uint32_t /*path*/, std::uint32_t /*read_path*/, std::uint32_t /*vertex*/, const Rgb&) const {}
 };
 
 }  // namespace neumann

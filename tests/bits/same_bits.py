@@ -28,7 +28,7 @@ METHODS = {
     "walk": PATHS,
     "guided": [*PATHS, "--patches", "100", "--directions", "256"],
     "corrected": [*PATHS, "--patches", "100", "--directions", "16"],
-    **{name: PATHS for name in ("surface", "light", "bidirectional", "photon", "metropolis", "classic", "pointwise")},
+    **{name: PATHS for name in ("surface", "light", "bidirectional", "photon", "cache", "metropolis", "classic", "pointwise")},
     **{name: FIELDS for name in ("patches", "matrix", "gather")},
 }
 # Of the Cornell box alone.
@@ -38,6 +38,7 @@ OPTIONS = {
     "light": ["--roulette throughput"],
     "bidirectional": ["--direct mis-balance --ways 2", "--roulette albedo"],
     "photon": ["--gather --photons 3000", "--radius 20"],
+    "cache": ["--records split-sphere --directions 30", "--accuracy 0.5"],
     "patches": ["--importance"],
 }
 SIZE = "16"

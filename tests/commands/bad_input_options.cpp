@@ -82,6 +82,26 @@ TEST_F(BadInputOptions, Photons) {
     EXPECT_EQ(names(), (Names{"scene.xml", "dark.xml"}));
 }
 
+TEST_F(BadInputOptions, Caches) {
+    for (const std::string accuracy : {"0", "-1", "nan", "fine"})
+        EXPECT_TRUE(refusal({"--method", "cache", "--accuracy", accuracy})
+                        .starts_with("--accuracy: '" + accuracy + "' is not a number above 0\n"));
+    EXPECT_TRUE(
+        refusal({"--method", "cache", "--records", "octree"}).starts_with("--records: octree not in {hessian,split-sphere}\n"));
+    EXPECT_EQ(refusal({"--accuracy", "0.1"}), "--accuracy belongs to --method cache, not to walk\n");
+    // Nothing but a mirror.
+    write("mirror.xml", R"(<scene version="3.0.0">
+<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film></sensor>
+<shape type="rectangle"><transform name="to_world"><translate z="1"/></transform><bsdf type="twosided"><bsdf type="conductor"/></bsdf></shape>
+<emitter type="constant"/>
+</scene>)");
+    const Finished done = run({"render", "mirror.xml", "-o", "a", "--method", "cache", "--spp", "4"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_EQ(done.err,
+              "--method cache keeps records on diffuse surfaces, and paths from the camera meet none; take --method walk\n");
+    EXPECT_EQ(names(), (Names{"scene.xml", "mirror.xml"}));
+}
+
 // A goal that no number reaches would never end.
 TEST_F(BadInputOptions, NotANumber) {
     for (const char* option : {"--time", "--error", "--tail"}) {

@@ -2,6 +2,7 @@
 // those of the pictures.
 #include "operators/pictures/replay.h"
 #include "core/reader/read_scene.h"
+#include "operators/cache/record_places.h"
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
 #include "operators/photons/photon_pilot.h"
@@ -45,6 +46,9 @@ protected:
         if (s.generator == PathGenerator::metropolis) s.chain_length = 3;
         if (s.generator == PathGenerator::photon)
             s.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{1000, {}, false}, s.sampler, s.seed);
+        if (s.generator == PathGenerator::cache)
+            s.records =
+                std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 32}, s.sampler, s.seed, 1e9);
         return s;
     }
 };
@@ -109,9 +113,9 @@ INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
                                          Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
                                          Case{"WalkSplit", PathGenerator::walk, SamplerKind::sobol, {3, 2}},
                                          Case{"Guided", PathGenerator::guided}, Case{"Corrected", PathGenerator::corrected},
-                                         Case{"Photon", PathGenerator::photon}, Case{"Metropolis", PathGenerator::metropolis},
-                                         Case{"Surface", PathGenerator::surface}, Case{"Classic", PathGenerator::classic},
-                                         Case{"Light", PathGenerator::light},
+                                         Case{"Photon", PathGenerator::photon}, Case{"Cache", PathGenerator::cache},
+                                         Case{"Metropolis", PathGenerator::metropolis}, Case{"Surface", PathGenerator::surface},
+                                         Case{"Classic", PathGenerator::classic}, Case{"Light", PathGenerator::light},
                                          Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
                                          Case{"Bidirectional", PathGenerator::bidirectional},
                                          Case{"BidirectionalSplit", PathGenerator::bidirectional, SamplerKind::sobol, {3, 2}}),
@@ -143,6 +147,35 @@ TEST(Replay, APhotonIsFollowedToItsLight) {
                     nearest = std::min(nearest, glm::length(seen->step.to.position - s->step.to.position));
         }
         EXPECT_LE(nearest, radius);
+    }
+    EXPECT_GT(followed, 5);
+}
+
+// After the walk comes a ray of the record that brings most, and then the rays by which it goes on.
+TEST(Replay, ARecordIsFollowedAlongItsBrightestRay) {
+    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
+    SamplingSettings settings{.generator = PathGenerator::cache, .walk = {.bounces = 3}, .replicate_size = 4};
+    settings.records =
+        std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 64}, settings.sampler, 0, 1e9);
+    const PictureSampler sampler(scene, settings);
+    int followed = 0;
+    for (std::uint32_t pixel = 0; pixel < 256; pixel += 17) {
+        const Replay found = replay(sampler, {pixel, 6});
+        const auto ray =
+            std::ranges::find_if(found.steps, [](const ReplayedStep& s) { return s.step.kind == PathStep::Kind::record; });
+        if (ray == found.steps.end()) continue;
+        ++followed;
+        const auto& records = settings.records->records();
+        const auto record = std::ranges::find_if(records, [&](const Record& r) { return r.x.position == ray->step.from.position; });
+        ASSERT_NE(record, records.end());
+        EXPECT_TRUE(record->is_seen);
+        EXPECT_GT(glm::dot(record->frame.n, ray->step.w), 0.0);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (auto seen = found.steps.begin(); seen != ray; ++seen)
+            if (seen->step.kind != PathStep::Kind::asks && seen->step.found)
+                nearest = std::min(nearest, glm::length(seen->step.to.position - record->x.position));
+        EXPECT_LE(nearest, record->radius);
+        for (auto s = ray; s != found.steps.end(); ++s) EXPECT_TRUE(s->found.empty());
     }
     EXPECT_GT(followed, 5);
 }

@@ -15,7 +15,8 @@ protected:
 };
 
 TEST_F(LaunchedRenders, HaveTheBitsOfOneProcess) {
-    for (const std::string method : {"walk", "guided", "corrected", "bidirectional", "photon", "metropolis", "pointwise"}) {
+    for (const std::string method :
+         {"walk", "guided", "corrected", "bidirectional", "photon", "cache", "metropolis", "pointwise"}) {
         SCOPED_TRACE(method);
         const std::vector<std::string> options{"--spp", "256", "--method", method, "--seed", "7"};
         expect_done(run(rendering("a", options)));

@@ -1,21 +1,21 @@
-// Means over blocks of pixels of small pictures, replicate by replicate, beside which those of other methods are held.
+// Pictures in blocks of pixels, replicate by replicate, with their errors and their bias.
 #pragma once
 
-#include "core/scene/scene.h"
+#include "operators/methods/sampling.h"
 #include "operators/pictures/picture_sampler.h"
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 namespace neumann::physics {
 
-// Of each channel and quantity, over blocks of block × block pixels.
+// Means over blocks of pixels, of each channel and quantity, replicate by replicate.
 class Blocks {
 public:
-    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates)
-        : terms_(settings.pictures()), replicates_(replicates) {
+    // `part_of_bias`: what the difference between two radii is of the bias.
+    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates, double part_of_bias = 1.0)
+        : terms_(settings.pictures()), replicates_(replicates), part_of_bias_(part_of_bias) {
         const PictureSampler sampler(scene, settings);
         const std::size_t Q = settings.quantities();
         const auto width = static_cast<std::size_t>(sampler.width()), size = static_cast<std::size_t>(block);
@@ -52,7 +52,7 @@ public:
         for (std::uint64_t r = 0; r < n; ++r)
             v.error += std::pow(all_[r][(block * quantities_ + term) * 3 + channel] - v.mean, 2.0);
         v.error = std::sqrt(v.error / (count * (count - 1.0)));
-        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / (1.0 - 1.0 / std::numbers::sqrt2);
+        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / part_of_bias_;
         return v;
     }
     // Of a replicate, from the differences of successive ones of [begin, end), whose means are nearly the same.
@@ -68,7 +68,17 @@ public:
 private:
     std::size_t terms_, quantities_ = 0, columns_ = 0, blocks_ = 0;
     std::uint64_t replicates_;
+    double part_of_bias_;
     std::vector<std::vector<double>> all_;
 };
+
+inline SamplingSettings settings_of(const Scene& scene, const Method& method, int bounces, std::uint64_t seed, double rest = 0.0) {
+    SamplingSettings settings = sampling_settings(method, scene, {}, seed);
+    settings.walk.bounces = bounces;
+    settings.walk.rest_probability = rest;
+    settings.replicate_size = is_biased(method) ? 4 : 16;
+    set_up(method, scene, bounces, seed, 1e9, settings);
+    return settings;
+}
 
 }  // namespace neumann::physics

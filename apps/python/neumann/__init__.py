@@ -23,6 +23,7 @@ from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectr
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
 from ._photons import Photons
+from ._records import Records
 from ._report import HealthWarning, NeumannWarning, Report
 from ._scene import Plan, Scene, load
 from ._study import Study
@@ -39,6 +40,7 @@ __all__ = [
     "NeumannWarning",
     "Photons",
     "Plan",
+    "Records",
     "Report",
     "RunError",
     "SOLVERS",

@@ -165,7 +165,7 @@ class BounceSeries:
 
     @property
     def terms_discretisation(self) -> Optional[Picture]:
-        """What patches or photon maps get wrong, as it is estimated, (N + 1, height, width, 3); None where there are none."""
+        """What patches, photon maps or caches get wrong, as it is estimated, (N + 1, height, width, 3); None where there are none."""
         return self._terms[2]
 
     @property

@@ -15,6 +15,7 @@ from ._matrices import STEPS, Matrices, Solutions
 from ._method_options import MethodOptions
 from ._photons import Photons
 from ._progress import run
+from ._records import Records
 from ._report import HealthWarning, Report, warn
 from ._study import Study
 from ._unbounce import LightPictures
@@ -127,6 +128,19 @@ class Scene:
         """Photons of bounces 1 … bounces, from so many paths from the lights: points to look at. Raises InputError."""
         return Photons(run(_neumann.photons(self._scene, paths, bounces, seed)))
 
+    def records(
+        self,
+        *,
+        bounces: int = 4,
+        records: Optional[str] = None,
+        accuracy: Optional[float] = None,
+        directions: Optional[int] = None,
+        seed: int = 0,
+    ) -> Records:
+        """The records of ``method="cache"``, filled once with E_1 … E_bounces: points to look at. Raises InputError."""
+        given = {"records": records, "accuracy": accuracy, "directions": directions}
+        options = [(name, str(value)) for name, value in given.items() if value is not None]
+        return Records(run(_neumann.records(self._scene, bounces, options, seed)))
     def under_lights(
         self,
         lights: Tuple[int, int] = (8, 8),

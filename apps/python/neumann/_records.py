@@ -1,0 +1,35 @@
+"""Records of an irradiance cache: where light is known, and from where it is read nearby."""
+
+from typing import Any, Dict
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Records:
+    """The records of a cache: ``scene.records()``. Rows belong together, in the order in which the records were placed.
+
+    position: (n, 3), scene units. normal: (n, 3), on the side that reflects.
+    radius: (n,), how far from there the record is read, scene units.
+    seen: (n,), whether the camera reads it; the others are read by records alone.
+    irradiance: (n, bounces, 3), W/m², red, green and blue: column k − 1 is E_k, of the light that has been reflected k times before.
+    pixel: (n, 2), x and y on the film, pixel (0, 0) from 0 to 1; nan where the camera does not see it directly.
+    """
+
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    seen: NDArray[np.bool_]
+    irradiance: NDArray[np.float64]
+    pixel: NDArray[np.float64]
+
+    def __init__(self, made: Dict[str, Any]) -> None:
+        self.position, self.normal, self.radius = made["position"], made["normal"], made["radius"]
+        self.seen, self.irradiance, self.pixel = made["seen"], made["irradiance"], made["pixel"]
+
+    def __len__(self) -> int:
+        """How many records there are."""
+        return len(self.radius)
+
+    def __repr__(self) -> str:
+        return f"{len(self)} records of bounces 1 to {self.irradiance.shape[1]}, of which the camera reads {self.seen.sum()}"

@@ -1,0 +1,72 @@
+// A group of camera samples of CacheSampler, which advance together.
+#pragma once
+
+#include "operators/cache/cache_walk.h"
+#include "operators/cache/record_tracer.h"
+#include "operators/pictures/cache_sampler.h"
+#include "operators/pictures/path_group.h"
+#include "operators/pictures/pixel_average.h"
+#include "operators/walk/first_vertices.h"
+
+namespace neumann {
+
+struct CacheSampler::Workspace {
+    explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
+    PathGroup group;
+    CacheWalkers walkers;
+    std::vector<RecordPlaces::Near> near;
+    std::vector<Rgb> irradiance;
+    std::vector<Pixel> pixels;
+    std::vector<Sampler> camera;  // of the pixels' samples
+    PixelAverage average;
+    Tally tally;
+};
+
+// Samples all quantities of samples first … first + samples − 1 of the replicate into work.group: the terms 0 … N and the rest, and
+// then what each loses if the cache is read within wider radii.
+template <class Observer>
+void CacheSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const CachePass& pass,
+                               Workspace& work, const Observer& observer) const {
+    const std::uint32_t size = settings_.replicate_size, begin = first / size, end = (first + samples) / size;
+    work.pixels.clear();
+    work.camera.clear();
+    for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
+        work.pixels.push_back(pixel_of(scene_->film, pixel));
+        work.camera.resize(work.camera.size() + size, Sampler(settings_.sampler, camera_net_, settings_.seed, pixel));
+    }
+    const WalkSettings& walk = settings_.walk;
+    const std::size_t terms = settings_.pictures(), Q = settings_.quantities();
+    const bool has_rest = walk.rest_probability > 0.0;
+    work.irradiance.resize(2 * pass.bounces());
+    const auto sample = [&](std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& out) {
+        const auto find = [&](std::uint32_t i, std::size_t q, const Rgb& light) {
+            out.quantities[i * Q + q] += light;
+            observer.finds(i, q, light);
+        };
+        const auto read = [&](std::uint32_t i, const Walker& w, const Vec3& n, const Rgb& weight, int bounce) {
+            const auto largest = pass.read(w.x.position, n, work.near, work.irradiance);
+            if (!largest) return false;
+            Rgb all(0.0);
+            for (std::size_t k = 1; k <= pass.bounces(); ++k) {
+                const std::size_t reflected = static_cast<std::size_t>(bounce) + k, q = std::min(reflected, terms - 1);
+                if (reflected >= terms - 1 && !has_rest) break;
+                const Rgb &E = work.irradiance[2 * (k - 1)], &of_wide = work.irradiance[2 * (k - 1) + 1];
+                if (!is_black(E)) find(i, q, weight * E);
+                const Rgb lost = weight * (E - of_wide);
+                if (is_finite(lost)) out.quantities[i * Q + terms + q] += lost;  // what is not is found in the term
+                all += weight * E;
+            }
+            observer.reads(i,
+                           static_cast<std::uint32_t>(*largest * settings_.records->cells().size() + pass.brightest_ray(*largest)),
+                           std::numeric_limits<std::uint32_t>::max(), all);
+            return true;
+        };
+        find_first_vertices(*scene_, scene_->geometry, rays, work.walkers, out.rays[0], observer,
+                            [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
+        walk_to_records(*scene_, *direct_, walk, samplers, work.walkers, out.rays, out.given_up, read, find, observer);
+    };
+    work.tally.given_up += trace(*scene_, sample, std::span(work.camera), std::span<const Pixel>(work.pixels), replicate,
+                                 work.group, std::span(work.tally.rays));
+}
+
+}  // namespace neumann

@@ -1,0 +1,39 @@
+#include "operators/pictures/cache_sampler.h"
+
+#include "operators/pictures/cache_group.h"
+#include "operators/pictures/pixel_groups.h"
+
+#include <stdexcept>
+
+namespace neumann {
+
+namespace {
+
+const std::shared_ptr<const RecordPlaces>& places_of(const SamplingSettings& settings) {
+    if (!settings.records) throw std::logic_error("PictureSampler: the places of the cache's records are missing");
+    return settings.records;
+}
+
+}  // namespace
+
+CacheSampler::CacheSampler(const Scene& scene, const SamplingSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
+      direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
+      tracer_(std::make_shared<const RecordTracer>(scene, direct_, settings.walk, places_of(settings), settings.sampler,
+                                                   settings.seed)),
+      camera_net_(settings.replicate_size) {}
+
+bool CacheSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                  const Watch& watch) const {
+    std::vector<std::uint64_t> rays(settings_.pictures());
+    const auto pass = tracer_->trace(replicate, rays, tally.given_up, watch.stop);
+    if (!pass) return false;
+    for (std::size_t q = 0; q < rays.size(); ++q) tally.rays[q] += rays[q];
+    return sample_groups<Workspace>(
+        settings_, pixels_, replicate, picture, ranges, tally, watch,
+        [&](std::uint32_t first, std::uint32_t samples, Workspace& work) { trace_group(replicate, first, samples, *pass, work); });
+}
+
+}  // namespace neumann
