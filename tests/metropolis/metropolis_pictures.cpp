@@ -132,7 +132,10 @@ struct Case {
     bool rest;  // whether the reference knows the rest
 };
 
-// |z| ≤ 4.5 in all blocks, bounces and channels, and 95% of intervals hold the other method's mean. About 400 values of a scene.
+// |z| ≤ 4.5 in all blocks, bounces and channels, and 95% of intervals hold the other method's mean: over six seeds 93.9% to 94.6% of some
+// 1090 did, all scenes together. Values of a scene go together, for all blocks of a replicate share the brightness of a bounce and
+// channels their paths, so that 170 of them are about as many as 25: 80% leaves 3 standard deviations of their number, and 91% of all
+// leaves 2.5 of some 160.
 TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
     int within_all = 0, all = 0;
     for (const Case& c : {Case{"cornell-box", "walk", 32, true}, Case{"glass-ball", "bidirectional", 128, false},
@@ -163,13 +166,13 @@ TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
                     ++count;
                 }
         std::printf("%s: %d of %d within, largest |z| %.2f\n", c.scene, within, count, worst);
-        EXPECT_GE(within, 0.9 * count) << c.scene;
+        EXPECT_GE(within, 0.8 * count) << c.scene;
         EXPECT_GE(count, 30) << c.scene;
         within_all += within;
         all += count;
     }
     std::printf("%d of %d within\n", within_all, all);
-    EXPECT_GE(within_all, 0.93 * all);
+    EXPECT_GE(within_all, 0.91 * all);
 }
 
 }  // namespace neumann::metropolis_pictures_test
