@@ -286,7 +286,7 @@ for b in found.bounces:
         f"   {abs(b.difference.in_errors):.1f} errors apart"
     )
     assert abs(b.difference.in_errors) < 4.5
-assert not [d for d in found.doubts if d.kind in ("negative", "gain", "singular", "foreign light")], str(found)
+assert not [d for d in found.doubts if d.kind in ("gain", "singular", "foreign light")], str(found)
 
 # %% [markdown]
 # The table: what the backward terms are off is more than noise. 8 × 8 regions are large, and one that lies across an edge of the

@@ -67,12 +67,12 @@ struct Writer {
         Eigen::Index row = 0, column = 0;
         int count = 0;
     };
-    static Worst negative_in(const Eigen::MatrixXd& values, const Eigen::MatrixXd& errors, double limit, double part) {
+    static Worst negative_in(const Eigen::MatrixXd& values, const Eigen::MatrixXd& errors, double limit,
+                             const Eigen::RowVectorXd& least) {
         Worst worst;
         for (Eigen::Index j = 0; j < values.cols(); ++j) {
-            const double least = part * values.col(j).cwiseAbs().maxCoeff();
             for (Eigen::Index i = 0; i < values.rows(); ++i) {
-                if (!(values(i, j) < -std::max(least, limit * errors(i, j)))) continue;
+                if (!(values(i, j) < -std::max(least[j], limit * errors(i, j)))) continue;
                 ++worst.count;
                 if (values(i, j) < worst.value) worst = {values(i, j), errors(i, j), i, j, worst.count};
             }
@@ -83,7 +83,8 @@ struct Writer {
     void negative() const {
         each_channel([&](const UnbouncedChannel& channel, const char* name) {
             const Worst term = negative_in(channel.terms.value, channel.terms.error,
-                                           limit_of(3.0 * static_cast<double>(channel.terms.value.size())), least_light);
+                                           limit_of(3.0 * static_cast<double>(channel.terms.value.size())),
+                                           least_light * channel.terms.value.cwiseAbs().colwise().maxCoeff());
             if (term.count > 0)
                 add(Kind::negative,
                     fmt::format("{}: {} value{} of terms {} negative, as light cannot be; in bounce {} the region of {} has "
@@ -92,7 +93,8 @@ struct Writer {
                                 name, term.count, term.count == 1 ? "" : "s", term.count == 1 ? "is" : "are", term.column + 1,
                                 names[at(channel, term.row)], term.value, term.error));
             const Eigen::MatrixXd& A = channel.once_more.value;
-            const Worst link = negative_in(A, channel.once_more.error, limit_of(3.0 * static_cast<double>(A.size())), least_link);
+            const Worst link = negative_in(A, channel.once_more.error, limit_of(3.0 * static_cast<double>(A.size())),
+                                           Eigen::RowVectorXd::Constant(A.cols(), least_link * A.cwiseAbs().maxCoeff()));
             if (link.count > 0)
                 add(Kind::negative,
                     fmt::format("{}: {} of {} links between regions are negative, the one from {} to {} by {:.3g} ± {:.1g}", name,
