@@ -39,6 +39,8 @@ constexpr double smallest_extent = 1e-4;
 constexpr double unseen_radius = 2.0;
 // With the Hessian: s, and the largest radius as a part of R. What other rooms see lies behind what is near.
 constexpr double turning_with_hessian = 0.25, part_of_distance = 0.5;
+// The sine above the surface of rays that look for what stands on it, and the cosine between normals of one surface.
+constexpr double rise = 0.05, same_surface = 0.7;
 // Records lie within this part of their radius above or below the surface at y.
 constexpr double flat = 0.2;
 // Of a ray in a pass, and of what it finds.
@@ -108,6 +110,7 @@ private:
     };
     struct Proposal {
         double radius = 0.0;
+        Index::Reach reach{};
         std::vector<Seen> sees;
     };
 
@@ -202,7 +205,7 @@ private:
                             "taken; take a larger "
                             "number, or fewer --directions",
                             places_.settings_.accuracy, records.size(), bytes / 0x1p30, memory_ / 0x1p30));
-        places_.index_->add(records.back(), static_cast<std::uint32_t>(records.size() - 1));
+        places_.index_->add(records.back(), static_cast<std::uint32_t>(records.size() - 1), proposal.reach);
         ahead_.insert(ahead_.end(), proposal.sees.begin(), proposal.sees.end());
     }
     double clamped(double radius) const { return std::clamp(radius, smallest_part * extent_, extent_); }
@@ -231,6 +234,27 @@ private:
             },
             [&](std::uint32_t i, std::size_t, const Rgb& light) { work.radiance[i] += light; });
         proposal.radius = radius(work);
+        proposal.reach = reach(vertex);
+    }
+
+    // By rays that just rise above the surface. What bends up with it does not stand on it.
+    Index::Reach reach(const Seen& vertex) const {
+        constexpr std::size_t sectors = Index::sectors;
+        std::array<double, sectors> free{};
+        for (std::size_t k = 0; k < sectors; ++k) {
+            const Vec2 u = direction_on_circle(static_cast<double>(k) / sectors) * std::sqrt(1.0 - rise * rise);
+            const Vec3 w = vertex.frame.to_world(Vec3(u, rise));
+            SurfacePoint y;
+            const bool hit = (scene_.geometry.first_hits(
+                                  1, [&](std::size_t) { return std::pair<const SurfacePoint&, const Vec3&>(vertex.x, w); },
+                                  [&](std::size_t) -> SurfacePoint& { return y; }) &
+                              1u) != 0;
+            const double facing = hit ? glm::dot(y.normal, vertex.frame.n) * (glm::dot(y.normal, w) > 0.0 ? -1.0 : 1.0) : 1.0;
+            free[k] = facing < same_surface ? glm::length(y.position - vertex.x.position) : std::numeric_limits<double>::infinity();
+        }
+        Index::Reach found{};
+        for (std::size_t k = 0; k < sectors; ++k) found[k] = static_cast<float>(std::min(free[k], free[(k + 1) % sectors]));
+        return found;
     }
 
     double radius(Work& work) const {
@@ -309,7 +333,7 @@ void RecordPlaces::find(const Vec3& y, const Vec3& n, bool only_seen, double mos
         const double turned = glm::dot(n, frame.n);
         if (turned <= 0.0 || std::max(std::abs(glm::dot(d, n)), std::abs(glm::dot(d, frame.n))) > flat * record.radius) return;
         const double error = glm::length(d) / record.radius + std::sqrt(std::max(1.0 - turned, 0.0)) / turning_;
-        if (error >= most) return;
+        if (error >= most || !index_->reaches(number, glm::dot(d, frame.s), glm::dot(d, frame.t))) return;
         near.push_back({number,
                         static_cast<float>(error),
                         {static_cast<float>(glm::dot(n, frame.s)), static_cast<float>(glm::dot(n, frame.t)),
