@@ -20,7 +20,7 @@ constexpr double rounding = 1e-12;
 
 bool Conditioning::is_singular() const { return smallest <= std::max(noise, rounding * largest); }
 
-TransportInverse::TransportInverse(const MatrixXd& T) : scale_(T.colwise().maxCoeff()), scaled_(T) {
+TransportInverse::TransportInverse(const MatrixXd& T) : scale_(T.cwiseAbs().colwise().maxCoeff()), scaled_(T) {
     for (Eigen::Index j = 0; j < scaled_.cols(); ++j) scaled_.col(j) /= scale_[j];
 }
 

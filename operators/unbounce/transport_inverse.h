@@ -1,8 +1,8 @@
 // T⁻¹ of a matrix of pictures T (regions × lights) of one channel, which takes a picture back to the strengths of the lights.
 //
-// The lights' own strengths do not matter: T = T̃ S, S diagonal, the largest value in each column of T̃ being 1. With Tikhonov's
-// parameter α, T⁻¹ becomes S⁻¹ (T̃ᵀ T̃ + α² I)⁻¹ T̃ᵀ. A. N. Tikhonov (1963); P. C. Hansen, Rank-Deficient and Discrete Ill-Posed
-// Problems (1998), for the choice of α.
+// The lights' own strengths do not matter: T = T̃ S, S diagonal, the largest magnitude in each column of T̃ being 1. (Values may be
+// below 0 where noise is as large as they are.) With Tikhonov's parameter α, T⁻¹ becomes S⁻¹ (T̃ᵀ T̃ + α² I)⁻¹ T̃ᵀ. A. N. Tikhonov
+// (1963); P. C. Hansen, Rank-Deficient and Discrete Ill-Posed Problems (1998), for the choice of α.
 #pragma once
 
 #include <Eigen/Core>

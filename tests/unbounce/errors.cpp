@@ -52,6 +52,18 @@ TEST(UnbounceErrors, AreThoseOfRepeats) {
     for (Eigen::Index n = 0; n < bounces; ++n) EXPECT_NEAR(std::sqrt(mean_variance[n] / means_seen[n]), 1.0, 0.16) << n + 1;
 }
 
+// Lights that meet a single region each, one of which is known to two standard errors alone: in some of the repeats it is below 0.
+// (The errors were no numbers.)
+TEST(UnbounceErrors, AreNumbersWhereNoiseIsAsLargeAsALight) {
+    MatrixXd T = MatrixXd::Identity(3, 3), variance = 1e-6 * T;
+    variance(1, 1) = 0.25;
+    const UnbouncedChannel found = unbounced({T, variance, {}, {}, {}, {}}, 3);
+    EXPECT_TRUE(found.terms.error.allFinite());
+    EXPECT_TRUE(found.mean_errors.allFinite());
+    EXPECT_GT(found.terms.error(1, 0), 0.3);
+    EXPECT_NEAR(found.terms.error(0, 0), 1e-3, 4e-4);
+}
+
 // Within the errors of one result, which are of 64 repeats: 2400 comparisons that |t| ≤ 5.1 with 63 degrees of freedom; a false
 // alarm in 100 seeds, or in 100 000 if 2400 were 1. Correct errors make the root mean square 1.03.
 TEST(UnbounceErrors, HoldTheTruth) {
