@@ -8,6 +8,7 @@
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -20,14 +21,14 @@ using physics::fixed_seed;
 using physics::settings_of;
 
 constexpr std::size_t bounces = 4;
-constexpr double largest_error = 0.002;
+constexpr double largest_error = 0.004;
 
 SamplingSettings cache_settings(const Scene& scene, const char* rays) {
     return settings_of(scene, make_method({"cache", {{"directions", rays}}}), bounces, fixed_seed, 0.5);
 }
 
 // The white furnace, K^i Le = ρ^i and Σ_{i>N} ρ^i = ρ^(N+1)/(1 − ρ): 8 scenes, bounces 2 … 4 and the rest, 3 channels. 96
-// comparisons at |z| ≤ 4.5, a false alarm in 1500 runs. Passed over 50 seeds.
+// comparisons at |z| ≤ 4.5, a false alarm in 1500 runs.
 TEST(CacheClosedScenesSlow, Furnace) {
     const Rgb albedo(0.25, 0.5, 0.75);
     for (known::ClosedScene& enclosure : known::enclosures({albedo, Rgb(1.0)})) {
@@ -36,7 +37,7 @@ TEST(CacheClosedScenesSlow, Furnace) {
         enclosure.maker.parts.camera.near_clip = 1e-6;
         enclosure.maker.parts.film = {8, 8, 0, 0, 8, 8};
         const Scene scene = enclosure.maker.make();
-        const Blocks cache(scene, cache_settings(scene, "64"), 8, 256, wider - 1.0);
+        const Blocks cache(scene, cache_settings(scene, "64"), 8, 64, wider - 1.0);
         for (std::size_t i = 2; i <= bounces + 1; ++i)
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 const double rho = albedo[static_cast<int>(channel)],
@@ -52,10 +53,10 @@ TEST(CacheClosedScenesSlow, Furnace) {
 
 // A sphere closed by a disc that shines, two surfaces with K = [0, ρd; ρs (1 − f), ρs f], f = 3/4
 // (operators/known/two_patches.cpp): 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48 comparisons at |z|
-// ≤ 4.5, a false alarm in 3000 runs. Passed over 50 seeds.
+// ≤ 4.5, a false alarm in 3000 runs.
 TEST(CacheClosedScenesSlow, SphereClosedByADisc) {
     const Scene scene = read_scene(SCENES "/sphere-segment/sphere-segment.xml", {{"res", "32"}});
-    const Blocks cache(scene, cache_settings(scene, "256"), 8, 256, wider - 1.0);
+    const Blocks cache(scene, cache_settings(scene, "256"), 8, 64, wider - 1.0);
     std::vector<double> disc{1.0}, sphere{0.0};
     for (std::size_t i = 1; i <= bounces; ++i) {
         disc.push_back(0.7 * sphere[i - 1]);
@@ -139,8 +140,11 @@ TEST(CacheClosedScenes, RefuseWhatTheyCannotDo) {
     const CacheSettings usual{Spacing::hessian, 0.05, 64};
     const Scene box = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
     EXPECT_EQ(refusal(box, usual, 1e9), "");
-    EXPECT_TRUE(refusal(box, usual, 1e5).starts_with("--accuracy 0.05: the rays of 17 records, and more are needed, take 0.0 GiB"))
-        << refusal(box, usual, 1e5);
+    const std::string much = refusal(box, usual, 1e5);  // at 96 bytes a ray
+    EXPECT_EQ(much, fmt::format(
+                        "--accuracy 0.05: the rays of {} records, and more are needed, take 0.0 GiB, and 0.0 may be taken; take a "
+                        "larger number, or fewer --directions",
+                        static_cast<int>(1e5 / (96.0 * static_cast<double>(HemisphereCells(64).size()))) + 1));
     known::SceneMaker mirrors;
     mirrors.add(Sphere{{0, 0, 0}, 1.0, true}, known::made_of(Conductor(), Rgb(1.0)));
     EXPECT_EQ(refusal(mirrors.make(), usual, 1e9),
