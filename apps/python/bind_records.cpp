@@ -8,6 +8,7 @@
 #include "operators/methods/sampling.h"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
 #include <limits>
 

@@ -186,19 +186,30 @@ struct Writer {
                             names[static_cast<std::size_t>(region)]));
     }
 
-    // Pixels whose light is hardly direct: significantly less than 2% of it in bounce 1.
+    // Pixels whose light is hardly direct: significantly less than 2% of it in bounce 1; or less than half, where that is less than
+    // 2% of what the brightest pixel of the region has, for a pixel that no light meets is given to the one whose region shines on
+    // it most.
     void unlit() const {
         const PixelEstimate& first = found.terms.front();
+        std::vector<double> brightest(found.lights(), 0.0);
+        for (std::size_t p = 0; p < first.mean.pixels.size(); ++p)
+            if (const int r = found.regions.of_pixel[p]; r != Regions::none)
+                brightest[static_cast<std::size_t>(r)] =
+                    std::max(brightest[static_cast<std::size_t>(r)], mean_component(first.mean.pixels[p]));
         double seen = 0.0, dark = 0.0;
         for (std::size_t p = 0; p < first.mean.pixels.size(); ++p) {
             const double light = mean_component(found.picture.pixels[p]);
             if (light <= 0.0) continue;
             seen += 1.0;
             const double error = found.knows_errors ? mean_component(first.standard_error.pixels[p]) : 0.0;
-            dark += mean_component(first.mean.pixels[p]) + 3.0 * error < least_direct * light;
+            const double direct = mean_component(first.mean.pixels[p]) + 3.0 * error;
+            const int r = found.regions.of_pixel[p];
+            const double of_region = r == Regions::none ? 0.0 : brightest[static_cast<std::size_t>(r)];
+            dark += direct < least_direct * light || (direct < 0.5 * light && direct < least_direct * of_region);
         }
         if (dark > unlit_pixels * seen)
-            add(Kind::unlit, fmt::format("{:.1f}% of what is seen gets no direct light: lights that do not cover what is seen",
+            add(Kind::unlit, fmt::format("{:.1f}% of what is seen gets no direct light of its own: lights that do not cover what "
+                                         "is seen, or mirrors and glass",
                                          100.0 * dark / seen));
     }
 
