@@ -10,6 +10,7 @@
 #include "operators/methods/sampling.h"
 #include "operators/photons/photon_pilot.h"
 #include "operators/pictures/least_errors.h"
+#include "operators/pictures/picture_bias.h"
 
 #include <fmt/format.h>
 
@@ -104,17 +105,9 @@ RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
-// The bias as the discretisation error: of photon maps the difference between the radii r and r/√2, of a cache that between r√2 and
-// r, as a part of the error by r. Where the light is smooth the error is of order r², and the part 1/2 or 1; it is less at edges of
-// surfaces and light, where the error is of order r.
-double part_of_bias(PathGenerator generator) {
-    return generator == PathGenerator::cache ? wider - 1.0 : 1.0 - 1.0 / std::numbers::sqrt2;
-}
 template <class Difference>
-Estimate with_bias(Estimate picture, const Difference& difference, double part, const SeriesMoments::Result& result) {
-    if (!result.has_differences()) return picture;
-    picture.discretisation = difference();
-    for (Rgb& x : picture.discretisation.pixels) x = glm::abs(x) / part;
+Estimate with_bias(Estimate picture, const Difference& difference, PathGenerator generator, const SeriesMoments::Result& result) {
+    if (result.has_differences()) picture.discretisation = stated_bias(generator, difference());
     return picture;
 }
 
@@ -150,17 +143,17 @@ void report_bias(const SeriesMoments::Result& result, PathGenerator generator, B
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
-                           const std::shared_ptr<const LeastErrors>& least, double part, SeriesReport report) {
+                           const std::shared_ptr<const LeastErrors>& least, PathGenerator generator, SeriesReport report) {
     BounceSeries out;
-    out.term = [result, least, part](std::size_t i) {
+    out.term = [result, least, generator](std::size_t i) {
         PixelEstimate term = with_bias(
-            result->term(i), [&] { return result->difference_of_term(i); }, part, *result);
+            result->term(i), [&] { return result->difference_of_term(i); }, generator, *result);
         if (least) term.least_error = least->of_term(i);
         return term;
     };
-    out.sum = [result, least, part](std::size_t i) {
+    out.sum = [result, least, generator](std::size_t i) {
         PixelEstimate sum = with_bias(
-            result->sum(i), [&] { return result->difference_of_sum(i); }, part, *result);
+            result->sum(i), [&] { return result->difference_of_sum(i); }, generator, *result);
         if (least) sum.least_error = least->of_sum(i);
         return sum;
     };
@@ -342,7 +335,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         least = std::make_shared<const LeastErrors>(scene, settings, sampled, *moments);
         report_unmet(report, *least);
     }
-    BounceSeries series = bounce_series(sampled, moments, least, part_of_bias(settings.generator), std::move(report));
+    BounceSeries series = bounce_series(sampled, moments, least, settings.generator, std::move(report));
     report_bias(*moments, settings.generator, series);
     series.paths = paths;
     series.method = as_it_ran(method, settings, scene.film);

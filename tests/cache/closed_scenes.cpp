@@ -37,7 +37,7 @@ TEST(CacheClosedScenesSlow, Furnace) {
         enclosure.maker.parts.camera.near_clip = 1e-6;
         enclosure.maker.parts.film = {8, 8, 0, 0, 8, 8};
         const Scene scene = enclosure.maker.make();
-        const Blocks cache(scene, cache_settings(scene, "64"), 8, 64, wider - 1.0);
+        const Blocks cache(scene, cache_settings(scene, "64"), 8, 64);
         for (std::size_t i = 2; i <= bounces + 1; ++i)
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 const double rho = albedo[static_cast<int>(channel)],
@@ -57,7 +57,7 @@ TEST(CacheClosedScenesSlow, Furnace) {
 // ≤ 4.5, a false alarm in 3000 runs.
 TEST(CacheClosedScenesSlow, SphereClosedByADisc) {
     const Scene scene = read_scene(SCENES "/sphere-segment/sphere-segment.xml", {{"res", "32"}});
-    const Blocks cache(scene, cache_settings(scene, "256"), 8, 64, wider - 1.0);
+    const Blocks cache(scene, cache_settings(scene, "256"), 8, 64);
     std::vector<double> disc{1.0}, sphere{0.0};
     for (std::size_t i = 1; i <= bounces; ++i) {
         disc.push_back(0.7 * sphere[i - 1]);

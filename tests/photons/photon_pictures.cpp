@@ -13,15 +13,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 namespace neumann::photon_pictures_test {
 
 using physics::Blocks;
 using physics::fixed_seed;
 using physics::settings_of;
-
-constexpr double part_of_bias = 1.0 - 1.0 / std::numbers::sqrt2;
 
 struct Case {
     const char* scene;
@@ -47,7 +44,7 @@ TEST(PhotonPicturesSlow, AreWithinTheirStatedErrors) {
         for (const char* gather : {"false", "true"}) {
             const SamplingSettings settings = settings_of(
                 scene, make_method({"photon", {{"gather", gather}, {"photons", "16384"}}}), bounces, fixed_seed + 1, 0.5);
-            const Blocks photons(scene, settings, 8, 128, part_of_bias);
+            const Blocks photons(scene, settings, 8, 128);
             int within = 0, count = 0;
             for (std::size_t q = 0; q <= bounces + (c.rest ? 1 : 0); ++q)
                 for (std::size_t b = 0; b < photons.blocks(); ++b)
@@ -107,7 +104,7 @@ TEST(PhotonPicturesSlow, BiasAndVarianceFallAsTheoryHasIt) {
         scene,
         settings_of(scene, make_method({"photon", {{"photons", "16384"}, {"radius", "0.7"}, {"sampler", "independent"}}}), 2,
                     fixed_seed + 1),
-        4, 1024, part_of_bias);
+        4, 1024);
     const auto expected = [](std::uint64_t n) {
         double squares = 0.0;
         for (std::uint64_t i = 0; i < n; ++i) squares += relative_radius(i) * relative_radius(i);

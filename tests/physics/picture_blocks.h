@@ -2,6 +2,7 @@
 #pragma once
 
 #include "operators/methods/sampling.h"
+#include "operators/pictures/picture_bias.h"
 #include "operators/pictures/picture_sampler.h"
 
 #include <cmath>
@@ -13,13 +14,14 @@ namespace neumann::physics {
 // Means over blocks of pixels, of each channel and quantity, replicate by replicate.
 class Blocks {
 public:
-    // `part_of_bias`: what the difference between two radii is of the bias.
-    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates, double part_of_bias = 1.0)
-        : terms_(settings.pictures()), replicates_(replicates), part_of_bias_(part_of_bias) {
+    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates)
+        : terms_(settings.pictures()), replicates_(replicates), generator_(settings.generator) {
         const PictureSampler sampler(scene, settings);
         const std::size_t Q = settings.quantities();
         const auto width = static_cast<std::size_t>(sampler.width()), size = static_cast<std::size_t>(block);
         columns_ = width / size;
+        size_ = size;
+        if (Q > terms_) differences_.assign(terms_, Image(sampler.width(), sampler.height()));
         blocks_ = columns_ * (static_cast<std::size_t>(sampler.height()) / size);
         quantities_ = Q;
         Tally tally(Q);
@@ -29,9 +31,12 @@ public:
             for (std::size_t pixel = 0; pixel < width * static_cast<std::size_t>(sampler.height()); ++pixel) {
                 const std::size_t b = pixel / width / size * columns_ + pixel % width / size;
                 for (std::size_t q = 0; q < Q; ++q)
-                    for (std::size_t c = 0; c < 3; ++c)
-                        of[(b * Q + q) * 3 + c] +=
-                            node.data[(pixel * Q + q) * PixelMoments::doubles_per_quantity + c] / static_cast<double>(size * size);
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const double value = node.data[(pixel * Q + q) * PixelMoments::doubles_per_quantity + c];
+                        of[(b * Q + q) * 3 + c] += value / static_cast<double>(size * size);
+                        if (q >= terms_)
+                            differences_[q - terms_].pixels[pixel][static_cast<int>(c)] += value / static_cast<double>(replicates);
+                    }
             }
             all_.push_back(std::move(of));
         }
@@ -52,8 +57,18 @@ public:
         for (std::uint64_t r = 0; r < n; ++r)
             v.error += std::pow(all_[r][(block * quantities_ + term) * 3 + channel] - v.mean, 2.0);
         v.error = std::sqrt(v.error / (count * (count - 1.0)));
-        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / part_of_bias_;
+        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / part_of_bias(generator_);
         return v;
+    }
+    // The mean over the block of the bias that a render of all replicates states.
+    double stated_bias(std::size_t block, std::size_t term, std::size_t channel) const {
+        const Image bias = neumann::stated_bias(generator_, differences_.at(term));
+        const int left = static_cast<int>(block % columns_ * size_), top = static_cast<int>(block / columns_ * size_),
+                  size = static_cast<int>(size_);
+        double sum = 0.0;
+        for (int y = top; y < top + size; ++y)
+            for (int x = left; x < left + size; ++x) sum += bias.at(x, y)[static_cast<int>(channel)];
+        return sum / (size * size);
     }
     // Of a replicate, from the differences of successive ones of [begin, end), whose means are nearly the same.
     double variance(std::size_t block, std::size_t term, std::size_t channel, std::uint64_t begin, std::uint64_t end) const {
@@ -66,9 +81,10 @@ public:
     std::uint64_t replicates() const { return replicates_; }
 
 private:
-    std::size_t terms_, quantities_ = 0, columns_ = 0, blocks_ = 0;
+    std::size_t terms_, quantities_ = 0, columns_ = 0, blocks_ = 0, size_ = 0;
     std::uint64_t replicates_;
-    double part_of_bias_;
+    PathGenerator generator_;
+    std::vector<Image> differences_;  // of terms between two radii, means over replicates
     std::vector<std::vector<double>> all_;
 };
 
