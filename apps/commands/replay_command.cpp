@@ -102,13 +102,14 @@ Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& 
 }
 
 // Of a merged render: the one of its renders that has the sample, and the sample's name there.
-std::pair<RecordedRender, SampleName> where_it_began(const RecordedRun& run, SampleName name) {
+// `size`: samples of its pixel in a replicate.
+std::pair<RecordedRender, SampleName> where_it_began(const RecordedRun& run, SampleName name, std::uint64_t size) {
     RecordedRender render = run.render;
-    std::uint64_t replicate = name.sample / render.replicate_size;
+    std::uint64_t replicate = name.sample / size;
     for (const SeedRange& range : run.merged) {
         if (replicate < range.count) {
             render.seed = range.seed;
-            name.sample = (range.first + replicate) * render.replicate_size + name.sample % render.replicate_size;
+            name.sample = (range.first + replicate) * size + name.sample % size;
             break;
         }
         replicate -= range.count;
@@ -197,13 +198,16 @@ int replay_command(const ReplayRequest& request) {
         fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
                    NEUMANN_VERSION);
     const Chosen chosen = choose(request, run, scene.film);
-    const auto [render, name] = where_it_began(run, chosen.name);
-    const RecordedSamples samples(scene, render);
-    if (adaptive_of(render.method)) {
-        const std::uint64_t of_pixel = samples.sampler().layout().size(name.pixel);
-        expect_sample(name.sample, run.first / render.replicate_size * of_pixel, run.samples / render.replicate_size * of_pixel);
+    // All seeds have the same numbers of samples in pixels.
+    std::uint64_t size = run.render.replicate_size;
+    if (adaptive_of(run.render.method)) {
+        size = RecordedSamples(scene, run.render).sampler().layout().size(chosen.name.pixel);
+        if (!request.number)
+            expect_sample(chosen.name.sample, run.first / run.render.replicate_size * size,
+                          run.samples / run.render.replicate_size * size);
     }
-    const Replay found = samples.replay(name);
+    const auto [render, name] = where_it_began(run, chosen.name, size);
+    const Replay found = RecordedSamples(scene, render).replay(name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 

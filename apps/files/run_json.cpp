@@ -167,6 +167,11 @@ Json samples_json(const BounceSeries& series) {
         if (paths->photons) json["photons"] = photons_json(*paths->photons, *paths, series.report.bounces.size() - 1);
         if (paths->most_of_pixel > 0)
             json["of_a_pixel_in_a_replicate"] = {{"fewest", paths->fewest_of_pixel}, {"most", paths->most_of_pixel}};
+        if (paths->tree) {
+            json["at_depths"] = {1.0};
+            for (const double ratio : paths->tree->of_depths)
+                json["at_depths"].push_back(json["at_depths"].back().get<double>() * ratio);
+        }
         if (!paths->chains.empty()) json["chains"] = chains_json(paths->chains);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},

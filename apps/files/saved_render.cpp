@@ -144,6 +144,7 @@ void save_render(OutputFolder& folder, const RequestOnDisk& request, const Recor
                    {"tally", as_json(series.tally)},
                    {"merged", as_json(series.merged)},
                    {"checkpoints", {series.convergence.size(), terms}},
+                   {"sizes", series.sizes.size()},
                    {"ranges", moments.ranges().of.size()},
                    {"nodes", Json::array()}});
     for (const SeriesMoments::Node& node : moments.nodes()) header["nodes"].push_back({node.first, node.count, node.data->size()});
@@ -152,6 +153,7 @@ void save_render(OutputFolder& folder, const RequestOnDisk& request, const Recor
     for (const SeriesMoments::Node& node : moments.nodes()) pieces.push_back(bytes_of(node.data->data(), node.data->size()));
     pieces.push_back(bytes_of(moments.ranges().of.data(), moments.ranges().of.size()));
     pieces.push_back(bytes_of(convergence.data(), convergence.size()));
+    pieces.push_back(bytes_of(series.sizes.data(), series.sizes.size()));
     write_state(folder, std::move(header), std::move(pieces));
 }
 
@@ -210,6 +212,7 @@ RenderState read_saved_render(const std::filesystem::path& path) {
         series.moments.set(std::move(nodes), {file.numbers<SampleRange>(header.at("ranges").get<std::uint64_t>())});
         const std::size_t rows = header.at("checkpoints").at(0), terms = header.at("checkpoints").at(1);
         series.convergence = checkpoints_from(file.numbers<double>(rows * (5 + 2 * terms)), rows, terms);
+        series.sizes = file.numbers<std::uint32_t>(header.at("sizes").get<std::uint64_t>());
         header.at("samples").get_to(series.samples);
         header.at("seconds").get_to(series.seconds);
         series.merged = merged_from(header.at("merged"));

@@ -99,7 +99,7 @@ public:
 
 private:
     struct Work {
-        CacheWalkers walkers;
+        PlainWalkers walkers;
         std::vector<Sampler> samplers;
         std::vector<Near> near;
         std::vector<Rgb> radiance;

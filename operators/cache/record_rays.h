@@ -16,7 +16,7 @@ constexpr std::uint32_t pixel_of_record(std::size_t record) { return 0x80000000u
 // the hits. met(i, walker) is called for each.
 template <class Sampler, class Observer, class Met>
 void leave_record(const Scene& scene, const HemisphereCells& cells, const SurfacePoint& x, const Frame& frame, std::size_t first,
-                  std::span<Sampler> samplers, CacheWalkers& walkers, const Observer& observer, const Met& met) {
+                  std::span<Sampler> samplers, PlainWalkers& walkers, const Observer& observer, const Met& met) {
     walkers.begin(samplers.size());
     for (std::size_t i = 0; i < samplers.size(); ++i) {
         Walker& w = walkers.walker[i];
@@ -40,7 +40,7 @@ void RecordTracer::trace_ray(std::uint64_t pass, std::uint32_t ray, const Observ
     const Record& from = places_->records()[record];
     std::vector<Sampler> sampler(1, Sampler(sampler_, points_, seed_, pixel_of_record(record)));
     sampler.front().start(pass * points_.size() + cell);
-    CacheWalkers walkers;
+    PlainWalkers walkers;
     std::vector<std::uint64_t> counted(static_cast<std::size_t>(walk_.bounces) + 2);
     std::uint64_t given_up = 0;
     std::vector<RecordPlaces::Near> near;

@@ -40,7 +40,7 @@ struct RecordTracer::Rays {
 
 struct RecordTracer::Workspace {
     explicit Workspace(std::size_t quantities) : rays(quantities) {}
-    CacheWalkers walkers;
+    PlainWalkers walkers;
     std::vector<Sampler> samplers;
     std::vector<RecordPlaces::Near> near;
     std::vector<double> inverse_distances;

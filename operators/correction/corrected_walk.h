@@ -110,11 +110,7 @@ private:
             w.point = chosen.point;
             w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.asks_for * chosen.weight);
         }
-        w.beta *= sampled.weight;
-        w.reflected = max_component(sampled.weight);
-        w.pdf = sampled.pdf;
-        w.w = side.p.frame.to_world(sampled.wi);
-        w.from = receiver(side);
+        w.leave(side, sampled);
         return true;
     }
     // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.

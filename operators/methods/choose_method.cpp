@@ -171,6 +171,11 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
         choice.method = other.method;
         choice.why = other.why;
     }
+    std::visit(
+        [](auto& m) {
+            if constexpr (requires { m.adaptive; }) m.adaptive = LeastError::of_all;
+        },
+        choice.method);
     choice.seconds = clock.seconds();
     return choice;
 }

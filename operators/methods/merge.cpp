@@ -36,6 +36,8 @@ void expect_alike(const NamedState& a, const NamedState& b) {
     if (x.replicate_size != y.replicate_size)
         unlike(fmt::format("one has replicates of {} samples a pixel", x.replicate_size),
                fmt::format("the other of {}, because of its fewer or more samples", y.replicate_size));
+    if (a.state.series.sizes != b.state.series.sizes)
+        unlike("one has other numbers of samples in its pixels", "the other too: the scenes or versions are not the same");
     if ((x.rest_probability > 0.0) != (y.rest_probability > 0.0)) unlike("one has a rest", "the other has none");
 }
 
@@ -61,8 +63,12 @@ bool are_consecutive(const std::vector<NamedState>& renders) {
 }
 
 // The samples get the numbers that they have where these replicates begin with number `to`.
-void rename_samples(Tally& tally, std::uint64_t from, std::uint64_t to, std::uint64_t size) {
-    const auto rename = [&](SamplePlace& place) { place.name.sample += (to - from) * size; };  // wraps around where it is less
+void rename_samples(RenderedSeries& series, std::uint64_t from, std::uint64_t to) {
+    Tally& tally = series.tally;
+    const auto rename = [&](SamplePlace& place) {
+        const std::uint64_t size = series.sizes.empty() ? series.replicate_size : series.sizes[place.name.pixel];
+        place.name.sample += (to - from) * size;  // wraps around where it is less
+    };
     for (NonFiniteSample& s : tally.non_finite) rename(s.place);
     for (LargestSamples& largest : tally.largest) {
         std::vector<LargestSamples::Sample> kept = largest.kept();
@@ -81,16 +87,10 @@ RenderState merge(std::vector<NamedState> renders) {
                              [](const NamedState& r) { return std::tuple(r.state.render.seed, r.state.series.moments.first()); });
     const bool consecutive = are_consecutive(renders);
 
-    if (!consecutive && adaptive_of(renders.front().state.render.method))
-        throw InputError(
-            "renders with --adaptive can be merged where one goes on from the other, as the parts of --part do; these have other "
-            "seeds, or samples are missing between them");
-
     RenderState merged = std::move(renders.front().state);
     RenderedSeries& all = merged.series;
-    const std::uint64_t size = merged.render.replicate_size;
     std::vector<SeedRange> seeds = seeds_of(merged);
-    if (!consecutive) rename_samples(all.tally, all.moments.first(), 0, size);
+    if (!consecutive) rename_samples(all, all.moments.first(), 0);
     std::erase_if(all.convergence, [](const Checkpoint& c) { return !std::has_single_bit(c.samples); });
     for (auto r = renders.begin() + 1; r != renders.end(); ++r) {
         RenderedSeries& next = r->state.series;
@@ -98,7 +98,7 @@ RenderState merge(std::vector<NamedState> renders) {
         if (consecutive) {
             all.moments.add(next.moments);
         } else {
-            rename_samples(next.tally, next.moments.first(), all.moments.replicates(), size);
+            rename_samples(next, next.moments.first(), all.moments.replicates());
             all.moments.unite(next.moments);
         }
         all.tally.merge(next.tally);

@@ -4,6 +4,7 @@
 #include "core/scene/scene.h"
 #include "operators/cache/cache_settings.h"
 #include "operators/pictures/allocation.h"
+#include "operators/splitting/tree_ratios.h"
 #include "operators/walk/walk_settings.h"
 
 #include <cstddef>
@@ -40,6 +41,7 @@ struct Walk : PathOptions {
     Roulette roulette = {};
     Split split = {};
     std::optional<LeastError> adaptive = {};  // if pixels have different numbers of samples: to make this least
+    std::optional<TreeGoal> tree = {};        // if the walk splits and ends by the best numbers for its depths: for what
     bool operator==(const Walk&) const = default;
 };
 
@@ -48,6 +50,7 @@ struct Guided : PathOptions {
     static constexpr const char* name = "guided";
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
+    std::optional<LeastError> adaptive = {};  // as of the walk
     bool operator==(const Guided&) const = default;
 };
 
@@ -57,6 +60,7 @@ struct Corrected : PathOptions {
     static constexpr const char* name = "corrected";
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
+    std::optional<LeastError> adaptive = {};  // as of the walk
     bool operator==(const Corrected&) const = default;
 };
 

@@ -77,7 +77,7 @@ const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed},
                                        {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
 const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
-const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}};
+const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
 
 template <class Number>
@@ -113,6 +113,17 @@ std::string print_roulette(const Roulette& roulette) {
             return "throughput";
     }
     return "";
+}
+
+std::optional<TreeGoal> read_tree(const std::string& text) {
+    if (text == "sum") return TreeGoal{};
+    const auto bounce = number<int>(text);
+    return bounce && *bounce >= 1 && *bounce <= most_depths_of_tree ? std::optional(TreeGoal{*bounce}) : std::nullopt;
+}
+
+std::string print_tree(const std::optional<TreeGoal>& tree) {
+    if (!tree) return "";
+    return tree->bounce ? fmt::format("{}", *tree->bounce) : "sum";
 }
 
 std::optional<Split> read_split(const std::string& text) {
@@ -227,11 +238,18 @@ std::vector<MethodOption> make_options() {
             "scene's",
             samplers, [](const auto& m) requires requires { m.sampler; } { return m.sampler; },
             [](auto& m, SamplerKind s) { m.sampler = s; }),
+        option(
+            Kind::text, "tree", "WHAT",
+            "For walk: split walks, and end them by Russian roulette, by the numbers of samples at each depth that a pilot finds "
+            "best for the sum of all bounces (sum) or for one bounce (its number)",
+            [](const auto& m) requires requires { m.tree; } { return m.tree; }, [](auto& m, const TreeGoal& t) { m.tree = t; },
+            read_tree, print_tree, fmt::format("sum or a bounce from 1 to {}", most_depths_of_tree)),
         choice(
             "adaptive", "WHAT",
-            "For walk and bidirectional: more samples for the pixels that need them, by a pilot, so that the largest relative "
+            "For walk, guided, corrected and bidirectional: more samples for the pixels that need them, by a pilot, so that the "
+            "largest relative "
             "error "
-            "of a bounce (bounces) or that of the sum (sum) is least",
+            "of a bounce (bounces), that of the sum (sum), or the product of these (all) is least",
             least_errors, [](const auto& m) requires requires { m.adaptive; } { return m.adaptive; },
             [](auto& m, LeastError least) { m.adaptive = least; }),
         choice(
@@ -305,6 +323,8 @@ void expect_sense(const method::Walk& walk, bool lights) {
     if (lights && !asks_lights(walk.direct))
         throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
                                      name(strategies, strategy(walk.direct))));
+    if (walk.tree && (walk.split != Split{} || walk.roulette != Roulette{}))
+        throw InputError("--tree chooses what --split and --roulette say; take it alone");
 }
 void expect_sense(const method::Bidirectional& both, bool) {
     if (both.direct.direct != DirectLight::mis || both.direct.place == LightPlace::projected)

@@ -6,17 +6,17 @@
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
 #include "operators/methods/crew.h"
+#include "operators/methods/path_bias.h"
+#include "operators/methods/path_warnings.h"
 #include "operators/methods/render_job.h"
 #include "operators/methods/sampling.h"
 #include "operators/photons/photon_pilot.h"
 #include "operators/pictures/least_errors.h"
-#include "operators/pictures/picture_bias.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -24,7 +24,6 @@ namespace neumann {
 
 namespace {
 
-constexpr double shortest_chain_to_judge = 16.0;
 // The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
@@ -105,43 +104,6 @@ RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
-template <class Difference>
-Estimate with_bias(Estimate picture, const Difference& difference, PathGenerator generator, const SeriesMoments::Result& result) {
-    if (result.has_differences()) picture.discretisation = stated_bias(generator, difference());
-    return picture;
-}
-
-// `relative` is without the noise of the difference itself. In the sum that is taken to be, with photon maps, what it is for their
-// kernel if all noise is of photons: its variance is half of the picture's; and with a cache that of the terms, as if they were
-// independent.
-void report_bias(const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series) {
-    if (!result.has_differences()) return;
-    const auto report = [](const Estimate& picture, double noise) {
-        const double all = relative_discretisation(picture);
-        return report_discretisation(picture,
-                                     {relative_standard_error(picture), std::sqrt(std::max(all * all - noise * noise, 0.0))});
-    };
-    const auto size = [](const Image& image) {
-        double squares = 0.0;
-        for (const Rgb& x : image.pixels) squares += glm::dot(x, x);
-        return std::sqrt(squares);
-    };
-    const double part = part_of_bias(generator);
-    double noise = 0.0;
-    for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
-        const Estimate term = series.term(i);
-        const double mean = size(term.mean);
-        series.report.bounces[i].discretisation = report(term, mean > 0.0 ? result.noise_of_difference(i) / (part * mean) : 0.0);
-        noise = std::hypot(noise, result.noise_of_difference(i));
-    }
-    const Estimate sum = series.sum(series.report.bounces.size() - 1);
-    const double mean = size(sum.mean);
-    series.report.sum_discretisation =
-        report(sum, generator == PathGenerator::photon ? relative_standard_error(sum) / (std::numbers::sqrt2 * part)
-                    : mean > 0.0                       ? noise / (part * mean)
-                                                       : 0.0);
-}
-
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
                            const std::shared_ptr<const LeastErrors>& least, PathGenerator generator, SeriesReport report) {
     BounceSeries out;
@@ -172,72 +134,6 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
     out.seconds = series.seconds;
     out.degrees_of_freedom = result->degrees_of_freedom();
     return out;
-}
-
-// Adds the warnings: light that the paths miss, errors that the samples cannot show, goals that were not reached.
-void warn(BounceSeries& series, const RenderJob& job, const SamplingSettings& settings, const RenderedSeries& sampled,
-          double albedo) {
-    const Scene& scene = job.scene;
-    const Goal& goal = job.goal;
-    Warnings& warnings = series.warnings;
-    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.generator != PathGenerator::light)
-        warnings.add(settings.generator == PathGenerator::bidirectional || settings.generator == PathGenerator::photon ||
-                             settings.generator == PathGenerator::metropolis
-                         ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
-                         : "what a mirror throws on from a light without extent is not found by the walk and is missing");
-    if (series.paths == Paths::seen_directly)
-        warnings.add(
-            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else "
-            "that "
-            "sends light in a single direction, and does not see what surrounds the scene: these are missing");
-    if (series.paths == Paths::specular)
-        warnings.add(
-            "--method classic makes only paths whose reflections are specular but for the last one: the light of all other "
-            "paths is missing");
-    if (series.paths == Paths::without_specular)
-        warnings.add(
-            "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
-            "direction: what these reflect and let through is missing");
-    if (settings.generator == PathGenerator::surface)
-        warnings.add(
-            "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
-    if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
-        warnings.add(
-            fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
-                        "largest here is {:.3g}",
-                        settings.walk.roulette.survival, std::sqrt(settings.walk.roulette.survival), albedo));
-    if (sampled.moments.replicates() < 2 && !goal.only_pictures)
-        warnings.add("a single replicate was sampled: the standard errors are unknown");
-    warnings.add(fmt::format("walk was given up {} bounces beyond the last picture", settings.walk.give_up),
-                 sampled.tally.given_up);
-    if (series.report.infinite_variance()) warnings.add("the variance of some bounces is infinite: their intervals do not hold");
-    if (series.report.rare_large_samples())
-        warnings.add(
-            "the largest samples of some bounces are rare and make much of what is there: their intervals may be too short");
-    for (std::size_t bounce = 0; bounce < sampled.tally.chains.size(); ++bounce) {
-        const ChainStatistics& chains = sampled.tally.chains[bounce];
-        const double length = chains.chains == 0 ? 0.0 : static_cast<double>(chains.states) / static_cast<double>(chains.chains);
-        if (length < shortest_chain_to_judge || chains.autocorrelation_time() <= 0.5 * length) continue;
-        warnings.add(
-            fmt::format("the chains of bounce {} hardly leave where they start: of {:.0f} states, {:.0f} are worth one, and the "
-                        "longest stay is "
-                        "{}; light that few independent paths meet may be missing from its intervals",
-                        bounce, length, chains.autocorrelation_time(), chains.largest_stay));
-    }
-    if (goal.relative_error && series.outcome == Outcome::error_reached)
-        for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
-            const auto& bias = series.report.bounces[i].discretisation;
-            if (!bias || bias->relative <= *goal.relative_error) continue;
-            warnings.add(fmt::format("an error of {:g} is that of samples: the bias of bounce {} is estimated as {:.2g}",
-                                     *goal.relative_error, i, bias->relative));
-            break;
-        }
-    if (goal.relative_error && series.outcome == Outcome::time_reached) {
-        const auto& errors = series.convergence.back().term_error;
-        const auto worst = std::max_element(errors.begin(), errors.end());
-        warnings.add(fmt::format("an error of {:g} was not reached in {:.0f} s: the largest is {:.2g}, in bounce {}",
-                                 *goal.relative_error, series.seconds, *worst, worst - errors.begin()));
-    }
 }
 
 // The method with the options that had been left open.
@@ -340,7 +236,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     series.paths = paths;
     series.method = as_it_ran(method, settings, scene.film);
     const double albedo = max_component(scene.materials.largest_basic_albedo());
-    warn(series, job, settings, sampled, albedo);
+    warn_of_paths(series, job, settings, sampled, albedo);
 
     if (const auto* both = std::get_if<method::Bidirectional>(&method); both && both->ways) {
         check_memory(goal, scene.film, *both->ways, 2 * (static_cast<std::size_t>(*both->ways) + 2));
@@ -354,6 +250,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         if (settings.photons) series.rays += settings.photons->rays;
         if (settings.records) series.rays += settings.records->rays();
         if (settings.allocation) series.rays += settings.allocation->rays;
+        if (settings.tree) series.rays += settings.tree->rays;
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
 
@@ -370,6 +267,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     record.photons = settings.photons;
     record.records = settings.records;
     record.chains = sampled.tally.chains;
+    record.tree = settings.tree;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;
         as_sampled.replicate_size = sampled.replicate_size;
@@ -380,7 +278,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
             record.most_of_pixel = std::max(record.most_of_pixel, layout.size(pixel));
         }
     }
-    if (settings.generator == PathGenerator::walk)
+    if (settings.generator == PathGenerator::walk && !settings.tree)
         record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
     if (goal.only_pictures) {
         series.warnings.add("sample was not a finite number and was left out", sampled.tally.non_finite_samples());

@@ -4,8 +4,10 @@
 #include "operators/cache/record_places.h"
 #include "operators/correction/approximation.h"
 #include "operators/guide/guide.h"
+#include "operators/methods/ahead.h"
 #include "operators/methods/method_options.h"
 #include "operators/photons/photon_pilot.h"
+#include "operators/splitting/tree_ratios.h"
 #include "operators/walk/direct_light.h"
 
 #include <fmt/format.h>
@@ -16,6 +18,8 @@
 namespace neumann {
 
 namespace {
+
+constexpr int tree_width = 32;  // of the pilot of --tree, in pixels
 
 template <class M>
 PathGenerator kind() {
@@ -128,11 +132,11 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
                                                                settings.sampler, seed, memory, watch);
     else if (const auto* cache = std::get_if<method::Cache>(&method))
         settings.records = std::make_shared<const RecordPlaces>(scene, settings_of(*cache), settings.sampler, seed, memory, watch);
-    else if (const std::optional<LeastError> least = adaptive_of(method))
-        settings.allocation = allocate(scene, settings, *least, watch);
-    else
-        return false;
-    return true;
+    else if (const auto* walk = std::get_if<method::Walk>(&method); walk && walk->tree)
+        settings.tree = tree_ratios(scene.with(small_film(scene.film, tree_width)), bounces, *walk->tree, watch);
+    const std::optional<LeastError> least = adaptive_of(method);
+    if (least) settings.allocation = allocate(scene, settings, *least, watch);
+    return least || settings.guide || settings.approximation || settings.photons || settings.records || settings.tree;
 }
 
 }  // namespace neumann

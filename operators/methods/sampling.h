@@ -16,7 +16,7 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
 CacheSettings settings_of(const method::Cache& cache);
 
 // Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`, the radii of `photon`, the
-// places of `cache`, the numbers of samples of --adaptive. Returns whether it needs anything. Throws InputError, and Stopped if
+// places of `cache`, the numbers of samples of --tree and --adaptive. Returns whether it needs anything. Throws InputError, and Stopped if
 // `watch` stops it.
 bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
             const Watch& watch = {});

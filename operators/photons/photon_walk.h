@@ -137,12 +137,7 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
                         choose_question(direct_, question % questions, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
                 }
                 if (question < questions) return true;
-                const BsdfSample sampled = MaterialContinuation().sample(side, wo, samplers[i]);
-                w.beta *= sampled.weight;
-                w.reflected = max_component(sampled.weight);
-                w.pdf = sampled.pdf;
-                w.w = side.p.frame.to_world(sampled.wi);
-                w.from = receiver(side);
+                w.leave(side, MaterialContinuation().sample(side, wo, samplers[i]));
                 return true;
             });
             out.rays[q] += answer(scene_, T, direct_, LeftOut(), bounce, walkers, observer,

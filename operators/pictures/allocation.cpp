@@ -2,8 +2,6 @@
 
 #include "operators/pictures/picture_sampler.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -48,7 +46,7 @@ PixelSpread spread_of(std::span<const Rgb> samples, std::size_t pixels, std::siz
 
 }  // namespace
 
-std::vector<double> best_numbers(const BlockCosts& all) {
+std::vector<double> best_numbers(const BlockCosts& all, LeastOf least_of) {
     const std::size_t K = all.errors(), B = all.blocks;
     std::vector<double> weights(K, 1.0 / static_cast<double>(K)), numbers(B, 1.0), best = numbers;
     const double budget = std::accumulate(all.costs.begin(), all.costs.end(), 0.0);
@@ -68,12 +66,23 @@ std::vector<double> best_numbers(const BlockCosts& all) {
             for (std::size_t b = 0; b < B; ++b)
                 if (all.variance(k)[b] > 0.0) errors[k] += all.variance(k)[b] / numbers[b];
         const double largest = *std::ranges::max_element(errors);
-        if (largest < least) {
-            least = largest;
+        double size = largest;
+        if (least_of == LeastOf::product) {
+            size = 0.0;
+            for (const double e : errors) size += std::log(e);
+        }
+        if (size < least) {
+            least = size;
             best = numbers;
         }
         double sum = 0.0;
-        for (std::size_t k = 0; k < K; ++k) sum += weights[k] *= std::sqrt(errors[k] / largest);
+        for (std::size_t k = 0; k < K; ++k) {
+            if (least_of == LeastOf::product)
+                weights[k] = std::sqrt(weights[k] / errors[k]);  // half of the way to 1 / e_k²
+            else
+                weights[k] *= std::sqrt(errors[k] / largest);
+            sum += weights[k];
+        }
         for (double& w : weights) w /= sum;
     }
     return best;
@@ -117,23 +126,15 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     const SampleLayout& layout = sampler.layout();
     std::vector<double> variance(layout.pixels() * Q), square = variance, cost(layout.pixels());
     std::atomic<std::uint64_t> all_rays = 0;
-    std::atomic<bool> stopped = false;
-    oneapi::tbb::parallel_for(std::uint32_t{0}, layout.groups(), [&](std::uint32_t number) {
-        if (stopped || watch.stop()) {
-            stopped = true;
-            return;
-        }
-        const PixelGroup group = layout.group(number);
-        std::vector<std::uint64_t> of_group(Q);
-        const std::vector<Rgb> samples = sampler.own_samples(0, number, of_group);
+    const OwnSamples measure = [&](const PixelGroup& group, std::span<const Rgb> samples, std::span<const std::uint64_t> rays) {
         const PixelSpread spread = spread_of(samples, group.end - group.begin, group.size, Q);
         std::ranges::copy(spread.variance, variance.begin() + static_cast<std::ptrdiff_t>(group.begin * Q));
         std::ranges::copy(spread.square, square.begin() + static_cast<std::ptrdiff_t>(group.begin * Q));
-        const std::uint64_t n = std::accumulate(of_group.begin(), of_group.end(), std::uint64_t{0});
+        const std::uint64_t n = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
         all_rays += n;
         for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel) cost[pixel] = static_cast<double>(n) / group.paths();
-    });
-    if (stopped) throw Stopped();
+    };
+    if (!sampler.own_samples(0, measure, watch)) throw Stopped();
 
     BlockCosts blocks{across * down, {}, std::vector<double>(across * down, 0.0)};
     const auto block_of = [&](std::uint32_t pixel) { return pixel / width / block_width * across + pixel % width / block_width; };
@@ -150,13 +151,13 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
         const double everywhere = spread_out * sum / static_cast<double>(blocks.blocks);
         for (const double v : of_blocks) blocks.variances.push_back(((1.0 - spread_out) * v + everywhere) / size);
     };
-    if (least == LeastError::of_sum)
-        add(terms);
-    else
+    if (least != LeastError::of_sum)
         for (std::size_t q = 0; q < terms; ++q) add(q);
+    if (least != LeastError::of_bounces) add(terms);
     Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
-    const std::vector<std::int8_t> powers = as_powers(best_numbers(blocks), blocks.costs, most_doublings);
+    const std::vector<std::int8_t> powers = as_powers(
+        best_numbers(blocks, least == LeastError::of_all ? LeastOf::product : LeastOf::largest), blocks.costs, most_doublings);
     for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) allocation.exponents[pixel] = powers[block_of(pixel)];
     return std::make_shared<const Allocation>(std::move(allocation));
 }

@@ -7,7 +7,8 @@
 //
 //     s_b ∝ √(Σ_k λ_k V_kb / c_b),     λ_k ≥ 0,  Σ λ_k = 1,  λ_k > 0 only for the bounces with the largest error;
 //
-// λ is found by making it larger where the error is above the mean, again and again. For the sum there is one V.
+// λ is found by making it larger where the error is above the mean, again and again. For the sum there is one V. The product of the
+// errors of all bounces and of the sum is least where λ_k ∝ 1 / e_k².
 #pragma once
 
 #include "operators/pictures/sampling_settings.h"
@@ -20,7 +21,8 @@ namespace neumann {
 
 enum class LeastError {
     of_bounces,  // the largest relative error of a bounce
-    of_sum       // the relative error of the sum of all bounces
+    of_sum,      // the relative error of the sum of all bounces
+    of_all       // the product of these, so that none is bought with much of another
 };
 
 // V_kb for each k, k by k, and c_b.
@@ -32,12 +34,14 @@ struct BlockCosts {
     std::span<const double> variance(std::size_t k) const { return std::span(variances).subspan(k * blocks, blocks); }
 };
 
-// s_b that make the largest e_k least, with Σ c_b s_b = Σ c_b.
-std::vector<double> best_numbers(const BlockCosts& costs);
+// s_b that make the largest e_k least, or their product, with Σ c_b s_b = Σ c_b.
+enum class LeastOf { largest, product };
+std::vector<double> best_numbers(const BlockCosts& costs, LeastOf least = LeastOf::largest);
 // The nearest powers of 2 to σ s_b, as exponents within ±most, with the largest σ for which they cost no more than Σ c_b.
 std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, int most);
 
-// For the walk and the bidirectional method; the same for all seeds. Throws Stopped if `watch` stops it.
+// For walks, guided ones and corrected ones among them, and the bidirectional method; the same for all seeds. Throws Stopped if
+// `watch` stops it.
 std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
                                            const Watch& watch = {});
 

@@ -6,6 +6,7 @@
 #include "operators/pictures/cache_sampler.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/pixel_average.h"
+#include "operators/pictures/pixel_samples.h"
 #include "operators/walk/first_vertices.h"
 
 namespace neumann {
@@ -13,27 +14,20 @@ namespace neumann {
 struct CacheSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
-    CacheWalkers walkers;
+    PlainWalkers walkers;
     std::vector<RecordPlaces::Near> near;
     std::vector<Rgb> irradiance;
-    std::vector<Pixel> pixels;
-    std::vector<Sampler> camera;  // of the pixels' samples
+    PixelSamples samples;
     PixelAverage average;
     Tally tally;
 };
 
-// Samples all quantities of samples first … first + samples − 1 of the replicate into work.group: the terms 0 … N and the rest, and
+// Samples all quantities of these pixels in the replicate into work.group: the terms 0 … N and the rest, and
 // then what each loses if the cache is read within wider radii.
 template <class Observer>
-void CacheSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const CachePass& pass,
-                               Workspace& work, const Observer& observer) const {
-    const std::uint32_t size = settings_.replicate_size, begin = first / size, end = (first + samples) / size;
-    work.pixels.clear();
-    work.camera.clear();
-    for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
-        work.pixels.push_back(pixel_of(scene_->film, pixel));
-        work.camera.resize(work.camera.size() + size, Sampler(settings_.sampler, camera_net_, settings_.seed, pixel));
-    }
+void CacheSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels, const CachePass& pass, Workspace& work,
+                               const Observer& observer) const {
+    work.samples.begin(scene_->film, settings_, layout_, pixels);
     const WalkSettings& walk = settings_.walk;
     const std::size_t terms = settings_.pictures(), Q = settings_.quantities();
     const bool has_rest = walk.rest_probability > 0.0;
@@ -65,8 +59,8 @@ void CacheSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
                             [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
         walk_to_records(*scene_, *direct_, walk, samplers, work.walkers, out.rays, out.given_up, read, find, observer);
     };
-    work.tally.given_up += trace(*scene_, sample, std::span(work.camera), std::span<const Pixel>(work.pixels), replicate,
-                                 work.group, std::span(work.tally.rays));
+    work.tally.given_up += trace(*scene_, sample, std::span(work.samples.samplers), std::span<const Pixel>(work.samples.pixels),
+                                 replicate, work.group, std::span(work.tally.rays));
 }
 
 }  // namespace neumann

@@ -19,11 +19,10 @@ const std::shared_ptr<const RecordPlaces>& places_of(const SamplingSettings& set
 CacheSampler::CacheSampler(const Scene& scene, const SamplingSettings& settings)
     : scene_(&scene),
       settings_(settings),
-      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
+      layout_(settings.layout(scene.film)),
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
       tracer_(std::make_shared<const RecordTracer>(scene, direct_, settings.walk, places_of(settings), settings.sampler,
-                                                   settings.seed)),
-      camera_net_(settings.replicate_size) {}
+                                                   settings.seed)) {}
 
 bool CacheSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                   const Watch& watch) const {
@@ -32,8 +31,8 @@ bool CacheSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     if (!pass) return false;
     for (std::size_t q = 0; q < rays.size(); ++q) tally.rays[q] += rays[q];
     return sample_groups<Workspace>(
-        settings_, pixels_, replicate, picture, ranges, tally, watch,
-        [&](std::uint32_t first, std::uint32_t samples, Workspace& work) { trace_group(replicate, first, samples, *pass, work); });
+        settings_, layout_, replicate, picture, ranges, tally, watch,
+        [&](const PixelGroup& pixels, Workspace& work) { trace_group(replicate, pixels, *pass, work); });
 }
 
 }  // namespace neumann

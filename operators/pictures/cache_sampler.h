@@ -36,15 +36,14 @@ public:
 private:
     struct Workspace;
     template <class Observer = NoObserver>
-    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const CachePass& pass, Workspace& work,
+    void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const CachePass& pass, Workspace& work,
                      const Observer& observer = {}) const;
 
     const Scene* scene_;
     SamplingSettings settings_;
-    std::uint32_t pixels_;
+    SampleLayout layout_;
     std::shared_ptr<const DirectLightSampler> direct_;
     std::shared_ptr<const RecordTracer> tracer_;
-    SobolPoints camera_net_;
 };
 
 }  // namespace neumann

@@ -22,11 +22,11 @@ struct CorrectedSampler::Workspace {
     Tally tally;
 };
 
-// Samples all terms of samples first … first + samples − 1 of the replicate into work.group.
+// Samples all terms of these pixels in the replicate into work.group.
 template <class Observer>
-void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
-                                   Workspace& work, const Observer& observer) const {
-    const std::uint32_t size = settings_.replicate_size, first_pixel = first / size;
+void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
+                                   const Observer& observer) const {
+    const std::uint32_t size = pixels.size, samples = pixels.paths();
     const std::size_t Q = settings_.quantities();
     PathGroup& group = work.group;
     group.rays.resize(samples);
@@ -34,15 +34,16 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first,
     work.camera.clear();
     work.directions.clear();
     for (std::uint32_t i = 0; i < samples; ++i) {
-        const std::uint32_t number = (first + i) / size;
+        const std::uint32_t number = pixels.begin + i / size;
         const Pixel pixel = pixel_of(scene_->film, number);
-        if (i == 0 || (first + i) % size == 0) {
-            work.camera.push_back(Sampler(settings_.sampler, camera_net_, settings_.seed, number));
-            work.directions.push_back(Sampler(settings_.sampler, direction_net_, settings_.seed ^ direction_stream, number));
+        if (i % size == 0) {
+            work.camera.push_back(Sampler(settings_.sampler, layout_.net(size), settings_.seed, number));
+            work.directions.push_back(Sampler(settings_.sampler, direction_nets_[static_cast<std::size_t>(std::countr_zero(size))],
+                                              settings_.seed ^ direction_stream, number));
         } else {
             work.camera.push_back(work.camera.back());
         }
-        work.camera.back().start(replicate * size + (first + i) % size);
+        work.camera.back().start(replicate * size + i % size);
         const CameraSample sample = sample_camera(*scene_, pixel.x, pixel.y, work.camera.back());
         group.rays[i] = sample.ray;
         group.weights[i] = sample.weight;
@@ -61,8 +62,8 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, std::uint32_t first,
     corrected(
         work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
         [&](std::uint32_t i, std::uint32_t g) -> const Sampler& {
-            Sampler& sampler = work.directions[(first + i) / size - first_pixel];
-            sampler.start((replicate * size + (first + i) % size) * at_pixel.directions + g);
+            Sampler& sampler = work.directions[i / size];
+            sampler.start((replicate * size + i % size) * at_pixel.directions + g);
             return sampler;
         },
         out, observer);

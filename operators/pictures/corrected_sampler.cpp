@@ -29,13 +29,14 @@ std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {
 CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& settings)
     : scene_(&scene),
       settings_(settings),
-      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
-      direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
-      camera_net_(settings.replicate_size),
-      direction_net_(settings.replicate_size * at_pixel.directions) {
+      layout_(settings.layout(scene.film)),
+      direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)) {
     if (!settings.approximation) throw std::logic_error("PictureSampler: corrected fields are missing");
     points_ = std::make_shared<const PointMaker>(scene, *direct_, settings_.walk, *settings_.approximation, settings_.sampler,
-                                                 settings_.seed, choose_points(pixels_, settings_), at_point);
+                                                 settings_.seed, choose_points(layout_.pixels(), settings_), at_point);
+    std::uint32_t largest = 1;
+    for (std::uint32_t pixel = 0; pixel < layout_.pixels(); ++pixel) largest = std::max(largest, layout_.size(pixel));
+    for (std::uint32_t size = 1; size <= largest; size *= 2) direction_nets_.emplace_back(size * at_pixel.directions);
 }
 
 bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
@@ -48,10 +49,23 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
         if (!points) return false;
     }
     tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
-    return sample_groups<Workspace>(settings_, pixels_, replicate, picture, ranges, tally, watch,
-                                    [&](std::uint32_t first, std::uint32_t samples, Workspace& work) {
-                                        trace_group(replicate, first, samples, points ? &*points : nullptr, work);
-                                    });
+    return sample_groups<Workspace>(
+        settings_, layout_, replicate, picture, ranges, tally, watch,
+        [&](const PixelGroup& pixels, Workspace& work) { trace_group(replicate, pixels, points ? &*points : nullptr, work); });
+}
+
+bool CorrectedSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
+    std::uint64_t rays = 0, given_up = 0;
+    std::optional<SharedPoints> points;
+    if (points_->sets() > 0) {
+        points = points_->make(replicate, rays, given_up, watch);
+        if (!points) return false;
+    }
+    return for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+        Workspace work(settings_.quantities());
+        trace_group(replicate, pixels, points ? &*points : nullptr, work);
+        each(pixels, work.group.samples, work.tally.rays);
+    });
 }
 
 }  // namespace neumann

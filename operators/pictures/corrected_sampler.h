@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/sampling/sampler.h"
+#include "operators/pictures/own_samples.h"
 #include "operators/pictures/path_observer.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/pictures/tally.h"
@@ -28,6 +29,8 @@ public:
     // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const;
+    // As PictureSampler::own_samples().
+    bool own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
@@ -36,15 +39,15 @@ private:
     // Independent random numbers for the walks from first diffuse vertices.
     static constexpr std::uint64_t direction_stream = 0x676174686572ull;
     template <class Observer = NoObserver>
-    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const SharedPoints* points,
-                     Workspace& work, const Observer& observer = {}) const;
+    void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
+                     const Observer& observer = {}) const;
 
     const Scene* scene_;
     SamplingSettings settings_;
-    std::uint32_t pixels_;
+    SampleLayout layout_;
     std::shared_ptr<const DirectLightSampler> direct_;
     std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to settings_.approximation
-    SobolPoints camera_net_, direction_net_;
+    std::vector<SobolPoints> direction_nets_;   // of pixels with 1, 2, 4, … samples
 };
 
 }  // namespace neumann

@@ -21,10 +21,9 @@ const PhotonSettings& given(const SamplingSettings& settings) {
 PhotonSampler::PhotonSampler(const Scene& scene, const SamplingSettings& settings)
     : scene_(&scene),
       settings_(settings),
-      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
+      layout_(settings.layout(scene.film)),
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
-      photons_(scene, settings.walk, given(settings), settings.sampler, settings.seed),
-      camera_net_(settings.replicate_size) {}
+      photons_(scene, settings.walk, given(settings), settings.sampler, settings.seed) {}
 
 std::optional<PhotonPass> PhotonSampler::make_pass(std::uint64_t replicate, std::vector<std::uint64_t>& rays,
                                                    std::uint64_t& given_up, const Watch& watch) const {
@@ -42,8 +41,8 @@ bool PhotonSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pi
     if (!pass) return false;
     for (std::size_t q = 0; q < rays.size(); ++q) tally.rays[q] += rays[q];
     return sample_groups<Workspace>(
-        settings_, pixels_, replicate, picture, ranges, tally, watch,
-        [&](std::uint32_t first, std::uint32_t samples, Workspace& work) { trace_group(replicate, first, samples, *pass, work); });
+        settings_, layout_, replicate, picture, ranges, tally, watch,
+        [&](const PixelGroup& pixels, Workspace& work) { trace_group(replicate, pixels, *pass, work); });
 }
 
 }  // namespace neumann

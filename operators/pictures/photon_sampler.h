@@ -38,15 +38,14 @@ private:
     std::optional<PhotonPass> make_pass(std::uint64_t replicate, std::vector<std::uint64_t>& rays, std::uint64_t& given_up,
                                         const Watch& watch) const;
     template <class Observer = NoObserver>
-    void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const PhotonPass& pass, Workspace& work,
+    void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const PhotonPass& pass, Workspace& work,
                      const Observer& observer = {}) const;
 
     const Scene* scene_;
     SamplingSettings settings_;
-    std::uint32_t pixels_;
+    SampleLayout layout_;
     std::shared_ptr<const DirectLightSampler> direct_;
     PhotonTracer photons_;
-    SobolPoints camera_net_;
 };
 
 }  // namespace neumann

@@ -173,27 +173,26 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
     return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);
 }
 
-std::vector<Pixel> PictureSampler::pixels_of(const PixelGroup& group) const {
-    std::vector<Pixel> some;
-    for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel) some.push_back(pixel_of(scene_.film, pixel));
-    return some;
-}
-
-std::vector<Sampler> PictureSampler::samplers_of(const PixelGroup& group) const {
-    std::vector<Sampler> samplers;
-    for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel)
-        samplers.resize(samplers.size() + group.size, Sampler(settings_.sampler, layout_.net(group.size), settings_.seed, pixel));
-    return samplers;
-}
-
-std::vector<Rgb> PictureSampler::own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const {
-    if (const auto* splats = std::get_if<SplatSampler>(&sampler_)) return splats->own_samples(replicate, group, rays);
-    PathGroup paths;
-    const std::vector<Pixel> some = pixels_of(layout_.group(group));
-    std::vector<Sampler> samplers = samplers_of(layout_.group(group));
-    std::visit([&](const auto& estimate) { trace(scene_, estimate, std::span(samplers), std::span(some), replicate, paths, rays); },
-               std::get<TermEstimator>(sampler_));
-    return std::move(paths.samples);
+bool PictureSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
+    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->own_samples(replicate, each, watch);
+    return for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+        std::vector<std::uint64_t> rays(quantities());
+        if (const auto* splats = std::get_if<SplatSampler>(&sampler_)) {
+            const std::vector<Rgb> own = splats->own_samples(replicate, pixels, rays);
+            each(pixels, own, rays);
+            return;
+        }
+        PixelSamples samples;
+        samples.begin(scene_.film, settings_, layout_, pixels);
+        PathGroup paths;
+        std::visit(
+            [&](const auto& estimate) {
+                trace(scene_, estimate, std::span(samples.samplers), std::span<const Pixel>(samples.pixels), replicate, paths,
+                      std::span(rays));
+            },
+            std::get<TermEstimator>(sampler_));
+        each(pixels, paths.samples, rays);
+    });
 }
 
 bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
@@ -213,12 +212,13 @@ bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, s
     // Samples a group of consecutive pixels, starting with `begin`.
     const auto run_pixels = [&](const auto& estimate, const PixelGroup& group, PixelWork& work) {
         const auto [begin, end, size] = group;
-        std::vector<Pixel> some = pixels_of(group);
-        std::vector<Sampler> samplers = samplers_of(group);
+        PixelSamples of_group;
+        of_group.begin(scene_.film, settings_, layout_, group);
+        const std::vector<Pixel>& some = of_group.pixels;
         const std::size_t place = begin - share.begin;
         for (std::uint64_t r = 0; r < count; ++r) {
-            work.tally.given_up += trace(scene_, estimate, std::span(samplers), std::span<const Pixel>(some), first + r, work.group,
-                                         std::span(work.tally.rays));
+            work.tally.given_up += trace(scene_, estimate, std::span(of_group.samplers), std::span<const Pixel>(some), first + r,
+                                         work.group, std::span(work.tally.rays));
             for (std::size_t i = 0; i < some.size(); ++i) {
                 average(std::span(work.group.samples).subspan(i * size * quantities(), size * quantities()), size,
                         begin + static_cast<std::uint32_t>(i), first + r, settings_.colors, work.average,

@@ -6,8 +6,10 @@
 #include "operators/pictures/cache_sampler.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/metropolis_sampler.h"
+#include "operators/pictures/own_samples.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/photon_sampler.h"
+#include "operators/pictures/pixel_samples.h"
 #include "operators/pictures/share.h"
 #include "operators/pictures/splat_sampler.h"
 #include "operators/pictures/tally.h"
@@ -58,9 +60,9 @@ public:
     // The pointwise method has no paths: std::logic_error.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
-    // The samples of a group of pixels (SampleLayout) without what paths from the lights bring to pixels all over the film, in the
-    // order of retrace(); adds the rays of each quantity. For the walk and the bidirectional method.
-    std::vector<Rgb> own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const;
+    // The samples of all pixels without what paths from the lights bring to pixels all over the film. For methods of which pixels
+    // may have different numbers of samples. False if `watch` stopped it.
+    bool own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch = {}) const;
 
     // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
     // their numbers in the group. With a cache: the ray of a record with this number, which has number 0.
@@ -74,8 +76,6 @@ private:
     template <class Sample>
     std::optional<MomentsNode> join_pictures(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                              std::vector<double> memory, const Sample& sample) const;
-    std::vector<Pixel> pixels_of(const PixelGroup& group) const;
-    std::vector<Sampler> samplers_of(const PixelGroup& group) const;
     // Samples pixels of replicates; data and ranges are of these pixels. Whether it was not stopped.
     bool sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
                        const Watch& watch) const;

@@ -15,15 +15,10 @@
 
 namespace neumann {
 
-inline std::uint32_t pixels_of_group(const SamplingSettings& settings) {
-    return std::max(paths_at_once / settings.replicate_size, 1u);
-}
-
-// Calls trace(first, samples, work), which samples these samples of the replicate, numbered pixel by pixel, into
-// work.group.samples. A Workspace is made for a number of quantities and has a group, an average and a tally. As PictureSampler's
-// samplers of pictures.
+// Calls trace(group, work), which samples these pixels of the replicate into work.group.samples. A Workspace is made for a number
+// of quantities and has a group, an average and a tally. As PictureSampler's samplers of pictures.
 template <class Workspace, class Trace>
-bool sample_groups(const SamplingSettings& settings, std::uint32_t pixels, std::uint64_t replicate, std::vector<Rgb>& picture,
+bool sample_groups(const SamplingSettings& settings, const SampleLayout& layout, std::uint64_t replicate, std::vector<Rgb>& picture,
                    SampleRanges& ranges, Tally& tally, const Watch& watch, const Trace& trace) {
     const std::size_t Q = settings.quantities();
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
@@ -31,16 +26,16 @@ bool sample_groups(const SamplingSettings& settings, std::uint32_t pixels, std::
         work.tally = without_smaller_samples(tally);
         return work;
     });
-    const std::uint32_t size = settings.replicate_size, at_once = pixels_of_group(settings),
-                        groups = (pixels + at_once - 1) / at_once;
+    const std::uint32_t groups = layout.groups();
     std::atomic<bool> dropped = false;
     std::atomic<std::uint32_t> done = 0;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, groups, 4), [&](const auto& range) {
         if (dropped) return;
         Workspace& work = workspaces.local();
-        for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
-            const std::uint32_t begin = group * at_once, end = std::min(begin + at_once, pixels);
-            trace(begin * size, (end - begin) * size, work);
+        for (std::uint32_t number = range.begin(); number < range.end(); ++number) {
+            const PixelGroup group = layout.group(number);
+            const auto [begin, end, size] = group;
+            trace(group, work);
             for (std::uint32_t pixel = begin; pixel < end; ++pixel) {
                 average(std::span(work.group.samples).subspan((pixel - begin) * size * Q, size * Q), size, pixel, replicate,
                         settings.colors, work.average, std::span(ranges.of).subspan(pixel * Q, Q), work.tally);

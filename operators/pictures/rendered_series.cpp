@@ -61,6 +61,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     const std::uint64_t size = settings.replicate_size;
     RenderedSeries series = beginning(sampler, continuation.from);
     series.replicate_size = settings.replicate_size;
+    series.sizes = sampler.layout().sizes();
     series.samples_are_bounded = samples_are_bounded(scene, settings);
     series.rest_has_finite_variance = rest_has_finite_variance(scene, settings);
     const Stopwatch clock;

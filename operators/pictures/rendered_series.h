@@ -16,7 +16,7 @@ struct SamplingGoal {
     std::optional<double> seconds = {};
     std::optional<double> relative_error = {};  // relative_standard_error() of every term that is not all zero; checked when the
                                                 // number of samples is a power of two
-    std::uint64_t first = 0;  // replicate; those before it are sampled elsewhere
+    std::uint64_t first = 0;                    // replicate; those before it are sampled elsewhere
 };
 
 // Replicates of a seed.
@@ -33,6 +33,7 @@ struct RenderedSeries {
     Outcome outcome = Outcome::samples_reached;
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
+    std::vector<std::uint32_t> sizes = {};  // of pixels in a replicate, where they differ (sample_layout.h)
     // Where renders of several seeds were merged: whose replicates come one after the other. Otherwise empty.
     std::vector<SeedRange> merged = {};
     double seconds = 0.0;

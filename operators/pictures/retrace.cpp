@@ -26,6 +26,33 @@ void WalkEstimator<Continuation>::trace(PathObserver& observer, std::span<const 
     walk(*scene_, scene_->geometry, direct_, settings, rays, samplers, walkers, result, continuation_, WatchedPaths(observer));
 }
 
+namespace {
+
+// Reports the walks into which a path was split as steps of the path. path_of(walker) is the path of a walker.
+template <class PathOf>
+class SplitPaths : public PathObserver {
+public:
+    SplitPaths(PathObserver& observer, const PathOf& path_of) : observer_(observer), path_of_(path_of) {}
+    bool watches(std::uint32_t walker) const override { return observer_.watches(path_of_(walker)); }
+    void step(std::uint32_t walker, const PathStep& step) override { observer_.step(path_of_(walker), step); }
+    void found(std::uint32_t walker, std::size_t quantity, const Rgb& value, const Vec2* pixel) override {
+        observer_.found(path_of_(walker), quantity, value, pixel);
+    }
+
+private:
+    PathObserver& observer_;
+    PathOf path_of_;
+};
+
+}  // namespace
+
+void TreeEstimator::trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,
+                          TermSamples& result) const {
+    TreeWalkers tree;
+    SplitPaths split(observer, [&](std::uint32_t walker) { return tree.path[walker]; });
+    walk_tree(*scene_, direct_, settings_, ratios_->of_depths, rays, samplers, tree, result, WatchedPaths(split));
+}
+
 std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
         return whole_pictures->retrace(replicate, first, observer);
@@ -33,9 +60,8 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_)) return photons->retrace(replicate, first, observer);
     if (const auto* cache = std::get_if<CacheSampler>(&sampler_)) return cache->retrace(replicate, first, observer);
     if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_)) return chains->retrace(replicate, first, observer);
-    const PixelGroup pixels = layout_.group(layout_.group_of(layout_.pixel_of(first)));
-    const std::vector<Pixel> some = pixels_of(pixels);
-    std::vector<Sampler> samplers = samplers_of(pixels);
+    PixelSamples samples;
+    samples.begin(scene_.film, settings_, layout_, layout_.group_with(first));
     PathGroup group;
     std::vector<std::uint64_t> rays(quantities());
     std::visit(
@@ -46,7 +72,8 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
                 const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
                     estimator.trace(observer, camera_rays, random, walkers, result);
                 };
-                trace(scene_, watched, std::span(samplers), std::span(some), replicate, group, std::span(rays));
+                trace(scene_, watched, std::span(samples.samplers), std::span<const Pixel>(samples.pixels), replicate, group,
+                      std::span(rays));
             }
         },
         std::get<TermEstimator>(sampler_));
@@ -55,7 +82,7 @@ std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t 
 
 std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     const std::size_t Q = settings_.quantities();
-    const std::uint32_t samples = layout_.group(layout_.group_of(layout_.pixel_of(first))).paths();
+    const std::uint32_t samples = layout_.group_with(first).paths();
     Workspace work(Q);
     PathGroup& group = work.group;
     const auto tell = [&](std::uint32_t i, std::size_t q, const Rgb& value, const Vec2* position) {
@@ -75,42 +102,21 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     return std::move(group.samples);
 }
 
-namespace {
-
-// Reports the walks into which a path was split as steps of the path.
-class SplitPaths : public PathObserver {
-public:
-    SplitPaths(PathObserver& observer, const std::vector<CorrectedWalker>& walkers) : observer_(observer), walkers_(walkers) {}
-    bool watches(std::uint32_t walker) const override { return observer_.watches(walkers_[walker].path); }
-    void step(std::uint32_t walker, const PathStep& step) override { observer_.step(walkers_[walker].path, step); }
-    void found(std::uint32_t walker, std::size_t quantity, const Rgb& value, const Vec2* pixel) override {
-        observer_.found(walkers_[walker].path, quantity, value, pixel);
-    }
-
-private:
-    PathObserver& observer_;
-    const std::vector<CorrectedWalker>& walkers_;
-};
-
-}  // namespace
-
 std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    const std::uint32_t size = settings_.replicate_size, end = std::min(first / size + pixels_of_group(settings_), pixels_) * size;
     std::uint64_t rays = 0, given_up = 0;
     const auto points = points_->make(replicate, rays, given_up, {});
     Workspace work(settings_.quantities());
-    SplitPaths split(observer, work.walkers.walker);
-    trace_group(replicate, first, end - first, points ? &*points : nullptr, work, WatchedPaths(split));
+    SplitPaths split(observer, [&](std::uint32_t walker) { return work.walkers.walker[walker].path; });
+    trace_group(replicate, layout_.group_with(first), points ? &*points : nullptr, work, WatchedPaths(split));
     return std::move(work.group.samples);
 }
 
 std::vector<Rgb> PhotonSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    const std::uint32_t size = settings_.replicate_size, end = std::min(first / size + pixels_of_group(settings_), pixels_) * size;
     std::vector<std::uint64_t> rays;
     std::uint64_t given_up = 0;
     const auto pass = make_pass(replicate, rays, given_up, {});
     Workspace work(settings_.quantities());
-    trace_group(replicate, first, end - first, *pass, work, WatchedPaths(observer));
+    trace_group(replicate, layout_.group_with(first), *pass, work, WatchedPaths(observer));
     return std::move(work.group.samples);
 }
 
@@ -182,12 +188,11 @@ std::vector<Rgb> MetropolisSampler::retrace(std::uint64_t replicate, std::uint32
 }
 
 std::vector<Rgb> CacheSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    const std::uint32_t size = settings_.replicate_size, end = std::min(first / size + pixels_of_group(settings_), pixels_) * size;
     std::vector<std::uint64_t> rays(settings_.pictures());
     std::uint64_t given_up = 0;
     const auto pass = tracer_->trace(replicate, rays, given_up);
     Workspace work(settings_.quantities());
-    trace_group(replicate, first, end - first, *pass, work, WatchedPaths(observer));
+    trace_group(replicate, layout_.group_with(first), *pass, work, WatchedPaths(observer));
     return std::move(work.group.samples);
 }
 

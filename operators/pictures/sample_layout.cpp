@@ -34,6 +34,12 @@ std::uint32_t SampleLayout::size(std::uint32_t pixel) const {
     return k >= 0 ? size_ << k : std::max(size_ >> -k, 1u);
 }
 
+std::vector<std::uint32_t> SampleLayout::sizes() const {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t pixel = 0; allocation_ && pixel < pixels_; ++pixel) all.push_back(size(pixel));
+    return all;
+}
+
 std::uint32_t SampleLayout::paths() const { return allocation_ ? first_path_.back() : pixels_ * size_; }
 
 std::uint32_t SampleLayout::first_path(std::uint32_t pixel) const { return allocation_ ? first_path_[pixel] : pixel * size_; }

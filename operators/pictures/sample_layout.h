@@ -34,6 +34,7 @@ public:
     SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {});
 
     std::uint32_t size(std::uint32_t pixel) const;
+    std::vector<std::uint32_t> sizes() const;  // of all pixels, if they differ
     std::uint32_t pixels() const { return pixels_; }
     // In a replicate.
     std::uint32_t paths() const;
@@ -44,6 +45,8 @@ public:
     PixelGroup group(std::uint32_t number) const;
     // Of which this pixel is one.
     std::uint32_t group_of(std::uint32_t pixel) const;
+    // Of which this path is one.
+    PixelGroup group_with(std::uint32_t path) const { return group(group_of(pixel_of(path))); }
 
     SampleName name(std::uint64_t replicate, std::uint32_t path) const;
     PlaceInGroup place(const SampleName& name) const;

@@ -15,6 +15,7 @@ class Approximation;
 class Guide;
 class RecordPlaces;
 struct PhotonPilot;
+struct TreeRatios;
 
 enum class PathGenerator {
     walk,           // walks from the camera that sample the BSDF
@@ -51,6 +52,7 @@ struct SamplingSettings {
     std::uint32_t chain_length = 512;  // for `metropolis`: states of a chain
     // For `walk` and `bidirectional`, if pixels have different numbers of samples: powers of 2 that are factors of replicate_size.
     std::shared_ptr<const Allocation> allocation = {};
+    std::shared_ptr<const TreeRatios> tree = {};  // for `walk`, if paths are trees (tree_walk.h)
     // If given, pictures and their errors are of this matrix times the samples' RGB.
     std::optional<glm::dmat3> colors = {};
     // For `bidirectional`: the quantities are the strategies (s, t) for bounce N, N + 2 weighted and then N + 2 unweighted ones, in

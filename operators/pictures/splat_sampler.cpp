@@ -66,10 +66,9 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
     }
 }
 
-std::vector<Rgb> SplatSampler::own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const {
+std::vector<Rgb> SplatSampler::own_samples(std::uint64_t replicate, const PixelGroup& pixels, std::span<std::uint64_t> rays) const {
     Workspace work(settings_.quantities());
     Chunk chunk;
-    const PixelGroup pixels = layout_.group(group);
     sample_paths(replicate, layout_.first_path(pixels.begin), pixels.paths(), chunk, work);
     for (std::size_t q = 0; q < rays.size(); ++q) rays[q] += work.tally.rays[q];
     std::vector<Rgb>& samples = work.group.samples;

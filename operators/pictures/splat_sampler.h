@@ -22,8 +22,8 @@ public:
     // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const;
-    // As PictureSampler::own_samples().
-    std::vector<Rgb> own_samples(std::uint64_t replicate, std::uint32_t group, std::span<std::uint64_t> rays) const;
+    // The paths of these pixels, without what they bring to others; adds their rays.
+    std::vector<Rgb> own_samples(std::uint64_t replicate, const PixelGroup& pixels, std::span<std::uint64_t> rays) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 

@@ -9,10 +9,13 @@
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
 #include "operators/series/neumann_series.h"
+#include "operators/splitting/tree_ratios.h"
+#include "operators/splitting/tree_walk.h"
 #include "operators/walk/guided_continuation.h"
 #include "operators/walk/walks.h"
 
 #include <memory>
+#include <utility>
 #include <variant>
 
 namespace neumann {
@@ -82,8 +85,29 @@ private:
     std::vector<ExitantField> terms_;
 };
 
-using TermEstimator = std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>,
-                                   WalkEstimator<SpecularContinuation>, WalkEstimator<GuidedContinuation>, PointwiseEstimator>;
+// A walk that splits and ends by the best numbers for its depths.
+class TreeEstimator {
+public:
+    TreeEstimator(const Scene& scene, const WalkSettings& settings, std::shared_ptr<const TreeRatios> ratios)
+        : scene_(&scene), settings_(settings), direct_(scene, settings.direct), ratios_(std::move(ratios)) {}
+
+    void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
+        TreeWalkers tree;
+        walk_tree(*scene_, direct_, settings_, ratios_->of_depths, rays, samplers, tree, result);
+    }
+    void trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,
+               TermSamples& result) const;
+
+private:
+    const Scene* scene_;
+    WalkSettings settings_;
+    DirectLightSampler direct_;
+    std::shared_ptr<const TreeRatios> ratios_;
+};
+
+using TermEstimator =
+    std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>, WalkEstimator<SpecularContinuation>,
+                 WalkEstimator<GuidedContinuation>, TreeEstimator, PointwiseEstimator>;
 TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings);
 
 }  // namespace neumann

@@ -8,6 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 namespace neumann {
@@ -70,6 +71,7 @@ TreePilot measure_tree(const Scene& scene, int bounces, std::uint32_t samples, s
     // In the order of pixels: the sums do not depend on the number of threads.
     std::vector<Products> of_pixels(pixels, Products(depths));
     std::vector<std::vector<std::uint64_t>> rays_of_pixels(pixels, std::vector<std::uint64_t>(Q));
+    std::atomic<std::uint64_t> all_rays = 0;
     oneapi::tbb::parallel_for(std::uint32_t{0}, pixels, [&](std::uint32_t number) {
         if (watch.stop()) return;
         const Pixel pixel = pixel_of(scene.film, number);
@@ -99,9 +101,9 @@ TreePilot measure_tree(const Scene& scene, int bounces, std::uint32_t samples, s
         };
         const std::vector<Rgb> first = walk_all(depths, rays_of_pixels[number]);
         Products& products = of_pixels[number];
-        std::vector<std::uint64_t> unused(Q);
+        std::vector<std::uint64_t> of_partners(Q);
         for (std::size_t shared = 0; shared <= depths; ++shared) {
-            const std::vector<Rgb> partner = shared == depths ? first : walk_all(shared, unused);
+            const std::vector<Rgb> partner = shared == depths ? first : walk_all(shared, of_partners);
             for (std::uint32_t i = 0; i < samples; ++i) {
                 const Rgb *const x = &first[i * Q], *const y = &partner[i * Q];
                 Rgb sum_x(0.0), sum_y(0.0);
@@ -115,6 +117,8 @@ TreePilot measure_tree(const Scene& scene, int bounces, std::uint32_t samples, s
                 products.of_goals[depths][shared] += glm::dot(sum_x, sum_y);
             }
         }
+        for (const auto* rays : {&rays_of_pixels[number], &of_partners})
+            all_rays += std::accumulate(rays->begin(), rays->end(), std::uint64_t{0});
     });
     if (watch.stop()) throw Stopped();
     Products all(depths);
@@ -128,6 +132,7 @@ TreePilot measure_tree(const Scene& scene, int bounces, std::uint32_t samples, s
         for (auto& goal : *sums)
             for (double& x : goal) x /= samples;
     TreePilot pilot;
+    pilot.rays = all_rays;
     for (std::size_t k = 0; k < depths; ++k) pilot.bounces.push_back(moments(all.of_goals[k], all.remainders[k], costs));
     pilot.sum = moments(all.of_goals[depths], all.remainders[depths], costs);
     return pilot;

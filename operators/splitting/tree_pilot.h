@@ -15,6 +15,7 @@ namespace neumann {
 struct TreePilot {
     std::vector<TreeMoments> bounces;  // of K^i Le, i = 0 … N
     TreeMoments sum;                   // of Σ K^i Le
+    std::uint64_t rays = 0;            // cast for it
 };
 
 // Walks with light samples and directions by multiple importance sampling; `samples`: for each pixel, each with N + 1 partners.

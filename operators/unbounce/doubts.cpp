@@ -191,11 +191,6 @@ struct Writer {
     // it most.
     void unlit() const {
         const PixelEstimate& first = found.terms.front();
-        std::vector<double> brightest(found.lights(), 0.0);
-        for (std::size_t p = 0; p < first.mean.pixels.size(); ++p)
-            if (const int r = found.regions.of_pixel[p]; r != Regions::none)
-                brightest[static_cast<std::size_t>(r)] =
-                    std::max(brightest[static_cast<std::size_t>(r)], mean_component(first.mean.pixels[p]));
         double seen = 0.0, dark = 0.0;
         for (std::size_t p = 0; p < first.mean.pixels.size(); ++p) {
             const double light = mean_component(found.picture.pixels[p]);
@@ -203,9 +198,7 @@ struct Writer {
             seen += 1.0;
             const double error = found.knows_errors ? mean_component(first.standard_error.pixels[p]) : 0.0;
             const double direct = mean_component(first.mean.pixels[p]) + 3.0 * error;
-            const int r = found.regions.of_pixel[p];
-            const double of_region = r == Regions::none ? 0.0 : brightest[static_cast<std::size_t>(r)];
-            dark += direct < least_direct * light || (direct < 0.5 * light && direct < least_direct * of_region);
+            dark += direct < least_direct * light;
         }
         if (dark > unlit_pixels * seen)
             add(Kind::unlit, fmt::format("{:.1f}% of what is seen gets no direct light of its own: lights that do not cover what "

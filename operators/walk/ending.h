@@ -22,8 +22,8 @@ struct Ending {
     bool is_last(int bounce) const { return bounce == bounces && rest_probability == 0.0; }
 
     // Ends paths on the step from the bounce before to this one. Returns whether any path goes on.
-    template <class Walker, class Sampler>
-    bool reach(int bounce, Together<Walker>& paths, std::span<Sampler> samplers, std::uint64_t& given_up) const {
+    template <class Walker, class Samplers>
+    bool reach(int bounce, Together<Walker>& paths, Samplers&& samplers, std::uint64_t& given_up) const {
         if (in_rest(bounce)) {
             if (rest_probability == 0.0) return false;
             if (bounce - bounces > give_up) {

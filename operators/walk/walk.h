@@ -74,11 +74,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                         sampled = distribution.sample(side, wo, samplers[i], walkers.next[i]);
                     else
                         sampled = distribution.sample(side, wo, samplers[i]);
-                    w.beta *= sampled.weight;
-                    w.reflected = max_component(sampled.weight);
-                    w.pdf = sampled.pdf;
-                    w.w = side.p.frame.to_world(sampled.wi);
-                    w.from = receiver(side);
+                    w.leave(side, sampled);
                     return true;
                 };
                 if (std::is_same_v<Continuation, MaterialContinuation> && questions == 1 && DiffusePacket::fits(direct)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/emitter/light_sampler.h"
+#include "core/scene/receiver.h"
 #include "operators/walk/path_end.h"
 #include "operators/walk/together.h"
 
@@ -22,6 +23,15 @@ struct Walker : PathEnd {
     Receiver from;           // the previous vertex
     double reflected = 0.0;  // largest channel of the last reflection's weight
     AskedLight asked;
+
+    // R has sampled the next direction.
+    void leave(const SurfaceSide& side, const BsdfSample& sampled) {
+        beta *= sampled.weight;
+        reflected = max_component(sampled.weight);
+        pdf = sampled.pdf;
+        w = side.p.frame.to_world(sampled.wi);
+        from = receiver(side);
+    }
 };
 
 // Work space of walk(), kept between calls.

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, VerdictsSlow, testing::Values(1));
 
 // The bounce is named for all twenty mistakes, and the kind for at least 15.
 TEST_P(VerdictsSlow, NameTheBounceAndTheKind) {
-    const Scene room = blame_room(48);
+    const Scene room = blame_room(32);
     ExpectedPictures expected(room, 512, 0.0, GetParam());
     expected.keep_all();
     int named = 0;

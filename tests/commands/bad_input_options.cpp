@@ -60,7 +60,14 @@ TEST_F(BadInputOptions, Chains) {
 TEST_F(BadInputOptions, Adaptive) {
     expect_refused("--adaptive", "everything");
     EXPECT_EQ(refusal({"--method", "light", "--adaptive", "sum"}),
-              "--adaptive belongs to --method walk and bidirectional, not to light\n");
+              "--adaptive belongs to --method walk, guided, corrected and bidirectional, not to light\n");
+}
+
+TEST_F(BadInputOptions, Tree) {
+    for (const std::string what : {"0", "9", "all"})
+        EXPECT_TRUE(refusal({"--tree", what}).starts_with("--tree: '" + what + "' is not sum or a bounce from 1 to 8\n"));
+    EXPECT_EQ(refusal({"--tree", "sum", "--split", "2,2"}), "--tree chooses what --split and --roulette say; take it alone\n");
+    EXPECT_EQ(refusal({"--tree", "5", "-n", "4"}), "--tree 5: the last bounce that has a picture is 4\n");
 }
 
 TEST_F(BadInputOptions, Photons) {

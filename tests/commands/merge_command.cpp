@@ -104,6 +104,32 @@ TEST_F(MergeCommand, SeedsAreOneSetOfReplicates) {
               "--resume e: was merged of several seeds; render another seed and merge that, too\n");
 }
 
+// Where pixels have different numbers of samples, all seeds have the same ones.
+TEST_F(MergeCommand, SeedsWithOtherNumbersOfSamplesInEachPixel) {
+    for (const char* seed : {"0", "7"})
+        part(seed, {"--spp", "128", "--method", "bidirectional", "--adaptive", "sum", "--checkpoint", "0.0001", "--seed", seed});
+    merge({"0", "7"}, "c");
+    const Estimate a = picture("0", "sum_002.exr"), b = picture("7", "sum_002.exr"), c = picture("c", "sum_002.exr");
+    for (std::size_t p = 0; p < c.mean.pixels.size(); ++p)
+        EXPECT_NEAR(c.mean.pixels[p].g, 0.5 * (a.mean.pixels[p].g + b.mean.pixels[p].g), 1e-6 * c.mean.pixels[p].g);
+    const nlohmann::json health = run_json("c").at("health"), sizes = run_json("c").at("samples").at("of_a_pixel_in_a_replicate");
+    EXPECT_LT(sizes.at("fewest"), sizes.at("most"));
+    int compared = 0;
+    for (const nlohmann::json& largest : health.at("largest_samples")) {
+        const Finished found = run({"replay", "c", largest.at("number").dump(), "--json"});
+        ASSERT_EQ(found.exit_code, 0) << found.err;
+        const nlohmann::json replayed = nlohmann::json::parse(found.out);
+        const auto named =
+            std::ranges::find(health.at("samples"), largest.at("number"), [](const auto& s) { return s.at("number"); });
+        if (named == health.at("samples").end() || named->contains("pixel_of_path")) continue;  // from a light
+        const nlohmann::json& term = replayed.at("terms").at(largest.at("bounce").get<std::size_t>());
+        const double value = std::max({term.at(0).get<double>(), term.at(1).get<double>(), term.at(2).get<double>()});
+        EXPECT_NEAR(value, largest.at("value").get<double>(), 1e-12 * value);
+        ++compared;
+    }
+    EXPECT_GT(compared, 0);
+}
+
 TEST_F(MergeCommand, WhatDoesNotGoTogether) {
     part("a", {"--spp", "128", "--part", "1/2"});
     part("light", {"--spp", "128", "--method", "light", "--checkpoint", "0.0001", "--seed", "1"});

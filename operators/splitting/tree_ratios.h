@@ -1,0 +1,31 @@
+// What walk_tree() takes: the best numbers for the depths of a scene, by a pilot.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/watch.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+// What a tree is to serve: the picture of a bounce, or the sum of all.
+struct TreeGoal {
+    std::optional<int> bounce = {};
+    bool operator==(const TreeGoal&) const = default;
+};
+
+// Choices are tried one by one (best_tree()), so that deeper reflections go on as they are.
+constexpr int most_depths_of_tree = 8;
+
+struct TreeRatios {
+    std::vector<double> of_depths;  // m_j / m_{j−1} for j = 1 …; what the pilot did not see may be anywhere: within 1/10 … 16
+    std::uint64_t rays = 0;         // of the pilot
+};
+
+// The same for all seeds. Throws InputError if there is no such bounce, and Stopped.
+std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch = {});
+
+}  // namespace neumann
