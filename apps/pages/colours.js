@@ -7,6 +7,19 @@ const toneCurves = {
   compress: v => srgb(v / (1 + v)),
   log: v => v > 0 ? Math.min(1, Math.max(0, 1 + Math.log10(v) / 4)) : 0
 };
+// A table of a tone curve over the 16 upper bits of a float, 1/256 of the value at most away; the last one is kept.
+const toneTable = (() => {
+  const float = new Float32Array(1), word = new Uint32Array(float.buffer);
+  let kept = {};
+  return (curve, exposure) => {
+    if (kept.curve !== curve || kept.exposure !== exposure)
+      kept = { curve, exposure, table: Uint8Array.from({ length: 65536 }, (_, u) => {
+        word[0] = u << 16;
+        return float[0] > 0 ? Math.round(255 * toneCurves[curve](float[0] * exposure)) : 0;
+      }) };
+    return kept.table;
+  };
+})();
 const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
 // A colour map by its stops (red, green, blue in hexadecimal), linear between them: 256 pixels in the order of ImageData.
@@ -28,12 +41,7 @@ const notFinite = 0xffff00ff, unknown = 0xff808080;
 const shownAs = {
   colour(series, ref, exposure, curve) {
     const mean = series.mean(ref), n = series.pixels, bits = new Uint32Array(mean.buffer, mean.byteOffset, mean.length);
-    // A table over the 16 upper bits of a float, 1/256 of the value at most away.
-    const float = new Float32Array(1), word = new Uint32Array(float.buffer);
-    const table = Uint8Array.from({ length: 65536 }, (_, u) => {
-      word[0] = u << 16;
-      return float[0] > 0 ? Math.round(255 * toneCurves[curve](float[0] * exposure)) : 0;
-    });
+    const table = toneTable(curve, exposure);
     const byte = k => table[Math.min(65535, (bits[k] + 0x8000) / 65536 | 0)];
     return { at: p => Number.isFinite(mean[p] + mean[p + n] + mean[p + 2 * n])
                ? (0xff000000 | byte(p + 2 * n) << 16 | byte(p + n) << 8 | byte(p)) >>> 0 : notFinite };

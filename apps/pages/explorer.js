@@ -68,9 +68,10 @@ const drawText = () => {
 let drawn = {};
 const draw = () => {
   drawPicture();
-  placeSheet();
   drawText();
   drawReadout();
+  drawStrip();
+  placeSheet();
   const key = JSON.stringify([state.i, state.sum, state.run, state.pixel, all.map(s => Object.keys(s.planes).length)]);
   if (drawn.plots !== key) { drawn.plots = key; drawPlots(); }
 };
@@ -118,7 +119,7 @@ const keys = [
   ["c  n", "false colour, noise, and back", ["c", "n"], key => { const to = key === "c" ? "false" : "noise"; set({ view: state.view === to ? "colour" : to }); }],
   ["t", "next tone curve", ["t"], () => next("curve")],
   ["[  ]", "exposure down, up", ["[", "]"], key => set({ stops: Math.max(-10, Math.min(20, state.stops + (key === "[" ? -.5 : .5))) })],
-  ["f", "exposure fitted to each picture", ["f"], () => set({ fit: !state.fit })],
+  ["f", "each picture as bright as it takes", ["f"], () => set({ fit: !state.fit })],
   ["+  −  0", "zoom in, out, whole picture", ["+", "=", "-", "0"], key => key === "0" ? zoomTo(1) : zoomAtPixel(state.zoom * (key === "-" ? 1 / 1.5 : 1.5))],
   ["w", "wipe between A and B", ["w"], () => set({ wipe: !state.wipe })],
   ["b", "the next B", ["b"], () => next("other")],
@@ -137,7 +138,7 @@ document.addEventListener("keydown", event => {
   }
   // What a control does with a key itself.
   const own = { "select": () => true, "[type=range]": () => arrow || ["Home", "End"].includes(event.key), "[type=radio]": () => arrow || event.key === " ",
-                "[type=checkbox]": () => event.key === " ", "button, summary, a": () => [" ", "Enter"].includes(event.key) };
+                "[type=checkbox]": () => event.key === " ", "button:not(#strip *), summary, a": () => [" ", "Enter"].includes(event.key) };
   if (Object.entries(own).some(([kind, does]) => on.matches(kind) && does())) return;
   const key = keys.find(k => k[2].includes(event.key));
   if (!key) return;
@@ -217,7 +218,7 @@ stage.addEventListener("wheel", e => {
   zoomTo(state.zoom * Math.exp(-.002 * e.deltaY), e.clientX - box.left, e.clientY - box.top);
   e.preventDefault();
 }, { passive: false });
-addEventListener("resize", placeSheet);
+addEventListener("resize", () => { placeSheet(); paintTiles(); });
 matchMedia("(prefers-color-scheme: dark)").onchange = () => { drawn = {}; redraw(); };
 
 drawNotes();
@@ -227,7 +228,7 @@ const loadAll = async () => {
   if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot unpack the pictures: it takes Chrome 86, Firefox 113, Safari 16.4 or later.");
   for (const s of all) await s.load(state.i);
   draw();
-  for (const s of all) for (let i = 0; i < s.heads.length; ++i) if (!s.planes[i]) await s.load(i);
+  for (const s of all) for (let i = 0; i < s.heads.length; ++i) if (!s.planes[i]) { await s.load(i); paintTiles(); }
   draw();
   document.body.dataset.ready = "yes";
 };

@@ -1,10 +1,12 @@
 "use strict";
 // The picture, its zoom, and the figures under it.
 let image = null;  // what A shows
+// With `o` the difference to it.
 const paint = (canvas, s, ref, o) => {
   canvas.width = s.width;
   canvas.height = s.height;
-  const shown = shownAs[state.view](s, ref, exposure(s, ref), comparing() ? o.series : state.curve, o && o.ref);
+  const view = comparing() && !o ? "colour" : state.view;
+  const shown = shownAs[view](s, ref, exposure(s, ref), o ? o.series : state.curve, o && o.ref);
   const pixels = new ImageData(s.width, s.height), words = new Uint32Array(pixels.data.buffer);
   for (let p = 0; p < words.length; ++p) words[p] = shown.at(p);
   canvas.getContext("2d", { willReadFrequently: true }).putImageData(pixels, 0, 0);
@@ -51,8 +53,10 @@ const drawScale = () => {
 
 // Zoom: the sheet is the whole picture at zoom 1.
 const placeSheet = () => {
-  const stage = $("stage"), width = stage.clientWidth, s = series();
-  const limit = Math.max(.55 * innerHeight, 240), height = Math.min(width * s.height / s.width, limit);
+  const stage = $("stage"), width = stage.clientWidth, s = series(), viewer = stage.parentElement;
+  // What else the viewer holds is in sight with the picture where there is room.
+  const taken = viewer.parentElement.offsetTop + viewer.offsetHeight - stage.offsetHeight;
+  const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
   const scale = Math.min(width / s.width, height / s.height);
   state.fitScale = scale;

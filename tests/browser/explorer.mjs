@@ -122,25 +122,58 @@ const column = convergence[0].indexOf("relative_stderr_sum");
 assert.deepEqual(error.map(p => p.y), convergence.slice(1).map(r => Number(r[column])).filter(Number.isFinite));
 
 // The colours on the screen are the EXR's, times the exposure that is told, in sRGB.
-const onScreen = (canvas, x, y) => page.evaluate(([c, x, y]) => [...document.getElementById(c).getContext("2d").getImageData(x, y, 1, 1).data], [canvas, x, y]);
+const onScreen = (canvas, x, y) => page.evaluate(([c, x, y]) => [...document.querySelector(c).getContext("2d").getImageData(x, y, 1, 1).data], [canvas, x, y]);
 const srgb = v => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
 const expectColour = async (canvas, i, sum, exposure) => {
   for (const [x, y] of [[9, 20], [3, 3], [16, 28], [30, 12]]) {
     const bytes = await onScreen(canvas, x, y);
-    ["R", "G", "B"].forEach((channel, c) => expectClose(bytes[c], srgb(pixels[fileOf(i, sum)][channel][y * side + x] * exposure), 0, `colour of ${x}, ${y} in ${fileOf(i, sum)}`, 1));
+    ["R", "G", "B"].forEach((channel, c) => expectClose(bytes[c], srgb(pixels[fileOf(i, sum)][channel][y * side + x] * exposure), 0, `colour of ${x}, ${y} in ${fileOf(i, sum)} on ${canvas}`, 1));
   }
 };
 const exposure = await page.evaluate(() => data.runs[0].pictures.exposure);
 await press("Escape", "Home", "ArrowRight");
-await expectColour("a", 1, false, exposure);
+await expectColour("#a", 1, false, exposure);
 await press("]", "]", "]", "]");
 assert.match(await text("stops-text"), /^\+2 stops/);
-await expectColour("a", 1, false, 4 * exposure);
+await expectColour("#a", 1, false, 4 * exposure);
 await press("[", "[", "[", "[");
+
+// The strip has every bounce and the rest, or every sum, as bright as the large picture; a click chooses.
+const tiles = page.locator("#strip button");
+const tile = i => `#strip button:nth-child(${i + 1}) canvas`;
+const drawn = async p => {
+  await settled(p);
+  await p.waitForFunction(() => !strip.asked);
+};
+await drawn(page);
+assert.deepEqual(await tiles.allInnerTexts(), ["0", "1", "2", "3", "4", "rest"]);
+for (let i = 0; i <= last + 1; ++i) await expectColour(tile(i), i, false, exposure);
+await press("s");
+await drawn(page);
+assert.deepEqual(await tiles.allInnerTexts(), ["0", "0–1", "0–2", "0–3", "0–4"]);
+for (let i = 0; i <= last; ++i) await expectColour(tile(i), i, true, exposure);
+await press("s", "f");
+await drawn(page);
+// Each as bright as it takes: its brightest hundredth is white.
+for (let i = 1; i <= last + 1; ++i) {
+  const exr = pixels[fileOf(i, false)], light = exr.R.map((r, p) => .2126 * r + .7152 * exr.G[p] + .0722 * exr.B[p]).filter(v => v > 0).sort((a, b) => a - b);
+  await expectColour(tile(i), i, false, 1 / light[Math.floor(.99 * (light.length - 1))]);
+}
+await press("f");
+await tiles.nth(3).click();
+await settled(page);
+assert.match(await text("name"), /^bounce 3: K³ Le$/);
+await expectColour("#a", 3, false, exposure);
+assert.deepEqual(await tiles.evaluateAll(all => all.map(t => t.ariaCurrent)), ["false", "false", "false", "true", "false", "false"]);
+// An arrow key goes on from there, and the focus with it.
+await press("ArrowRight");
+assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^bounce 4$/);
+await tiles.nth(1).click();
+await settled(page);
 
 // The wipe shows the next bounce on the right of its edge.
 await press("w");
-await expectColour("b", 2, false, exposure);
+await expectColour("#b", 2, false, exposure);
 assert.deepEqual([await text("side-a"), await text("side-b")], ["A: bounce 1", "B: bounce 2"]);
 const cut = () => page.evaluate(() => parseFloat(document.getElementById("b").style.clipPath.split(" ").at(-1)));
 const middle = await cut();
@@ -148,7 +181,7 @@ await press("<", "<");
 assert.ok(await cut() < middle);
 await page.selectOption("#other", "0-sum-3");
 await settled(page);
-await expectColour("b", 3, true, exposure);
+await expectColour("#b", 3, true, exposure);
 await press("w");
 
 // Noise and false colour come with a scale.
@@ -259,6 +292,29 @@ assert.deepEqual(await one.evaluate(() => [unknown, image.at(0)]), [0xff808080, 
 const cells = await page.evaluate(() => [...generic([{ part: "mirrors", kept: false, light: { mean: .5, stderr: .1, interval95: .2 } }, { part: "glass", kept: true, count: 12345 }])
   .querySelectorAll("tr")].map(row => [...row.cells].map(c => c.textContent)));
 assert.deepEqual(cells, [["part", "kept", "light", "count"], ["mirrors", "no", "0.5 ± 0.2", ""], ["glass", "yes", "", "12\u202f345"]]);
+
+// Many bounces: picture, strip and what steers them are in sight at once; the strip scrolls by itself, and what is shown stays in sight.
+neumann("render", scene, "-D", "res=256", "-n", "17", "--spp", "4", "--method", "walk", "-o", at("many"), "--quiet");
+const many = await browser.open(at("many/index.html"), { width: 1366, height: 768 });
+await many.waitForSelector("body[data-ready]");
+await drawn(many);
+assert.deepEqual(await many.evaluate(() => [strip.tiles[1], strip.tiles[18]].map(t => "drawnAs" in t)), [true, false]);  // what is out of sight waits
+for (const id of ["stage", "strip", "bounce", "play", "readout", "term", "sum", "view", "curve", "stops", "fit", "help-button"]) {
+  const { y, height } = await many.locator(`#${id}`).boundingBox();
+  assert.ok(y >= 0 && y + height <= 768, `${id} from ${y} to ${y + height}`);
+}
+assert.ok((await many.locator("#stage").boundingBox()).height > 345);
+await expectNoSidewaysScroll(many);
+const inStrip = i => many.evaluate(i => {
+  const box = document.getElementById("strip").getBoundingClientRect(), tile = document.querySelectorAll("#strip button")[i].getBoundingClientRect();
+  return tile.left >= box.left && tile.right <= box.right;
+}, i);
+assert.deepEqual([await inStrip(1), await inStrip(18)], [true, false]);
+await many.keyboard.press("End");
+await drawn(many);
+assert.deepEqual([await inStrip(1), await inStrip(18)], [false, true]);
+assert.ok(await many.evaluate(() => "drawnAs" in strip.tiles[18]));
+assert.equal(await many.evaluate(() => scrollY), 0);
 
 // On a phone nothing is wider than the screen, in either scheme.
 for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
