@@ -70,6 +70,19 @@ const expectReadout = async (x, y, i, sum) => {
   expectClose(relative, size("stderr.") / size(""), .08, `${line}: relative error`);
 };
 
+// What the page is, in three sentences; what few read is folded away, and nothing is said again and again.
+assert.match(await text("about"), /L = Le \+ K L,.*Kⁱ Le, bounce i, is light that was reflected i times on its way.*sum.*rest.*explorer\.md/s);
+const folds = async p => Object.fromEntries(await p.locator("details").evaluateAll(all => all.map(d => [d.firstChild.textContent.split(":")[0], { open: d.open, head: d.firstChild.textContent, text: d.textContent }])));
+{
+  const found = await folds(page), { plan, health } = json, leftOut = plan.filter(p => !p.kept);
+  assert.ok(Object.values(found).every(f => !f.open));
+  assert.equal(found["The plan"].head, `The plan: ${leftOut.length} parts of the machinery left out, ${plan.length - leftOut.length} kept`);
+  for (const { part } of plan) assert.ok(found["The plan"].text.includes(part), part);
+  for (const { saves } of leftOut) assert.equal(found["The plan"].text.split(saves).length - 1, saves.startsWith("nothing") ? 1 : leftOut.filter(p => p.saves === saves).length, saves);
+  assert.deepEqual(health.complaints, []);
+  assert.equal(found.Health.head, "Health: nothing to complain of");
+}
+
 // It begins with direct light; the slider goes through the bounces and ends with the rest.
 assert.match(await text("name"), /^bounce 1: K Le$/);
 const stage = await page.locator("#stage").boundingBox();
@@ -287,6 +300,16 @@ await one.selectOption("#view", "noise");
 await settled(one);
 assert.match(await one.locator("#readout .values").innerText(), /red (\S+) ± unknown.*relative standard error unknown|red 0 ± unknown/s);
 assert.deepEqual(await one.evaluate(() => [unknown, image.at(0)]), [0xff808080, 0xff808080]);
+
+// Of many warnings two are in sight, the others a click away; each is told once.
+neumann("render", path.join(process.env.SCENES, "glass-ball/glass-ball.xml"), "-D", "res=64", "-n", "8", "--spp", "64", "--method", "walk", "-o", at("ball"), "--quiet");
+const ball = await browser.open(at("ball/index.html")), sick = JSON.parse(readFileSync(at("ball/run.json"))), told = sick.health.complaints.length + sick.warnings.length;
+assert.ok(sick.health.complaints.length > 2);
+await ball.waitForSelector("body[data-ready]");
+assert.equal(await ball.locator("#warnings > .warning").count(), 2);
+assert.equal((await folds(ball))[`${told - 2} more warnings`]?.open, false);
+const everything = await ball.evaluate(() => ["header", "main", "#tables"].map(part => document.querySelector(part).textContent).join());
+for (const complaint of sick.health.complaints) assert.equal(everything.split(complaint).length - 1, 1, complaint);
 
 // Parts of run.json that this page does not know are tables all the same.
 const cells = await page.evaluate(() => [...generic([{ part: "mirrors", kept: false, light: { mean: .5, stderr: .1, interval95: .2 } }, { part: "glass", kept: true, count: 12345 }])
