@@ -71,6 +71,7 @@ const draw = () => {
   drawText();
   drawReadout();
   drawStrip();
+  drawSlide();
   placeSheet();
   const key = JSON.stringify([state.i, state.sum, state.run, state.pixel, all.map(s => Object.keys(s.planes).length)]);
   if (drawn.plots !== key) { drawn.plots = key; drawPlots(); }
@@ -125,12 +126,14 @@ const keys = [
   ["b", "the next B", ["b"], () => next("other")],
   ["<  >", "move the edge of the wipe", ["<", ">"], key => set({ edge: Math.max(0, Math.min(1, state.edge + (key === "<" ? -.05 : .05))) })],
   ["p", "go to the picture; arrow keys choose a pixel there, with Shift ten at a time, and Escape goes back", ["p"], () => { $("stage").focus(); movePixel(0, 0); }],
-  ["Esc", "let go of the chosen pixel", ["Escape"], () => { stop(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null }); }],
+  ["l", "slides: the picture and its formula fill the screen; a click goes on, left of the middle back", ["l"], () => state.slide ? leaveSlides() : enterSlides()],
+  ["d", "dark or white slides", ["d"], () => { if (state.slide) set({ slide: state.slide === "dark" ? "white" : "dark" }); }],
+  ["Esc", "leave the slides, or let go of the chosen pixel", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null }); }],
   ["?", "these keys", ["?"], () => $("help").showModal()]];
 document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.metaKey || event.altKey || $("help").open) return;
   const on = event.target, arrow = event.key.startsWith("Arrow");
-  if (on === $("stage") && (arrow || event.key === "Enter")) {
+  if (on === $("stage") && !state.slide && (arrow || event.key === "Enter")) {
     const by = event.shiftKey ? 10 : 1, { ArrowLeft, ArrowRight, ArrowUp, ArrowDown } = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] };
     movePixel(...({ ArrowLeft, ArrowRight, ArrowUp, ArrowDown }[event.key] ?? [0, 0]));
     event.preventDefault();
@@ -209,7 +212,8 @@ stage.onpointerup = stage.onpointercancel = e => {
   const clicked = e.type === "pointerup" && drag && !drag.moved && !drag.edge;
   pointers.delete(e.pointerId);
   drag = null;
-  if (clicked) set({ pixel: pixelAt(e) });
+  if (clicked && state.slide) step(e.clientX < innerWidth / 2 ? -1 : 1);
+  else if (clicked) set({ pixel: pixelAt(e) });
 };
 stage.onpointerleave = () => { state.hover = null; drawReadout(); };
 stage.addEventListener("wheel", e => {

@@ -56,7 +56,7 @@ const placeSheet = () => {
   const stage = $("stage"), width = stage.clientWidth, s = series(), viewer = stage.parentElement;
   // What else the viewer holds is in sight with the picture where there is room.
   const taken = viewer.parentElement.offsetTop + viewer.offsetHeight - stage.offsetHeight;
-  const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = Math.min(width * s.height / s.width, limit);
+  const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = state.slide ? innerHeight - taken : Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
   const scale = Math.min(width / s.width, height / s.height);
   state.fitScale = scale;

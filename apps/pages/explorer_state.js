@@ -8,6 +8,7 @@ const state = {
   run: 0, i: Math.min(1, first.last), sum: false, view: "colour", curve: "clip", stops: 0, fit: false,
   hover: null, pixel: null,  // { x, y }
   zoom: 1, left: 0, top: 0,  // of the picture in the stage, in CSS pixels
+  slide: "",  // dark or white
   wipe: all.length > 1, edge: .5, other: all.length > 1 ? "run" : "next"
 };
 let playing = null;

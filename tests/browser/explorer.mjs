@@ -233,6 +233,38 @@ await page.keyboard.press("Escape");
 assert.ok(await page.locator("#help").isHidden());
 await expectNames(page);
 
+// Slides: nothing but the picture and its formula, as large as the screen, until Escape.
+const caption = () => page.evaluate(() => document.getElementById("slide-caption").innerHTML);
+const seen = ids => page.evaluate(ids => ids.filter(id => document.getElementById(id).checkVisibility()), ids);
+await press("Escape", "Home");
+await press("l");
+assert.equal(await caption(), "L<sub>e</sub>");
+await press("ArrowRight", "ArrowRight", "ArrowRight");
+assert.equal(await caption(), "K<sup>3</sup> L<sub>e</sub>");
+await expectColour("#a", 3, false, exposure);
+await press("s");
+assert.equal(await caption(), "Σ K<sup>i</sup> L<sub>e</sub>, i ≤ 3");
+await press("s", "End");
+assert.equal(await caption(), "rest: Σ K<sup>i</sup> L<sub>e</sub>, i &gt; 4");
+assert.deepEqual(await seen(["title", "about", "name", "strip", "steps", "view", "energy", "tables", "stage", "slide-caption", "leave"]), ["stage", "slide-caption", "leave"]);
+{
+  const [stage, below, window] = [...await Promise.all(["stage", "slide-caption"].map(id => page.locator(`#${id}`).boundingBox())), await page.evaluate(() => [innerWidth, innerHeight])];
+  assert.deepEqual([stage.x, stage.y, stage.width], [0, 0, window[0]]);
+  assert.ok(stage.height > .8 * window[1] && Math.abs(below.y + below.height - window[1]) < 2, JSON.stringify([stage, below, window]));
+}
+const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+assert.equal(await ground(), "rgb(0, 0, 0)");
+await press("d");
+assert.equal(await ground(), "rgb(255, 255, 255)");
+await page.mouse.click(200, 200);
+await settled(page);
+assert.equal(await caption(), "K<sup>4</sup> L<sub>e</sub>");
+await press("Escape");
+await page.waitForFunction(() => !document.fullscreenElement);
+await settled(page);
+assert.deepEqual(await seen(["title", "slide-caption", "leave", "strip"]), ["title", "strip"]);
+await press("Home", "ArrowRight", "ArrowRight", "ArrowRight", "ArrowRight");
+
 // A box that was clicked leaves the keys of the bounces alone, and keeps its own.
 await page.locator("#wipe").click();
 await press("Home", "ArrowRight", "ArrowRight");
