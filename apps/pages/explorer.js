@@ -129,9 +129,11 @@ const keys = [
   ["l", "slides: the picture and its formula fill the screen; a click goes on, left of the middle back", ["l"], () => state.slide ? leaveSlides() : enterSlides()],
   ["d", "dark or white slides", ["d"], () => { if (state.slide) set({ slide: state.slide === "dark" ? "white" : "dark" }); }],
   ["Esc", "leave the slides, or let go of the chosen pixel", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null }); }],
+  ["i", "save the picture as PNG", ["i"], () => savePicture()],
+  ["y", "copy the values of the chosen pixel", ["y"], () => copyPixel()],
   ["?", "these keys", ["?"], () => $("help").showModal()]];
 document.addEventListener("keydown", event => {
-  if (event.ctrlKey || event.metaKey || event.altKey || $("help").open) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || $("help").open || $("copy").open) return;
   const on = event.target, arrow = event.key.startsWith("Arrow");
   if (on === $("stage") && !state.slide && (arrow || event.key === "Enter")) {
     const by = event.shiftKey ? 10 : 1, { ArrowLeft, ArrowRight, ArrowUp, ArrowDown } = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] };
@@ -224,16 +226,3 @@ stage.addEventListener("wheel", e => {
 }, { passive: false });
 addEventListener("resize", () => { placeSheet(); paintTiles(); });
 matchMedia("(prefers-color-scheme: dark)").onchange = () => { drawn = {}; redraw(); };
-
-drawNotes();
-
-// First what is seen first.
-const loadAll = async () => {
-  if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot unpack the pictures: it takes Chrome 86, Firefox 113, Safari 16.4 or later.");
-  for (const s of all) await s.load(state.i);
-  draw();
-  for (const s of all) for (let i = 0; i < s.heads.length; ++i) if (!s.planes[i]) { await s.load(i); paintTiles(); }
-  draw();
-  document.body.dataset.ready = "yes";
-};
-loadAll().catch(e => { $("warnings").append(element("p", e.message, "warning")); });

@@ -59,7 +59,12 @@ const placeSheet = () => {
   const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = state.slide ? innerHeight - taken : Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
   const scale = Math.min(width / s.width, height / s.height);
-  state.fitScale = scale;
+  // What was in the middle stays there when the stage changes.
+  if (state.fitScale) {
+    state.left = width / 2 - (state.stageWidth / 2 - state.left) * scale / state.fitScale;
+    state.top = height / 2 - (state.stageHeight / 2 - state.top) * scale / state.fitScale;
+  }
+  Object.assign(state, { fitScale: scale, stageWidth: width, stageHeight: height });
   const sheetWidth = s.width * scale * state.zoom, sheetHeight = s.height * scale * state.zoom;
   const within = (at, size, room) => size <= room ? (room - size) / 2 : Math.min(0, Math.max(room - size, at));
   state.left = within(state.left, sheetWidth, width);
@@ -72,6 +77,7 @@ const placeSheet = () => {
   const p = state.pixel, side = scale * state.zoom, box = Math.max(side, 9);
   $("mark").hidden = !p;
   if (p) Object.assign($("mark").style, { left: `${state.left + (p.x + .5) * side - box / 2}px`, top: `${state.top + (p.y + .5) * side - box / 2}px`, width: `${box}px`, height: `${box}px` });
+  keepAddress();
   $("zoom-text").textContent = `1 pixel on ${number(state.fitScale * state.zoom * devicePixelRatio, 2)}`;
 };
 const zoomTo = (zoom, x, y) => {

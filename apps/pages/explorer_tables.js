@@ -6,9 +6,9 @@ document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" 
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
 {
   const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
-  $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: this page shows each term as a picture. ` +
+  $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: here each term is a picture. ` +
     `${K}ⁱ ${source}, bounce i, is ${what} that was reflected i times on its way; the sum up to it holds bounces 0 to i, and the rest all that come after the last one. ` +
-    "The manual says more: apps/manual/explorer.md, neumann help render.";
+    "More is in the manual, apps/manual/explorer.md.";
 }
 const lenient = all.filter(s => s.run.scene.replaced);
 $("lenient").hidden = lenient.length === 0;

@@ -1,6 +1,6 @@
 // The explorer of a real render in a real browser: what it shows are the numbers of the EXR files, whatever is pressed.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { expectNames, expectNoSidewaysScroll, neumann, openBrowser, run } from "./browser.mjs";
@@ -13,7 +13,9 @@ const side = 32, last = 4, t = 2.13145;  // Student's t, 0.975, of 16 replicates
 neumann("render", scene, "-D", `res=${side}`, "-n", `${last}`, "--spp", "512", "-o", at("a"), "--quiet");
 neumann("render", scene, "-D", `res=${side}`, "-n", `${last + 1}`, "--method", "matrix", "--patches", "300", "--spp", "64", "-o", at("b"), "--quiet");
 neumann("compare", at("a"), at("b"), "-o", at("both"));
-const pixels = JSON.parse(run(process.env.PYTHON, path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "pixels.py"), at("a")));
+const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
+const pixelsIn = (...args) => JSON.parse(run(process.env.PYTHON, path.join(here, "pixels.py"), ...args));
+const pixels = pixelsIn(at("a"));
 const json = JSON.parse(readFileSync(at("a/run.json")));
 assert.equal(json.samples.degrees_of_freedom, 15);
 const fileOf = (i, sum) => i > last ? "rest.exr" : `${sum ? "sum" : "bounce"}_00${i}.exr`;
@@ -264,6 +266,100 @@ await page.waitForFunction(() => !document.fullscreenElement);
 await settled(page);
 assert.deepEqual(await seen(["title", "slide-caption", "leave", "strip"]), ["title", "strip"]);
 await press("Home", "ArrowRight", "ArrowRight", "ArrowRight", "ArrowRight");
+
+// The address tells what is shown: another page at it shows the same. What means nothing in it is as if it were not there.
+const atAddress = async hash => {
+  const p = await browser.open(at("a/index.html"), { hash });
+  await p.waitForSelector("body[data-ready]");
+  return p;
+};
+const shownBy = p => p.evaluate(() => [$("name"), $("readout"), $("bounce-text"), $("stops-text"), $("zoom-text"), $("quantity")].map(e => e.textContent).concat($("a").toDataURL(), $("b").toDataURL(), $("sheet").style.transform.replace(/\.\d+/g, "")));
+await page.mouse.move(0, 0);
+await page.evaluate(() => set({ i: 3, sum: true, view: "false", stops: 2, pixel: { x: 9, y: 20 }, wipe: true, other: "0-term-2", edge: .25 }));
+await press("+", "+");
+await page.waitForFunction(() => location.hash.includes("zoom"));
+const address = await page.evaluate(() => location.hash);
+for (const part of ["bounce=3", "sum=1", "view=false", "exposure=2", "pixel=9,20", "wipe=1", "b=0-term-2", "edge=0.25", "zoom=2.25,"]) assert.ok(address.includes(part), `${part} in ${address}`);
+const copy = await atAddress(address);
+await settled(copy);
+assert.deepEqual(await shownBy(copy), await shownBy(page));
+assert.match(await copy.locator("#name").innerText(), /^sum of bounces 0 to 3: /);
+assert.match(await copy.locator("#readout").innerText(), /^Pixel 9, 20,/);
+await copy.evaluate(() => { location.hash = "#bounce=rest"; });
+await copy.waitForFunction(() => document.getElementById("name").textContent.startsWith("rest"));
+assert.deepEqual(await copy.evaluate(() => [state.sum, state.stops, state.pixel, state.wipe, state.zoom]), [false, 0, null, false, 1]);
+const bad = await atAddress("#bounce=99&sum=7&view=z&curve=&exposure=1e9&pixel=-1,5&zoom=0,1,1&run=5&b=zzz&edge=x&wipe&slide=pink&%%%=1&fit=NaN");
+const plain = await atAddress("");
+assert.deepEqual(await shownBy(bad), await shownBy(plain));
+for (const p of [copy, bad, plain]) await p.close();
+
+// A picture is saved as it is shown, a pixel for a pixel; of the wipe, both sides.
+mkdirSync(at("saved"));
+const saved = async act => {
+  const [download] = await Promise.all([page.waitForEvent("download"), act()]);
+  await download.saveAs(at(`saved/${download.suggestedFilename()}`));
+  return download.suggestedFilename();
+};
+const expectPng = (png, x, y, i, sum, exposure) => {
+  for (const [channel, byte] of ["R", "G", "B"].map(c => [c, Math.round(255 * png[c][y * side + x])]))
+    expectClose(byte, srgb(pixels[fileOf(i, sum)][channel][y * side + x] * exposure), 0, `${channel} of ${x}, ${y} in the PNG`, 1);
+};
+await page.evaluate(() => set({ i: 2, sum: false, view: "colour", stops: 0, wipe: false, pixel: null }));
+await press("0");
+const single = await saved(() => page.locator("#save-picture").click());
+await page.evaluate(() => set({ wipe: true, other: "next", edge: .5 }));
+await press("ArrowRight");
+const halves = await saved(() => press("i"));
+assert.deepEqual([single, halves], ["cornell-box-bounce-2.png", "cornell-box-bounce-3.png"]);
+const png = pixelsIn(at("saved"), "*.png");
+assert.deepEqual([single, halves].map(name => png[name].R.length), [side * side, side * side]);
+for (let y = 0; y < side; ++y) for (let x = 0; x < side; ++x) {
+  expectPng(png[single], x, y, 2, false, exposure);
+  expectPng(png[halves], x, y, x < side / 2 ? 3 : 4, false, exposure);
+}
+
+// A plot as a drawing, read by its own axis, and as a table.
+await page.evaluate(() => set({ i: 2, wipe: false, pixel: { x: 9, y: 20 } }));
+await settled(page);
+const file = async act => readFileSync(at(`saved/${await saved(act)}`), "utf8");
+const svg = await file(() => page.getByLabel("Save the plot: energy of each bounce, SVG").click());
+{
+  const ticks = [...svg.matchAll(/<text x="[^"]*" y="([^"]*)" [^>]*class="y">([^<]+)</g)].map(([, top, label]) => ({ at: top - 4, log: Math.log10(read(label) || 10 ** read("1·" + label)) }));
+  const [p, q] = [ticks[0], ticks.at(-1)], means = svg.match(/<title>mean<\/title>(.*?)<\/g>/s)[1];
+  const values = [...means.matchAll(/translate\(\S+ (\S+)\)/g)].map(([, top]) => 10 ** (p.log + (top - p.at) / (q.at - p.at) * (q.log - p.log)));
+  assert.equal(values.length, last + 1);
+  values.forEach((value, i) => expectClose(value, json.bounces[i].mean, .005, `bounce ${i} in the drawing`));
+  for (const words of ["mean radiance / W·m⁻²·sr⁻¹", "bounce", "all that follows", "rest"]) assert.ok(svg.includes(`>${words}<`), words);
+}
+const rows = csv => csv.trim().split("\n").map(row => row.split(","));
+const table = rows(await file(() => page.getByLabel("Save the figures: energy of each bounce, CSV").click()));
+assert.deepEqual(table[0], ["series", "bounce", "mean radiance / W·m⁻²·sr⁻¹", "half of the 95% interval"]);
+assert.deepEqual(table.filter(r => r[0] === "mean").map(r => r.slice(1).map(Number)), json.bounces.map((b, i) => [i, b.mean, b.interval95]));
+assert.deepEqual(table.find(r => r[0] === "rest").slice(1), ["rest", String(json.rest.mean), String(json.rest.interval95)]);
+const expectPixelRow = (values, i, sum, what) => ["R", "G", "B"].forEach((channel, c) => {
+  const exr = pixels[fileOf(i, sum)], p = y * side + x;
+  expectClose(+values[2 * c], exr[channel][p], .001, `${what}: ${channel}`);
+  expectClose(+values[2 * c + 1], t * exr[`stderr.${channel}`][p], .031, `${what}: interval of ${channel}`);
+});
+const pixelTable = rows(await file(() => page.getByLabel("Save the figures: the chosen pixel, CSV").click()));
+const inTable = (series, i) => pixelTable.find(r => r[0] === series && r[1] === (i > last ? "rest" : String(i))).slice(2);
+for (let i = 0; i <= last + 1; ++i) expectPixelRow(["red", "green", "blue"].flatMap(name => inTable(name, i)), i, false, "CSV");  // bounce 0, which is 0, too
+
+// The values of a pixel are copied, or shown where the browser does not let them be.
+await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+await page.getByLabel("Copy the values of the chosen pixel").click();
+await page.waitForFunction(() => $("copied").textContent === "Copied.");
+const copied = await page.evaluate(() => navigator.clipboard.readText());
+const lines = copied.trim().split("\n").map(l => l.split("\t"));
+assert.equal(lines[0].join("|"), "pixel 9,20, W m^-2 sr^-1|red|± (95%)|green|± (95%)|blue|± (95%)");
+assert.equal(lines.length, 1 + 2 * (last + 1) + 1);
+for (let i = 0; i <= last + 1; ++i) expectPixelRow(lines[1 + i].slice(1), i, false, "copied");
+for (let i = 0; i <= last; ++i) expectPixelRow(lines[3 + last + i].slice(1), i, true, "copied sum");
+await page.evaluate(() => { navigator.clipboard.writeText = () => Promise.reject(new Error("no")); });
+await press("y");
+assert.equal(await page.locator("#copy-text").inputValue(), copied);
+await page.keyboard.press("Escape");
+await press("Escape", "Home", "ArrowRight", "ArrowRight", "ArrowRight", "ArrowRight");
 
 // A box that was clicked leaves the keys of the bounces alone, and keeps its own.
 await page.locator("#wipe").click();
