@@ -55,6 +55,8 @@ const drawText = () => {
   $("play").setAttribute("aria-pressed", String(!!playing));
   $(state.sum ? "sum" : "term").checked = true;
   for (const id of ["view", "curve", "other", "run"]) $(id).value = String(state[id]);
+  $("picking").setAttribute("aria-pressed", String(state.picking));
+  $("stage").classList.toggle("picking", state.picking);
   for (const id of ["fit", "wipe"]) $(id).checked = state[id];
   for (const id of ["stops", "edge"]) $(id).value = state[id];
   $("wipe").disabled = comparing();
@@ -62,7 +64,7 @@ const drawText = () => {
   $("stops").disabled = $("fit").disabled = state.view === "noise" || comparing();
   $("edge").disabled = !state.wipe || comparing();
   $("other").disabled = !state.wipe && !comparing();
-  $("stops-text").textContent = `${state.stops > 0 ? "+" : state.stops < 0 ? "−" : ""}${Math.abs(state.stops)} stops` + (missing({ series: s, ref }) ? "" : ` (×${number(exposure(s, ref))})`);
+  $("stops-text").textContent = `${state.stops > 0 ? "+" : state.stops < 0 ? "−" : ""}${+Math.abs(state.stops).toFixed(1)} stops` + (missing({ series: s, ref }) ? "" : ` (×${number(exposure(s, ref))})`);
 };
 
 let drawn = {};
@@ -71,6 +73,7 @@ const draw = () => {
   drawText();
   drawReadout();
   drawStrip();
+  drawHistogram();
   drawSlide();
   placeSheet();
   const key = JSON.stringify([state.i, state.sum, state.run, state.pixel, all.map(s => Object.keys(s.planes).length)]);
@@ -104,9 +107,15 @@ const next = (id, by = 1) => {
   set({ [id]: options[(options.findIndex(o => o.value === $(id).value) + by + options.length) % options.length].value });
 };
 const movePixel = (dx, dy) => {
-  const from = state.pixel ?? { x: series().width >> 1, y: series().height >> 1 }, moved = state.pixel ? [dx, dy] : [0, 0];
-  const clamp = (v, size) => Math.max(0, Math.min(size - 1, v));
-  set({ hover: null, pixel: { x: clamp(from.x + moved[0], series().width), y: clamp(from.y + moved[1], series().height) } });
+  const from = state.pixel ?? { x: series().width >> 1, y: series().height >> 1 }, pixel = state.pixel ? nearest({ x: from.x + dx, y: from.y + dy }) : from;
+  set({ hover: null, pixel, ...(state.corner && { rect: rectOf(state.corner, pixel) }) });
+};
+// With the keys: from here on the arrows span a rectangle, until the next time.
+const spanRect = () => {
+  if (state.corner) { set({ corner: null }); return; }
+  $("stage").focus();
+  movePixel(0, 0);
+  set({ corner: state.pixel, rect: rectOf(state.pixel, state.pixel) });
 };
 
 const keys = [
@@ -115,7 +124,8 @@ const keys = [
   ["Home  End", "first, last", ["Home", "End"], key => { stop(); set({ i: key === "Home" ? 0 : lastShown() }); }],
   ["Space", "play, stop", [" "], play],
   ["s", "one bounce or the sum", ["s"], () => set({ sum: !state.sum })],
-  ...(all.length > 1 ? [["r", "run A or B", ["r"], () => set({ run: 1 - state.run })]] : []),
+  ...(all.length > 1 ? [["r", "the next run", ["r"], () => set({ run: (state.run + 1) % all.length })],
+    [`1 – ${Math.min(9, all.length)}`, "run A, B, …", [..."123456789"].slice(0, all.length), key => set({ run: key - 1 })]] : []),
   ["v", "next way to show it: colours, false colour, noise, difference", ["v"], () => next("view")],
   ["c  n", "false colour, noise, and back", ["c", "n"], key => { const to = key === "c" ? "false" : "noise"; set({ view: state.view === to ? "colour" : to }); }],
   ["t", "next tone curve", ["t"], () => next("curve")],
@@ -128,7 +138,8 @@ const keys = [
   ["p", "go to the picture; arrow keys choose a pixel there, with Shift ten at a time, and Escape goes back", ["p"], () => { $("stage").focus(); movePixel(0, 0); }],
   ["l", "slides: the picture and its formula fill the screen; a click goes on, left of the middle back", ["l"], () => state.slide ? leaveSlides() : enterSlides()],
   ["d", "dark or white slides", ["d"], () => { if (state.slide) set({ slide: state.slide === "dark" ? "white" : "dark" }); }],
-  ["Esc", "leave the slides, or let go of the chosen pixel", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null }); }],
+  ["a", "a rectangle from the chosen pixel on, by the arrow keys, until a is pressed again; with the mouse, Shift and a drag", ["a"], spanRect],
+  ["Esc", "leave the slides, or let go of the chosen pixel and the rectangle", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null, rect: null, corner: null, picking: false }); }],
   ["i", "save the picture as PNG", ["i"], () => savePicture()],
   ["y", "copy the values of the chosen pixel", ["y"], () => copyPixel()],
   ["?", "these keys", ["?"], () => $("help").showModal()]];
@@ -155,7 +166,7 @@ document.addEventListener("keydown", event => {
 others.forEach(([value, text]) => { const o = element("option", text); o.value = value; $("other").append(o); });
 if (all.length > 1) {
   $("run-label").hidden = false;
-  ["A", "B"].forEach((text, i) => { const o = element("option", text); o.value = i; $("run").append(o); });
+  all.forEach((s, i) => { const o = element("option", runName(s) + s.run.options.method); o.value = i; $("run").append(o); });
 }
 for (const o of $("view").options) o.hidden = o.disabled = o.value === "z" && all.length === 1;
 $("bounce").oninput = e => { stop(); set({ i: +e.target.value }); };
@@ -169,12 +180,14 @@ for (const id of ["stops", "edge"]) $(id).oninput = e => set({ [id]: +e.target.v
 for (const id of ["fit", "wipe"]) $(id).onchange = e => set({ [id]: e.target.checked });
 $("in").onclick = () => zoomAtPixel(state.zoom * 1.5);
 $("out").onclick = () => zoomAtPixel(state.zoom / 1.5);
+$("picking").onclick = () => set({ picking: !state.picking });
 $("whole").onclick = () => zoomTo(1);
 $("help-button").onclick = () => $("help").showModal();
 facts("keys", keys.map(([, what]) => ["", what]));
 keys.forEach(([names], row) => names.split("  ").forEach(key => $("keys").rows[row].cells[0].append(element("kbd", key), " ")));
 
-// The pointer: hover tells values, a click chooses, a drag moves the zoomed picture or the edge of the wipe, two fingers zoom.
+// The pointer: hover tells values, a click chooses, a drag moves the zoomed picture or the edge of the wipe, or with
+// Shift makes a rectangle, two fingers zoom.
 const pointers = new Map();
 let drag = null;
 const stage = $("stage");
@@ -182,7 +195,7 @@ stage.onpointerdown = e => {
   pointers.set(e.pointerId, e);
   const x = e.clientX - stage.getBoundingClientRect().left;
   drag = { x: e.clientX, y: e.clientY, left: state.left, top: state.top, moved: false,
-           edge: !$("divider").hidden && Math.abs(x - state.edge * stage.clientWidth) < 12 };
+           corner: (e.shiftKey || state.picking) && !state.slide ? nearest(placeAt(e)) : null, edge: !$("divider").hidden && Math.abs(x - state.edge * stage.clientWidth) < 12 };
   stage.setPointerCapture(e.pointerId);
 };
 stage.onpointermove = e => {
@@ -200,7 +213,8 @@ stage.onpointermove = e => {
   if (before && drag) {
     const dx = e.clientX - drag.x, dy = e.clientY - drag.y;
     drag.moved ||= Math.hypot(dx, dy) > 4;
-    if (drag.edge) set({ edge: Math.max(0, Math.min(1, (e.clientX - stage.getBoundingClientRect().left) / stage.clientWidth)) });
+    if (drag.corner) set({ rect: rectOf(drag.corner, nearest(placeAt(e))) });
+    else if (drag.edge) set({ edge: Math.max(0, Math.min(1, (e.clientX - stage.getBoundingClientRect().left) / stage.clientWidth)) });
     else if (drag.moved && state.zoom > 1) {
       state.left = drag.left + dx;
       state.top = drag.top + dy;
@@ -212,6 +226,7 @@ stage.onpointermove = e => {
 };
 stage.onpointerup = stage.onpointercancel = e => {
   const clicked = e.type === "pointerup" && drag && !drag.moved && !drag.edge;
+  if (drag?.corner && drag.moved) set({ picking: false, corner: null });
   pointers.delete(e.pointerId);
   drag = null;
   if (clicked && state.slide) step(e.clientX < innerWidth / 2 ? -1 : 1);

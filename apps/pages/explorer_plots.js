@@ -53,8 +53,8 @@ const fitRange = (chart, sets) => {
 
 // Means with error bars; of a single run also what follows each bounce, its bound, and the fitted decay.
 const energySets = (all, names, restAt) => all.flatMap((s, r) => {
-  const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r] } : {};
-  const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)), main, marks[r], dash)];
+  const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r % dashes.length] } : {};
+  const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)), main, marks[r % marks.length], dash)];
   if (s.hasRest) sets.push(dots("rest" + tag, [point(restAt, s.run.rest.mean, s.wholeMean({ i: s.last + 1 }).interval95, "rest")], main, "rectRot", { showLine: false }));
   if (all.length > 1) return sets;
   if (s.decay) {

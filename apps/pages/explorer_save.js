@@ -25,7 +25,7 @@ const savePicture = () => {
 
 // A row a picture, with tabs, for a sheet.
 const pixelText = () => {
-  const s = series(), p = state.pixel.y * s.width + state.pixel.x, channels = ["red", "green", "blue"];
+  const s = series(), p = state.pixel.y * s.width + state.pixel.x;
   const rows = [];
   for (const sum of [false, true]) for (let i = 0; i <= s.last + 1; ++i) {
     const ref = { i, sum };

@@ -2,7 +2,7 @@
 // The run in words.
 const sceneOf = s => s.run.scene.file.split("/").pop();
 const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.sampling_seconds)} s, ${number(s.run.timing.total_seconds)} s in all`;
-document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": A and B" : "");
+document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": " + all.map((_, r) => letter(r)).join(", ").replace(/, (.)$/, " and $1") : "");
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
 {
   const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
@@ -78,7 +78,7 @@ const planTable = plan => {
   return [...parts, generic(kept.map(({ part, reason }) => ({ kept: part, reason })))];
 };
 all.forEach(s => {
-  const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run, what = { command: run.command, ...run }, parts = [];
+  const tag = all.length > 1 ? ` of ${letter(s.index)}` : "", run = s.run, what = { command: run.command, ...run }, parts = [];
   section(`The bounces${tag}`, bouncesTable(s));
   if (run.choice) {
     parts.push(element("p", `By ${run.choice.method}: ${run.choice.why}.`));

@@ -13,6 +13,7 @@ const svgPlot = chart => {
   const { scales: { x, y }, chartArea: area, width, height, legend } = chart, out = [], round = v => +v.toFixed(2);
   const text = (words, at, top, more = "") => out.push(`<text x="${round(at)}" y="${round(top)}" ${more}>${escaped(words)}</text>`);
   const path = (d, stroke, more = "") => out.push(`<path d="${d}" stroke="${ink(stroke)}" fill="none" ${more}/>`);
+  const mark = (set, at, top) => set.pointRadius > 0 && out.push(`<path class="mark" transform="translate(${at} ${top})" d="${shapes[set.pointStyle] ?? shapes.circle}" fill="${ink(set.pointBackgroundColor ?? set.backgroundColor)}" stroke="${ink(set.borderColor)}"/>`);
   const [middleX, middleY] = [(area.left + area.right) / 2, (area.top + area.bottom) / 2];
   for (const [axis, isX] of [[x, true], [y, false]]) for (const tick of axis.ticks) {
     const at = round(axis.getPixelForValue(tick.value)), label = Array.isArray(tick.label) ? tick.label.join(" ") : tick.label ?? "";
@@ -25,20 +26,21 @@ const svgPlot = chart => {
   text(y.options.title.text, 12, middleY, `text-anchor="middle" transform="rotate(-90 12 ${round(middleY)})"`);
   out.push(`<clipPath id="area"><rect x="${area.left}" y="${area.top}" width="${area.right - area.left}" height="${area.bottom - area.top}"/></clipPath><g clip-path="url(#area)">`);
   for (const set of chart.data.datasets) {
-    const place = p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)].map(round), mark = set.pointRadius > 0 && (shapes[set.pointStyle] ?? shapes.circle);
+    const place = p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)].map(round);
     out.push(`<g class="series"><title>${escaped(set.label)}</title>`);
     if (set.showLine && set.data.length > 1) path("M" + set.data.map(p => place(p).join(" ")).join("L"), set.borderColor, `stroke-width="${set.borderWidth}" stroke-dasharray="${(set.borderDash ?? []).join(" ")}"`);
     for (const p of set.data) {
       const [at, top] = place(p);
       if (p.high !== undefined) path(`M${at} ${round(y.getPixelForValue(p.high))}V${round(p.low > 0 ? y.getPixelForValue(p.low) : area.bottom)}`, set.borderColor);
-      if (mark) out.push(`<path class="mark" transform="translate(${at} ${top})" d="${mark}" fill="${ink(set.pointBackgroundColor ?? set.backgroundColor)}" stroke="${ink(set.borderColor)}"/>`);
+      mark(set, at, top);
     }
     out.push("</g>");
   }
   out.push("</g>");
   legend.legendItems.forEach((item, k) => {
     const { left, top, height } = legend.legendHitBoxes[k], set = chart.data.datasets[item.datasetIndex], level = round(top + height / 2);
-    path(`M${left - 2} ${level}h16`, set.borderColor, `stroke-width="2" stroke-dasharray="${(set.borderDash ?? []).join(" ")}"`);
+    if (set.showLine) path(`M${left - 2} ${level}h16`, set.borderColor, `stroke-width="2" stroke-dasharray="${(set.borderDash ?? []).join(" ")}"`);
+    mark(set, round(left + 6), level);
     text(item.text, left + 18, level + 4);
   });
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12" fill="#111111"><rect width="100%" height="100%" fill="#ffffff"/>\n${out.join("\n")}\n</svg>\n`;

@@ -267,6 +267,99 @@ await settled(page);
 assert.deepEqual(await seen(["title", "slide-caption", "leave", "strip"]), ["title", "strip"]);
 await press("Home", "ArrowRight", "ArrowRight", "ArrowRight", "ArrowRight");
 
+// The mean of a rectangle, drawn with Shift or by the keys, with the interval of errors that are independent.
+assert.equal(json.options.method, "walk");  // whose pixels are
+const expectRect = async ([x0, x1, y0, y1], i, sum) => {
+  const lines = await page.locator("#readout").innerText(), exr = pixels[fileOf(i, sum)], span = (a, b) => a === b ? a : `${a} to ${b}`;
+  assert.ok(lines.includes(`Mean of the rectangle ${span(x0, x1)}, ${span(y0, y1)}, W·m⁻²·sr⁻¹; 95% intervals, for errors of pixels that are independent`), lines);
+  const figures = await page.locator("#readout .values").last().innerText();
+  ["R", "G", "B"].forEach((channel, c) => {
+    let mean = 0, variance = 0, n = 0;
+    for (let y = y0; y <= y1; ++y) for (let x = x0; x <= x1; ++x, ++n) { mean += exr[channel][y * side + x]; variance += exr[`stderr.${channel}`][y * side + x] ** 2; }
+    const [, value, half] = figures.match(new RegExp(`${["red", "green", "blue"][c]} (\\S+) ± (\\S+)`));
+    expectClose(read(value), mean / n, .0055, `mean of ${channel} in the rectangle`);
+    expectClose(read(half), t * Math.sqrt(variance) / n, .06, `its interval in ${channel}`);
+  });
+};
+await press("Escape", "Home", "ArrowRight", "ArrowRight");
+await page.keyboard.down("Shift");
+await page.mouse.move(...await shownAt(20, 25));
+await page.mouse.down();
+await page.mouse.move(...await shownAt(15, 18), { steps: 5 });
+await page.mouse.up();
+await page.keyboard.up("Shift");
+await page.mouse.move(0, 0);
+await settled(page);
+await expectRect([15, 20, 18, 25], 2, false);
+const [rect, corner] = [await page.locator("#rect").boundingBox(), await shownAt(15, 18)];
+assert.ok(corner[0] > rect.x && corner[0] < rect.x + rect.width / 6 && corner[1] > rect.y && corner[1] < rect.y + rect.height / 8, JSON.stringify([rect, corner]));
+await press("s");
+await expectRect([15, 20, 18, 25], 2, true);
+await press("s", "Escape");
+assert.ok(await page.locator("#rect").isHidden());
+await press("a", "ArrowRight", "ArrowRight", "ArrowUp", "a", "ArrowUp");
+await expectRect([16, 18, 15, 16], 2, false);
+assert.match(await text("readout"), /^Pixel 18, 14,/);
+await page.locator("#picking").click();  // for fingers, which have no Shift
+await page.mouse.move(...await shownAt(3, 4));
+await page.mouse.down();
+await page.mouse.move(...await shownAt(5, 4), { steps: 5 });
+await page.mouse.up();
+await page.mouse.move(0, 0);
+await settled(page);
+await expectRect([3, 5, 4, 4], 2, false);
+assert.equal(await page.locator("#picking").getAttribute("aria-pressed"), "false");
+await press("Escape");
+
+// The histogram counts the pixels of what is shown; its handles set white and the low end of the colours.
+const lightOf = name => pixels[name].R.map((r, p) => .2126 * r + .7152 * pixels[name].G[p] + .0722 * pixels[name].B[p]);
+const light = lightOf("bounce_002.exr");
+await page.evaluate(() => set({ view: "false", wipe: false }));
+await settled(page);
+const ticksOf = () => page.evaluate(() => [...$("histogram-ticks").children].map(e => [parseFloat(e.style.left) / 100, e.textContent])).then(ticks => [ticks[0], ticks.at(-1)].map(([at, label]) => ({ at, log: Math.log10(read(label)) })));
+const bars = await page.evaluate(() => {
+  const { width, height } = $("histogram"), { data } = $("histogram").getContext("2d").getImageData(0, 0, width, height);
+  return Array.from({ length: width }, (_, x) => Array.from({ length: height }, (_, y) => data[4 * (y * width + x) + 3] > 0).filter(Boolean).length);
+});
+{
+  const [p, q] = await ticksOf(), binOf = v => Math.floor(bars.length * (p.at + (Math.log10(v) - p.log) / (q.log - p.log) * (q.at - p.at)));
+  const counts = new Array(bars.length).fill(0);
+  for (const v of light) if (v > 0) ++counts[binOf(v)];
+  const most = Math.max(...counts), expected = counts.map(n => Math.round(48 * Math.sqrt(n / most)));
+  // Half floats may move a pixel to the next bar.
+  const off = expected.map((height, bin) => Math.abs(height - bars[bin])).filter(d => d > 1).length;
+  assert.ok(off <= 12 && expected.filter(h => h > 0).length > 20, JSON.stringify([expected, bars]));
+  assert.ok((await text("histogram-note")).startsWith("1\u202f024 pixels by luminance"), await text("histogram-note"));
+  assert.ok((await text("histogram-note")).includes(`${light.filter(v => v === 0).length} are 0`) || light.every(v => v > 0));
+}
+const drag = async (id, part) => {  // a handle by the mouse to a part of the track; returns what the axis says of that place
+  const [p, q] = await ticksOf();
+  const track = await page.locator("#histogram").boundingBox(), from = await page.evaluate(id => +$(id).value, id), y = track.y + track.height + 8;
+  await page.mouse.move(track.x + from * track.width, y);
+  await page.mouse.down();
+  await page.mouse.move(track.x + part * track.width, y, { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  return 10 ** (p.log + (part - p.at) / (q.at - p.at) * (q.log - p.log));
+};
+const asked = await drag("range-high", .7), white = await page.evaluate(() => image.high);
+expectClose(white, asked, .05, "white after the drag");  // tenths of a stop: 3.5%, and a pixel of the track
+const scaleEnds = await page.evaluate(() => [...$("ticks").children].map(e => [parseFloat(e.style.left) / 100, e.textContent]));
+for (const [at, label] of scaleEnds) assert.ok(at >= 0 && at <= 1 && read(label) <= white * 1.01);
+await page.evaluate(() => set({ view: "colour" }));
+await settled(page);
+await expectColour("#a", 2, false, 1 / white);
+assert.ok(await page.locator("#range-low").isDisabled());
+await page.evaluate(() => set({ view: "false", stops: 0 }));
+await settled(page);
+const askedLow = await drag("range-low", .5), low = await page.evaluate(() => image.low);
+expectClose(low, askedLow, .05, "the low end after the drag");
+// All below it has the first colour of the map, all above another.
+const canvas = await page.evaluate(() => [...$("a").getContext("2d").getImageData(0, 0, $("a").width, $("a").height).data]);
+for (let p = 0; p < side * side; ++p) if (light[p] > 0 && Math.abs(Math.log(light[p] / low)) > .1)
+  assert.equal(canvas.slice(4 * p, 4 * p + 3).join() === "68,1,84", light[p] < low, `pixel ${p}`);  // viridis begins with 440154
+await page.evaluate(() => set({ view: "colour", stops: 0, decades: 4 }));
+
 // The address tells what is shown: another page at it shows the same. What means nothing in it is as if it were not there.
 const atAddress = async hash => {
   const p = await browser.open(at("a/index.html"), { hash });
@@ -275,11 +368,11 @@ const atAddress = async hash => {
 };
 const shownBy = p => p.evaluate(() => [$("name"), $("readout"), $("bounce-text"), $("stops-text"), $("zoom-text"), $("quantity")].map(e => e.textContent).concat($("a").toDataURL(), $("b").toDataURL(), $("sheet").style.transform.replace(/\.\d+/g, "")));
 await page.mouse.move(0, 0);
-await page.evaluate(() => set({ i: 3, sum: true, view: "false", stops: 2, pixel: { x: 9, y: 20 }, wipe: true, other: "0-term-2", edge: .25 }));
+await page.evaluate(() => set({ i: 3, sum: true, view: "false", stops: 2, pixel: { x: 9, y: 20 }, wipe: true, other: "0-term-2", edge: .25, decades: 3, rect: { x0: 2, y0: 3, x1: 8, y1: 9 } }));
 await press("+", "+");
 await page.waitForFunction(() => location.hash.includes("zoom"));
 const address = await page.evaluate(() => location.hash);
-for (const part of ["bounce=3", "sum=1", "view=false", "exposure=2", "pixel=9,20", "wipe=1", "b=0-term-2", "edge=0.25", "zoom=2.25,"]) assert.ok(address.includes(part), `${part} in ${address}`);
+for (const part of ["bounce=3", "sum=1", "view=false", "exposure=2", "pixel=9,20", "wipe=1", "b=0-term-2", "edge=0.25", "decades=3", "rect=2,3,8,9", "zoom=2.25,"]) assert.ok(address.includes(part), `${part} in ${address}`);
 const copy = await atAddress(address);
 await settled(copy);
 assert.deepEqual(await shownBy(copy), await shownBy(page));
@@ -288,7 +381,7 @@ assert.match(await copy.locator("#readout").innerText(), /^Pixel 9, 20,/);
 await copy.evaluate(() => { location.hash = "#bounce=rest"; });
 await copy.waitForFunction(() => document.getElementById("name").textContent.startsWith("rest"));
 assert.deepEqual(await copy.evaluate(() => [state.sum, state.stops, state.pixel, state.wipe, state.zoom]), [false, 0, null, false, 1]);
-const bad = await atAddress("#bounce=99&sum=7&view=z&curve=&exposure=1e9&pixel=-1,5&zoom=0,1,1&run=5&b=zzz&edge=x&wipe&slide=pink&%%%=1&fit=NaN");
+const bad = await atAddress("#bounce=99&sum=7&view=z&curve=&exposure=1e9&pixel=-1,5&zoom=0,1,1&run=5&b=zzz&edge=x&wipe&slide=pink&decades=-1&rect=1,2,3&%%%=1&fit=NaN");
 const plain = await atAddress("");
 assert.deepEqual(await shownBy(bad), await shownBy(plain));
 for (const p of [copy, bad, plain]) await p.close();
@@ -304,7 +397,7 @@ const expectPng = (png, x, y, i, sum, exposure) => {
   for (const [channel, byte] of ["R", "G", "B"].map(c => [c, Math.round(255 * png[c][y * side + x])]))
     expectClose(byte, srgb(pixels[fileOf(i, sum)][channel][y * side + x] * exposure), 0, `${channel} of ${x}, ${y} in the PNG`, 1);
 };
-await page.evaluate(() => set({ i: 2, sum: false, view: "colour", stops: 0, wipe: false, pixel: null }));
+await page.evaluate(() => set({ i: 2, sum: false, view: "colour", stops: 0, decades: 4, wipe: false, pixel: null, rect: null }));
 await press("0");
 const single = await saved(() => page.locator("#save-picture").click());
 await page.evaluate(() => set({ wipe: true, other: "next", edge: .5 }));
