@@ -125,7 +125,7 @@ const keys = [
   ["Space", "play, stop", [" "], play],
   ["s", "one bounce or the sum", ["s"], () => set({ sum: !state.sum })],
   ...(all.length > 1 ? [["r", "the next run", ["r"], () => set({ run: (state.run + 1) % all.length })],
-    [`1 – ${Math.min(9, all.length)}`, "run A, B, …", [..."123456789"].slice(0, all.length), key => set({ run: key - 1 })]] : []),
+    [`1 – ${Math.min(9, all.length)}`, `run ${all.map((_, r) => letter(r)).slice(0, 9).join(", ")}`, [..."123456789"].slice(0, all.length), key => set({ run: key - 1 })]] : []),
   ["v", "next way to show it: colours, false colour, noise, difference", ["v"], () => next("view")],
   ["c  n", "false colour, noise, and back", ["c", "n"], key => { const to = key === "c" ? "false" : "noise"; set({ view: state.view === to ? "colour" : to }); }],
   ["t", "next tone curve", ["t"], () => next("curve")],

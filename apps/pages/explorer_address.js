@@ -67,6 +67,7 @@ const keepAddress = () => {
 const readAddress = () => {
   const given = new URLSearchParams(location.hash.slice(1)), to = {};
   for (const [name, [key, , read]] of Object.entries(addressed)) to[key] = (given.has(name) ? read(given.get(name)) : undefined) ?? beginning[key];
+  if (to.i > all[to.run].last && to.i !== Infinity) to.i = beginning.i;
   state.run = to.run;
   state.sum = to.sum;
   set(to);

@@ -48,7 +48,12 @@ const copyPixel = async () => {
   }
 };
 
-const button = (text, name, onclick) => Object.assign(element("button", text), { ariaLabel: name, onclick });
+const button = (text, name, onclick) => {
+  const b = element("button", text);
+  b.setAttribute("aria-label", name);
+  b.onclick = onclick;
+  return b;
+};
 for (const [id, chart, what] of [["energy", energyPlot, "energy of each bounce"], ["pixel", pixelPlot, "the chosen pixel"], ["error", errorPlot, "error against time"]]) {
   const row = element("div", undefined, "line saves"), name = `${id}-plot`;
   row.append(button("SVG", `Save the plot: ${what}, SVG`, () => save(name + ".svg", new Blob([svgPlot(chart)], { type: "image/svg+xml" }))),

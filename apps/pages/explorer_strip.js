@@ -27,8 +27,8 @@ const drawStrip = () => {
     tile.setAttribute("aria-label", name);
     tile.title = name;
     tile.tabIndex = current ? 0 : -1;
-    if (current && tile.ariaCurrent !== "true") bringIntoSight(tile);
-    tile.ariaCurrent = String(current);
+    if (current && tile.getAttribute("aria-current") !== "true") bringIntoSight(tile);
+    tile.setAttribute("aria-current", String(current));
   });
   paintTiles();
 };

@@ -382,7 +382,9 @@ await copy.evaluate(() => { location.hash = "#bounce=rest"; });
 await copy.waitForFunction(() => document.getElementById("name").textContent.startsWith("rest"));
 assert.deepEqual(await copy.evaluate(() => [state.sum, state.stops, state.pixel, state.wipe, state.zoom]), [false, 0, null, false, 1]);
 const bad = await atAddress("#bounce=99&sum=7&view=z&curve=&exposure=1e9&pixel=-1,5&zoom=0,1,1&run=5&b=zzz&edge=x&wipe&slide=pink&decades=-1&rect=1,2,3&%%%=1&fit=NaN");
-const plain = await atAddress("");
+const plain = await atAddress(""), beyond = await atAddress("#bounce=5");  // there are 4
+assert.match(await beyond.locator("#name").innerText(), /^bounce 1: /);
+await beyond.close();
 assert.deepEqual(await shownBy(bad), await shownBy(plain));
 for (const p of [copy, bad, plain]) await p.close();
 
@@ -511,6 +513,35 @@ assert.equal(await both.locator("#empty").innerText(), "B: there is no bounce be
 const rests = await both.evaluate(() => energyPlot.data.datasets.filter(d => d.label.startsWith("rest")).map(d => d.data[0].x));
 assert.deepEqual(rests, [6, 6]);
 
+// Three renders on one page: the digits choose one, and B is any of the others.
+neumann("render", scene, "-D", `res=${side}`, "-n", `${last}`, "--spp", "64", "--seed", "7", "--method", "light", "-o", at("c"), "--quiet");
+neumann("compare", at("a"), at("b"), at("c"), "-o", at("three"));
+const three = await browser.open(at("three/index.html"));
+await three.waitForSelector("body[data-ready]");
+assert.match(await three.locator("#title").innerText(), /: A, B and C$/);
+const exrOf = { A: pixels, B: pixelsIn(at("b")), C: pixelsIn(at("c")) };
+const expectOn = async (canvas, name) => {
+  const bytes = await three.evaluate(c => [...$(c).getContext("2d").getImageData(9, 20, 1, 1).data], canvas);
+  ["R", "G", "B"].forEach((channel, c) => expectClose(bytes[c], srgb(exrOf[name]["bounce_001.exr"][channel][20 * side + 9] * exposure), 0, `${channel} of ${name} on ${canvas}`, 1));
+};
+for (const [key, name, next] of [["1", "A", "B"], ["2", "B", "C"], ["3", "C", "A"]]) {
+  await three.keyboard.press(key);
+  await settled(three);
+  assert.deepEqual([await three.locator("#side-a").innerText(), await three.locator("#side-b").innerText()], [`${name}: bounce 1`, `${next}: bounce 1`]);
+  await expectOn("a", name);
+  await expectOn("b", next);
+}
+await three.selectOption("#other", "run-1");
+await settled(three);
+await expectOn("b", "B");
+// Those of light are of paths that many pixels have in common: the mean of a rectangle has but a bound.
+await three.evaluate(() => set({ rect: { x0: 4, y0: 4, x1: 7, y1: 7 }, wipe: false }));
+await settled(three);
+const ofC = exrOf.C["bounce_001.exr"], four = [4, 5, 6, 7], together = four.flatMap(y => four.map(x => ofC["stderr.R"][y * side + x])).reduce((a, b) => a + b) / 16;
+assert.match(await three.locator("#readout").innerText(), /upper bounds/);
+expectClose(read((await three.locator("#readout .values").last().innerText()).match(/red \S+ ± (\S+)/)[1]), await three.evaluate(() => all[2].intervalFactor) * together, .06, "the bound on the mean of a rectangle");
+await expectNames(three);
+
 // One sample tells no errors: the warning is on top, intervals are unknown, and the noise is grey.
 neumann("render", scene, "-D", "res=8", "-n", "0", "--spp", "1", "-o", at("one"), "--quiet");
 const one = await browser.open(at("one/index.html"));
@@ -566,6 +597,10 @@ for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
   await phone.waitForSelector("body[data-ready]");
   await phone.locator("#stage").click();
   await settled(phone);
+  assert.match(await phone.locator("#readout").innerText(), /^Pixel \d+, \d+,/);
+  await phone.locator("#in").click();
+  await phone.locator("#whole").click();
+  await phone.evaluate(() => scrollTo(0, 0));
   await expectNoSidewaysScroll(phone);
   // Two fingers that part from 40 to 120 pixels zoom three times, and what was between them stays there.
   const box = await phone.locator("#stage").boundingBox();
@@ -580,6 +615,11 @@ for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
   await settled(phone);
   expectClose(await phone.evaluate(() => state.zoom), 3, 0.01, "zoom of two fingers");
   assert.deepEqual(await between(), pixel);
+  // A finger's tap chooses the pixel.
+  await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [middle] });
+  await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await settled(phone);
+  assert.deepEqual(await phone.evaluate(() => state.pixel), pixel);
 }
 
 await browser.close();
