@@ -65,14 +65,14 @@ const shownAs = {
   },
   difference(series, ref, { other }) {
     const { value } = difference(series, ref, other.series, other.ref), most = largestOfMost(series.pixels, value);
-    if (!most) return { ...scaled(signed, -1, 1, false, value), quantity: `A − B, luminance, ${series.unit}: they agree in every pixel` };
+    if (!most) return { ...scaled(signed, -1, 1, false, value), quantity: `${pairOf(series, other)}, luminance, ${series.unit}: they agree in every pixel` };
     return { ...scaled(signed, -most, most, false, value),
-             quantity: `A − B, luminance, ${series.unit}; 95% of the pixels that differ do so by at most ${number(most, 2)}, and beyond that have the colours of the ends` };
+             quantity: `${pairOf(series, other)}, luminance, ${series.unit}; 95% of the pixels that differ do so by at most ${number(most, 2)}, and beyond that have the colours of the ends` };
   },
   z(series, ref, { other }) {
     const { value, error } = difference(series, ref, other.series, other.ref);
     return { ...scaled(signed, -5, 5, false, p => { const d = value(p); return d === 0 ? 0 : d / error(p); }),
-             quantity: "(A − B) / its standard error, luminance" };
+             quantity: `(${pairOf(series, other)}) / its standard error, luminance` };
   }
 };
 // A pixel's channels come from the same samples, so that their errors are taken to go together.

@@ -13,7 +13,7 @@ const drawSlide = () => {
   document.body.dataset.slide = state.slide;
   document.body.classList.toggle("sliding", !!state.slide);
   $("slide-caption").hidden = $("leave").hidden = !state.slide;
-  $("slide-caption").replaceChildren(comparing() ? "A − B: " : runName(series()), ...raised(slideFormula(series(), shown())));
+  $("slide-caption").replaceChildren(comparing() ? `${pairOf(series(), other())}: ` : runName(series()), ...raised(slideFormula(series(), shown())));
 };
 const enterSlides = () => {
   set({ slide: "dark" });

@@ -37,6 +37,8 @@ const other = () => {
   const [s, ref] = others.find(o => o[0] === state.other)[2]();
   return { series: s, ref };
 };
+// What is taken from what.
+const pairOf = (s, o) => s === o.series ? "A − B" : `${letter(s.index)} − ${letter(o.series.index)}`;
 const comparing = () => state.view === "difference" || state.view === "z";
 const runName = s => all.length > 1 ? `${letter(s.index)}: ` : "";
 

@@ -531,6 +531,10 @@ for (const [key, name, next] of [["1", "A", "B"], ["2", "B", "C"], ["3", "C", "A
   await expectOn("a", name);
   await expectOn("b", next);
 }
+await three.selectOption("#view", "difference");
+await settled(three);
+assert.match(await three.locator("#quantity").innerText(), /^C − A, luminance/);
+await three.selectOption("#view", "colour");
 await three.selectOption("#other", "run-1");
 await settled(three);
 await expectOn("b", "B");
