@@ -10,7 +10,8 @@ CLI::App* add_compare(CLI::App& app, CompareRequest& request) {
         "compare", "Print error metrics between two pictures or two output folders; the second is the reference");
     compare->add_option("A", request.a, "Picture or folder")->required();
     compare->add_option("B", request.b, "Reference picture or folder")->required();
-    compare->add_option("-o", request.output, "For two folders: write into this folder a page that shows both, bounce by bounce")
+    compare->add_option("MORE", request.more, "With -o: further folders on the page; the figures are of A and B");
+    compare->add_option("-o", request.output, "For folders: write into this folder a page that shows all, bounce by bounce")
         ->type_name("DIR");
     compare->add_flag("--json", request.json, "Print JSON");
     return compare;

@@ -224,7 +224,7 @@ nlohmann::ordered_json json_of(const std::string& a, const std::string& b, const
 }  // namespace
 
 int compare_command(const CompareRequest& request) {
-    const auto& [a, b, output, json] = request;
+    const auto& [a, b, output, json, more] = request;
     const bool a_is_folder = is_folder(a), b_is_folder = is_folder(b);
     if (a_is_folder != b_is_folder) {
         throw InputError(fmt::format("{} and {}: a folder against a picture", a_is_folder ? a : b, a_is_folder ? b : a));
@@ -232,14 +232,21 @@ int compare_command(const CompareRequest& request) {
     const bool folders = a_is_folder && b_is_folder;
     if (!folders && !output.empty())
         throw InputError(fmt::format("-o: {} is a picture; a page is made of two folders of render", a));
+    if (!more.empty() && output.empty())
+        throw InputError(fmt::format("{}: figures are of two, A and B; more folders are for the page of -o", more.front()));
     const Comparison comparison = folders ? compare_folders(a, b) : Comparison{{compare_pictures("A against B", a, b)}, {}, {}, {}};
     const auto figures = json_of(a, b, comparison);
-    if (!output.empty()) write_compare_page(output, a, b, figures);
+    if (!output.empty()) {
+        std::vector<std::string> shown = {a, b};
+        shown.insert(shown.end(), more.begin(), more.end());
+        write_compare_page(output, shown, figures);
+    }
     if (json) {
         fmt::print("{}\n", figures.dump(2));
     } else {
         print_table(a, b, comparison, !folders);
-        if (!output.empty()) fmt::print("Both are on the page {}\n", (fs::path(output) / "index.html").string());
+        if (!output.empty())
+            fmt::print("{} are on the page {}\n", more.empty() ? "Both" : "All", (fs::path(output) / "index.html").string());
     }
     return 0;
 }

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace neumann {
 
 struct CompareRequest {
     std::string a, b;    // two pictures or two folders; b is the reference
-    std::string output;  // the folder of a page of both folders, or empty
+    std::string output;  // the folder of a page of all folders, or empty
     bool json = false;
+    std::vector<std::string> more = {};  // folders that the page has besides
 };
 
 // Prints the error metrics of A against B: of two pictures, or of the bounces, sums and rest that two folders both have; the others

@@ -5,8 +5,21 @@ const srgb = v => v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
 const toneCurves = {
   clip: v => srgb(Math.min(1, v)),
   compress: v => srgb(v / (1 + v)),
-  log: v => v > 0 ? Math.min(1, Math.max(0, 1 + Math.log10(v) / 4)) : 0
+  log: (v, decades) => Math.min(1, Math.max(0, 1 + Math.log10(v) / decades))
 };
+// A table of a tone curve over the 16 upper bits of a float, 1/256 of the value at most away; the last one is kept.
+const toneTable = (() => {
+  const float = new Float32Array(1), word = new Uint32Array(float.buffer);
+  let kept = {};
+  return ({ curve, exposure, decades }) => {
+    if (kept.curve !== curve || kept.exposure !== exposure || kept.decades !== decades)
+      kept = { curve, exposure, decades, table: Uint8Array.from({ length: 65536 }, (_, u) => {
+        word[0] = u << 16;
+        return float[0] > 0 ? Math.round(255 * toneCurves[curve](float[0] * exposure, decades)) : 0;
+      }) };
+    return kept.table;
+  };
+})();
 const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
 // A colour map by its stops (red, green, blue in hexadecimal), linear between them: 256 pixels in the order of ImageData.
@@ -24,23 +37,20 @@ const viridis = colourMap(["440154", "482878", "3e4a89", "31688e", "26828e", "1f
 const signed = colourMap(["a6d4ff", "3c8fe0", "10407c", "000000", "7c2010", "e0663c", "ffc2a6"]);
 const notFinite = 0xffff00ff, unknown = 0xff808080;
 
-// How a picture is shown: at(p) is the pixel p, for ImageData; `ramp`, `low`, `high` and `log` tell the scale.
+// How a picture is shown: at(p) is the pixel p, for ImageData, value(p) what it stands for; `ramp`, `low`, `high` and `log` tell the
+// scale. White is at 1 / exposure, and logarithms begin so many decades below.
+const luminanceOf = (mean, n) => p => luminance(mean[p], mean[p + n], mean[p + 2 * n]);
 const shownAs = {
-  colour(series, ref, exposure, curve) {
+  colour(series, ref, how) {
     const mean = series.mean(ref), n = series.pixels, bits = new Uint32Array(mean.buffer, mean.byteOffset, mean.length);
-    // A table over the 16 upper bits of a float, 1/256 of the value at most away.
-    const float = new Float32Array(1), word = new Uint32Array(float.buffer);
-    const table = Uint8Array.from({ length: 65536 }, (_, u) => {
-      word[0] = u << 16;
-      return float[0] > 0 ? Math.round(255 * toneCurves[curve](float[0] * exposure)) : 0;
-    });
+    const table = toneTable(how);
     const byte = k => table[Math.min(65535, (bits[k] + 0x8000) / 65536 | 0)];
-    return { at: p => Number.isFinite(mean[p] + mean[p + n] + mean[p + 2 * n])
+    return { log: true, high: 1 / how.exposure, low: 10 ** -how.decades / how.exposure, value: luminanceOf(mean, n), at: p => Number.isFinite(mean[p] + mean[p + n] + mean[p + 2 * n])
                ? (0xff000000 | byte(p + 2 * n) << 16 | byte(p + n) << 8 | byte(p)) >>> 0 : notFinite };
   },
-  false(series, ref, exposure) {
-    const mean = series.mean(ref), n = series.pixels, high = 1 / exposure, low = high / 1e4;
-    return { ...scaled(viridis, low, high, true, p => luminance(mean[p], mean[p + n], mean[p + 2 * n])),
+  false(series, ref, { exposure, decades }) {
+    const high = 1 / exposure;
+    return { ...scaled(viridis, high / 10 ** decades, high, true, luminanceOf(series.mean(ref), series.pixels)),
              quantity: `${series.importance ? "importance" : "luminance of the radiance"}, ${series.unit}; 0 is black` };
   },
   noise(series, ref) {
@@ -53,16 +63,16 @@ const shownAs = {
     return { ...scaled(viridis, 1e-3, 1, true, relative), relative,
              quantity: "standard error of a pixel / its value" + (errors ? "; grey where it is not known or no sample met anything, black where all samples agree" : ": not in the files") };
   },
-  difference(series, ref, exposure, other, otherRef) {
-    const { value } = difference(series, ref, other, otherRef), most = largestOfMost(series.pixels, value);
-    if (!most) return { ...scaled(signed, -1, 1, false, value), quantity: `A − B, luminance, ${series.unit}: they agree in every pixel` };
+  difference(series, ref, { other }) {
+    const { value } = difference(series, ref, other.series, other.ref), most = largestOfMost(series.pixels, value);
+    if (!most) return { ...scaled(signed, -1, 1, false, value), quantity: `${pairOf(series, other)}, luminance, ${series.unit}: they agree in every pixel` };
     return { ...scaled(signed, -most, most, false, value),
-             quantity: `A − B, luminance, ${series.unit}; 95% of the pixels that differ do so by at most ${number(most, 2)}, and beyond that have the colours of the ends` };
+             quantity: `${pairOf(series, other)}, luminance, ${series.unit}; 95% of the pixels that differ do so by at most ${number(most, 2)}, and beyond that have the colours of the ends` };
   },
-  z(series, ref, exposure, other, otherRef) {
-    const { value, error } = difference(series, ref, other, otherRef);
+  z(series, ref, { other }) {
+    const { value, error } = difference(series, ref, other.series, other.ref);
     return { ...scaled(signed, -5, 5, false, p => { const d = value(p); return d === 0 ? 0 : d / error(p); }),
-             quantity: "(A − B) / its standard error, luminance" };
+             quantity: `(${pairOf(series, other)}) / its standard error, luminance` };
   }
 };
 // A pixel's channels come from the same samples, so that their errors are taken to go together.

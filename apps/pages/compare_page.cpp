@@ -90,16 +90,24 @@ ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
 
 }  // namespace
 
-void write_compare_page(const std::string& output, const std::string& a, const std::string& b, const Json& figures) {
-    const RenderedFolder folder_a(a), folder_b(b);
-    if (folder_a.size != folder_b.size)
-        throw InputError(fmt::format("{} and {}: {}×{} and {}×{} pixels; expected one size", a, b, folder_a.size.width,
-                                     folder_a.size.height, folder_b.size.width, folder_b.size.height));
+void write_compare_page(const std::string& output, const std::vector<std::string>& folders, const Json& figures) {
+    const std::vector<RenderedFolder> rendered(folders.begin(), folders.end());
+    std::size_t pictures = 0;
+    for (const RenderedFolder& folder : rendered) {
+        const Size expected = rendered.front().size;
+        if (folder.size != expected)
+            throw InputError(fmt::format("{} and {}: {}×{} and {}×{} pixels; expected one size", folders.front(),
+                                         folder.path.string(), expected.width, expected.height, folder.size.width,
+                                         folder.size.height));
+        pictures += folder.pictures();
+    }
     OutputFolder folder(output, "compare");
-    const std::size_t pictures = folder_a.pictures() + folder_b.pictures();
-    const ExploredRun run_a = explored(folder_a, pictures), run_b = explored(folder_b, pictures);
-    if (run_a.pictures.factor() > 1) fmt::print(stderr, "note: {}\n", run_a.pictures.reduction());
-    folder.write("index.html", explorer_page({&run_a, &run_b}, figures));
+    std::vector<ExploredRun> runs;
+    std::vector<const ExploredRun*> shown;
+    for (const RenderedFolder& read : rendered) runs.push_back(explored(read, pictures));
+    for (const ExploredRun& run : runs) shown.push_back(&run);
+    if (runs.front().pictures.factor() > 1) fmt::print(stderr, "note: {}\n", runs.front().pictures.reduction());
+    folder.write("index.html", explorer_page(shown, figures));
     folder.write("compare.json", figures.dump(2) + "\n");
     folder.commit();
 }

@@ -55,6 +55,8 @@ const drawText = () => {
   $("play").setAttribute("aria-pressed", String(!!playing));
   $(state.sum ? "sum" : "term").checked = true;
   for (const id of ["view", "curve", "other", "run"]) $(id).value = String(state[id]);
+  $("picking").setAttribute("aria-pressed", String(state.picking));
+  $("stage").classList.toggle("picking", state.picking);
   for (const id of ["fit", "wipe"]) $(id).checked = state[id];
   for (const id of ["stops", "edge"]) $(id).value = state[id];
   $("wipe").disabled = comparing();
@@ -62,15 +64,18 @@ const drawText = () => {
   $("stops").disabled = $("fit").disabled = state.view === "noise" || comparing();
   $("edge").disabled = !state.wipe || comparing();
   $("other").disabled = !state.wipe && !comparing();
-  $("stops-text").textContent = `${state.stops > 0 ? "+" : state.stops < 0 ? "−" : ""}${Math.abs(state.stops)} stops` + (missing({ series: s, ref }) ? "" : ` (×${number(exposure(s, ref))})`);
+  $("stops-text").textContent = `${state.stops > 0 ? "+" : state.stops < 0 ? "−" : ""}${+Math.abs(state.stops).toFixed(1)} stops` + (missing({ series: s, ref }) ? "" : ` (×${number(exposure(s, ref))})`);
 };
 
 let drawn = {};
 const draw = () => {
   drawPicture();
-  placeSheet();
   drawText();
   drawReadout();
+  drawStrip();
+  drawHistogram();
+  drawSlide();
+  placeSheet();
   const key = JSON.stringify([state.i, state.sum, state.run, state.pixel, all.map(s => Object.keys(s.planes).length)]);
   if (drawn.plots !== key) { drawn.plots = key; drawPlots(); }
 };
@@ -102,9 +107,15 @@ const next = (id, by = 1) => {
   set({ [id]: options[(options.findIndex(o => o.value === $(id).value) + by + options.length) % options.length].value });
 };
 const movePixel = (dx, dy) => {
-  const from = state.pixel ?? { x: series().width >> 1, y: series().height >> 1 }, moved = state.pixel ? [dx, dy] : [0, 0];
-  const clamp = (v, size) => Math.max(0, Math.min(size - 1, v));
-  set({ hover: null, pixel: { x: clamp(from.x + moved[0], series().width), y: clamp(from.y + moved[1], series().height) } });
+  const from = state.pixel ?? { x: series().width >> 1, y: series().height >> 1 }, pixel = state.pixel ? nearest({ x: from.x + dx, y: from.y + dy }) : from;
+  set({ hover: null, pixel, ...(state.corner && { rect: rectOf(state.corner, pixel) }) });
+};
+// With the keys: from here on the arrows span a rectangle, until the next time.
+const spanRect = () => {
+  if (state.corner) { set({ corner: null }); return; }
+  $("stage").focus();
+  movePixel(0, 0);
+  set({ corner: state.pixel, rect: rectOf(state.pixel, state.pixel) });
 };
 
 const keys = [
@@ -113,23 +124,29 @@ const keys = [
   ["Home  End", "first, last", ["Home", "End"], key => { stop(); set({ i: key === "Home" ? 0 : lastShown() }); }],
   ["Space", "play, stop", [" "], play],
   ["s", "one bounce or the sum", ["s"], () => set({ sum: !state.sum })],
-  ...(all.length > 1 ? [["r", "run A or B", ["r"], () => set({ run: 1 - state.run })]] : []),
+  ...(all.length > 1 ? [["r", "the next run", ["r"], () => set({ run: (state.run + 1) % all.length })],
+    [`1 – ${Math.min(9, all.length)}`, `run ${all.map((_, r) => letter(r)).slice(0, 9).join(", ")}`, [..."123456789"].slice(0, all.length), key => set({ run: key - 1 })]] : []),
   ["v", "next way to show it: colours, false colour, noise, difference", ["v"], () => next("view")],
   ["c  n", "false colour, noise, and back", ["c", "n"], key => { const to = key === "c" ? "false" : "noise"; set({ view: state.view === to ? "colour" : to }); }],
   ["t", "next tone curve", ["t"], () => next("curve")],
   ["[  ]", "exposure down, up", ["[", "]"], key => set({ stops: Math.max(-10, Math.min(20, state.stops + (key === "[" ? -.5 : .5))) })],
-  ["f", "exposure fitted to each picture", ["f"], () => set({ fit: !state.fit })],
+  ["f", "each picture as bright as it takes", ["f"], () => set({ fit: !state.fit })],
   ["+  −  0", "zoom in, out, whole picture", ["+", "=", "-", "0"], key => key === "0" ? zoomTo(1) : zoomAtPixel(state.zoom * (key === "-" ? 1 / 1.5 : 1.5))],
   ["w", "wipe between A and B", ["w"], () => set({ wipe: !state.wipe })],
   ["b", "the next B", ["b"], () => next("other")],
   ["<  >", "move the edge of the wipe", ["<", ">"], key => set({ edge: Math.max(0, Math.min(1, state.edge + (key === "<" ? -.05 : .05))) })],
   ["p", "go to the picture; arrow keys choose a pixel there, with Shift ten at a time, and Escape goes back", ["p"], () => { $("stage").focus(); movePixel(0, 0); }],
-  ["Esc", "let go of the chosen pixel", ["Escape"], () => { stop(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null }); }],
+  ["l", "slides: the picture and its formula fill the screen; a click goes on, left of the middle back", ["l"], () => state.slide ? leaveSlides() : enterSlides()],
+  ["d", "dark or white slides", ["d"], () => { if (state.slide) set({ slide: state.slide === "dark" ? "white" : "dark" }); }],
+  ["a", "a rectangle from the chosen pixel on, by the arrow keys, until a is pressed again; with the mouse, Shift and a drag", ["a"], spanRect],
+  ["Esc", "leave the slides, or let go of the chosen pixel and the rectangle", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null, rect: null, corner: null, picking: false }); }],
+  ["i", "save the picture as PNG", ["i"], () => savePicture()],
+  ["y", "copy the values of the chosen pixel", ["y"], () => copyPixel()],
   ["?", "these keys", ["?"], () => $("help").showModal()]];
 document.addEventListener("keydown", event => {
-  if (event.ctrlKey || event.metaKey || event.altKey || $("help").open) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || $("help").open || $("copy").open) return;
   const on = event.target, arrow = event.key.startsWith("Arrow");
-  if (on === $("stage") && (arrow || event.key === "Enter")) {
+  if (on === $("stage") && !state.slide && (arrow || event.key === "Enter")) {
     const by = event.shiftKey ? 10 : 1, { ArrowLeft, ArrowRight, ArrowUp, ArrowDown } = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] };
     movePixel(...({ ArrowLeft, ArrowRight, ArrowUp, ArrowDown }[event.key] ?? [0, 0]));
     event.preventDefault();
@@ -137,7 +154,7 @@ document.addEventListener("keydown", event => {
   }
   // What a control does with a key itself.
   const own = { "select": () => true, "[type=range]": () => arrow || ["Home", "End"].includes(event.key), "[type=radio]": () => arrow || event.key === " ",
-                "[type=checkbox]": () => event.key === " ", "button, summary, a": () => [" ", "Enter"].includes(event.key) };
+                "[type=checkbox]": () => event.key === " ", "button:not(#strip *), summary, a": () => [" ", "Enter"].includes(event.key) };
   if (Object.entries(own).some(([kind, does]) => on.matches(kind) && does())) return;
   const key = keys.find(k => k[2].includes(event.key));
   if (!key) return;
@@ -149,7 +166,7 @@ document.addEventListener("keydown", event => {
 others.forEach(([value, text]) => { const o = element("option", text); o.value = value; $("other").append(o); });
 if (all.length > 1) {
   $("run-label").hidden = false;
-  ["A", "B"].forEach((text, i) => { const o = element("option", text); o.value = i; $("run").append(o); });
+  all.forEach((s, i) => { const o = element("option", runName(s) + s.run.options.method); o.value = i; $("run").append(o); });
 }
 for (const o of $("view").options) o.hidden = o.disabled = o.value === "z" && all.length === 1;
 $("bounce").oninput = e => { stop(); set({ i: +e.target.value }); };
@@ -163,12 +180,14 @@ for (const id of ["stops", "edge"]) $(id).oninput = e => set({ [id]: +e.target.v
 for (const id of ["fit", "wipe"]) $(id).onchange = e => set({ [id]: e.target.checked });
 $("in").onclick = () => zoomAtPixel(state.zoom * 1.5);
 $("out").onclick = () => zoomAtPixel(state.zoom / 1.5);
+$("picking").onclick = () => set({ picking: !state.picking });
 $("whole").onclick = () => zoomTo(1);
 $("help-button").onclick = () => $("help").showModal();
 facts("keys", keys.map(([, what]) => ["", what]));
 keys.forEach(([names], row) => names.split("  ").forEach(key => $("keys").rows[row].cells[0].append(element("kbd", key), " ")));
 
-// The pointer: hover tells values, a click chooses, a drag moves the zoomed picture or the edge of the wipe, two fingers zoom.
+// The pointer: hover tells values, a click chooses, a drag moves the zoomed picture or the edge of the wipe, or with
+// Shift makes a rectangle, two fingers zoom.
 const pointers = new Map();
 let drag = null;
 const stage = $("stage");
@@ -176,7 +195,7 @@ stage.onpointerdown = e => {
   pointers.set(e.pointerId, e);
   const x = e.clientX - stage.getBoundingClientRect().left;
   drag = { x: e.clientX, y: e.clientY, left: state.left, top: state.top, moved: false,
-           edge: !$("divider").hidden && Math.abs(x - state.edge * stage.clientWidth) < 12 };
+           corner: (e.shiftKey || state.picking) && !state.slide ? nearest(placeAt(e)) : null, edge: !$("divider").hidden && Math.abs(x - state.edge * stage.clientWidth) < 12 };
   stage.setPointerCapture(e.pointerId);
 };
 stage.onpointermove = e => {
@@ -194,7 +213,8 @@ stage.onpointermove = e => {
   if (before && drag) {
     const dx = e.clientX - drag.x, dy = e.clientY - drag.y;
     drag.moved ||= Math.hypot(dx, dy) > 4;
-    if (drag.edge) set({ edge: Math.max(0, Math.min(1, (e.clientX - stage.getBoundingClientRect().left) / stage.clientWidth)) });
+    if (drag.corner) set({ rect: rectOf(drag.corner, nearest(placeAt(e))) });
+    else if (drag.edge) set({ edge: Math.max(0, Math.min(1, (e.clientX - stage.getBoundingClientRect().left) / stage.clientWidth)) });
     else if (drag.moved && state.zoom > 1) {
       state.left = drag.left + dx;
       state.top = drag.top + dy;
@@ -206,9 +226,11 @@ stage.onpointermove = e => {
 };
 stage.onpointerup = stage.onpointercancel = e => {
   const clicked = e.type === "pointerup" && drag && !drag.moved && !drag.edge;
+  if (drag?.corner && drag.moved) set({ picking: false, corner: null });
   pointers.delete(e.pointerId);
   drag = null;
-  if (clicked) set({ pixel: pixelAt(e) });
+  if (clicked && state.slide) step(e.clientX < innerWidth / 2 ? -1 : 1);
+  else if (clicked) set({ pixel: pixelAt(e) });
 };
 stage.onpointerleave = () => { state.hover = null; drawReadout(); };
 stage.addEventListener("wheel", e => {
@@ -217,18 +239,5 @@ stage.addEventListener("wheel", e => {
   zoomTo(state.zoom * Math.exp(-.002 * e.deltaY), e.clientX - box.left, e.clientY - box.top);
   e.preventDefault();
 }, { passive: false });
-addEventListener("resize", placeSheet);
+addEventListener("resize", () => { placeSheet(); paintTiles(); });
 matchMedia("(prefers-color-scheme: dark)").onchange = () => { drawn = {}; redraw(); };
-
-drawNotes();
-
-// First what is seen first.
-const loadAll = async () => {
-  if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot unpack the pictures: it takes Chrome 86, Firefox 113, Safari 16.4 or later.");
-  for (const s of all) await s.load(state.i);
-  draw();
-  for (const s of all) for (let i = 0; i < s.heads.length; ++i) if (!s.planes[i]) await s.load(i);
-  draw();
-  document.body.dataset.ready = "yes";
-};
-loadAll().catch(e => { $("warnings").append(element("p", e.message, "warning")); });

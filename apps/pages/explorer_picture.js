@@ -1,10 +1,12 @@
 "use strict";
-// The picture, its zoom, and the figures under it.
+// The picture and its zoom.
 let image = null;  // what A shows
+// With `o` the difference to it.
 const paint = (canvas, s, ref, o) => {
   canvas.width = s.width;
   canvas.height = s.height;
-  const shown = shownAs[state.view](s, ref, exposure(s, ref), comparing() ? o.series : state.curve, o && o.ref);
+  const view = comparing() && !o ? "colour" : state.view;
+  const shown = shownAs[view](s, ref, { exposure: exposure(s, ref), curve: state.curve, decades: state.decades, other: o });
   const pixels = new ImageData(s.width, s.height), words = new Uint32Array(pixels.data.buffer);
   for (let p = 0; p < words.length; ++p) words[p] = shown.at(p);
   canvas.getContext("2d", { willReadFrequently: true }).putImageData(pixels, 0, 0);
@@ -28,6 +30,18 @@ const drawPicture = () => {
   $("side-b").textContent = (all.length > 1 ? "" : "B: ") + runName(o.series) + o.series.title(o.ref);
   drawScale();
 };
+// `ticks`: how far along, and what is there.
+const placeTicks = (id, ticks) => $(id).replaceChildren(...ticks.map(([at, text]) => {
+  const t = element("span", text);
+  t.style.left = `${100 * at}%`;
+  return t;
+}));
+const decadeTicks = (low, high) => {
+  const ticks = [], decades = Math.log10(high / low);
+  for (let e = Math.ceil(Math.log10(low) - 1e-9); e <= Math.log10(high) + 1e-9; e += Math.ceil(decades / 8)) ticks.push([Math.log10(10 ** e / low) / decades, number(10 ** e, 1)]);
+  return ticks;
+};
+const signedTicks = most => [-1, -.5, 0, .5, 1].map(part => [(part + 1) / 2, number(part * most, 2)]);
 const drawScale = () => {
   const scale = image && image.ramp ? image : null;
   $("scale").hidden = !scale;
@@ -35,27 +49,31 @@ const drawScale = () => {
   const ramp = new ImageData(256, 1);
   new Uint32Array(ramp.data.buffer).set(scale.ramp);
   $("ramp").getContext("2d").putImageData(ramp, 0, 0);
-  const ticks = [];
-  if (scale.log) {
-    for (let e = Math.ceil(Math.log10(scale.low) - 1e-9); e <= Math.log10(scale.high) + 1e-9; ++e) ticks.push([Math.log10(10 ** e / scale.low) / Math.log10(scale.high / scale.low), number(10 ** e, 1)]);
-  } else {
-    for (const part of [-1, -.5, 0, .5, 1]) ticks.push([(part + 1) / 2, number(part * scale.high, 2)]);
-  }
-  $("ticks").replaceChildren(...ticks.map(([at, text]) => {
-    const t = element("span", text);
-    t.style.left = `${100 * at}%`;
-    return t;
-  }));
+  placeTicks("ticks", scale.log ? decadeTicks(scale.low, scale.high) : signedTicks(scale.high));
   $("quantity").textContent = scale.quantity + (scale.log ? "; beyond the ends the colours of the ends" : "");
 };
 
 // Zoom: the sheet is the whole picture at zoom 1.
+// CSS pixels for figures; more of them have no influence on the picture's size, which stays while a rectangle is drawn.
+let room = 0;
+const figuresRoom = () => {
+  if (!drag?.corner) room = state.slide ? 0 : state.rect ? 132 : 66;
+  return room;
+};
 const placeSheet = () => {
-  const stage = $("stage"), width = stage.clientWidth, s = series();
-  const limit = Math.max(.55 * innerHeight, 240), height = Math.min(width * s.height / s.width, limit);
+  const stage = $("stage"), width = stage.clientWidth, s = series(), viewer = stage.parentElement;
+  // What else the viewer holds is in sight with the picture where there is room.
+  const figures = $("readout").offsetHeight, taken = viewer.parentElement.offsetTop + viewer.offsetHeight - stage.offsetHeight - figures + figuresRoom();
+  const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = state.slide ? innerHeight - taken : Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
+  viewer.style.setProperty("--height", `${viewer.offsetHeight}px`);
   const scale = Math.min(width / s.width, height / s.height);
-  state.fitScale = scale;
+  // What was in the middle stays there when the stage changes.
+  if (state.fitScale) {
+    state.left = width / 2 - (state.stageWidth / 2 - state.left) * scale / state.fitScale;
+    state.top = height / 2 - (state.stageHeight / 2 - state.top) * scale / state.fitScale;
+  }
+  Object.assign(state, { fitScale: scale, stageWidth: width, stageHeight: height });
   const sheetWidth = s.width * scale * state.zoom, sheetHeight = s.height * scale * state.zoom;
   const within = (at, size, room) => size <= room ? (room - size) / 2 : Math.min(0, Math.max(room - size, at));
   state.left = within(state.left, sheetWidth, width);
@@ -68,6 +86,10 @@ const placeSheet = () => {
   const p = state.pixel, side = scale * state.zoom, box = Math.max(side, 9);
   $("mark").hidden = !p;
   if (p) Object.assign($("mark").style, { left: `${state.left + (p.x + .5) * side - box / 2}px`, top: `${state.top + (p.y + .5) * side - box / 2}px`, width: `${box}px`, height: `${box}px` });
+  const r = state.rect;
+  $("rect").hidden = !r;
+  if (r) Object.assign($("rect").style, { left: `${state.left + r.x0 * side}px`, top: `${state.top + r.y0 * side}px`, width: `${(r.x1 - r.x0 + 1) * side}px`, height: `${(r.y1 - r.y0 + 1) * side}px` });
+  keepAddress();
   $("zoom-text").textContent = `1 pixel on ${number(state.fitScale * state.zoom * devicePixelRatio, 2)}`;
 };
 const zoomTo = (zoom, x, y) => {
@@ -85,36 +107,13 @@ const zoomAtPixel = zoom => {
   const p = state.pixel, side = state.fitScale * state.zoom;
   p ? zoomTo(zoom, state.left + (p.x + .5) * side, state.top + (p.y + .5) * side) : zoomTo(zoom);
 };
-const pixelAt = event => {
+const placeAt = event => {
   const box = $("stage").getBoundingClientRect(), side = state.fitScale * state.zoom;
-  const x = Math.floor((event.clientX - box.left - state.left) / side), y = Math.floor((event.clientY - box.top - state.top) / side);
-  return x >= 0 && y >= 0 && x < series().width && y < series().height ? { x, y } : null;
+  return { x: Math.floor((event.clientX - box.left - state.left) / side), y: Math.floor((event.clientY - box.top - state.top) / side) };
 };
-
-// Figures of a pixel.
-// Zero with an interval is what no sample met.
-const withInterval = (value, half) => !half ? number(value) : value === 0 && Number.isFinite(half) ? `0, at most ${number(half, 2)}` : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
-const drawReadout = () => {
-  const at = state.hover ?? state.pixel, s = series(), ref = shown();
-  if (!at || missing({ series: s, ref })) {
-    $("readout").replaceChildren(element("span", "Point at the picture, or move through it with the arrow keys, to see values; click or Enter chooses a pixel.", "note"));
-    return;
-  }
-  const p = at.y * s.width + at.x, k = s.factor, n = s.pixels;
-  const row = ({ series: s, ref }) => {
-    const errors = s.errors(ref), patches = s.errors(ref, "_discretisation"), values = [0, 1, 2].map(c => s.meanAt(ref, p + c * n));
-    const size = Math.hypot(...values), relative = errors && Math.hypot(...[0, 1, 2].map(c => errors(p + c * n))) / size;
-    const text = [["", runName(s) + s.title(ref)], ...["red", "green", "blue"].map((name, c) => [name, withInterval(values[c], s.halfInterval(ref, p + c * n))])];
-    if (errors && size > 0) text.push(["relative standard error", Number.isFinite(relative) ? `${number(100 * relative, 2)}%` : "unknown"]);
-    if (errors && values.some((v, c) => v === 0 && errors(p + c * n) === 0)) text.push(["", patches ? "0: no light in any sample" : "0: known to be dark"]);
-    if (patches) text.push(["discretisation", [0, 1, 2].map(c => number(patches(p + c * n), 2)).join(", ")]);
-    const line = element("div", undefined, "values");
-    text.forEach(([name, value]) => { const part = element("span"); part.append(element("span", name && name + " ", "dim"), value); line.append(part); });
-    return line;
-  };
-  const pictures = [{ series: s, ref }], o = other();
-  if ((state.wipe || comparing()) && !missing(o)) pictures.push(o);
-  const where = k === 1 ? `Pixel ${at.x}, ${at.y}` : `Mean of pixels ${at.x * k} to ${at.x * k + k - 1}, ${at.y * k} to ${at.y * k + k - 1}`;
-  const infinite = pictures.some(({ series, ref }) => series.infiniteVariance(ref)) ? "; the variance is infinite: no intervals" : ", with 95% intervals";
-  $("readout").replaceChildren(element("div", `${where}, ${s.unit}${infinite}`, "note"), ...pictures.map(row));
+const nearest = ({ x, y }) => ({ x: Math.max(0, Math.min(series().width - 1, x)), y: Math.max(0, Math.min(series().height - 1, y)) });
+const pixelAt = event => {
+  const at = placeAt(event), { x, y } = nearest(at);
+  return x === at.x && y === at.y ? at : null;
 };
+const rectOf = (a, b) => ({ x0: Math.min(a.x, b.x), y0: Math.min(a.y, b.y), x1: Math.max(a.x, b.x), y1: Math.max(a.y, b.y) });

@@ -18,7 +18,9 @@ const here = at => ({
     ctx.restore();
   }
 });
-const line = (label, data, colour, more = {}) => ({ label, data, showLine: true, borderColor: colour, backgroundColor: colour, borderWidth: 1.6, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
+const positive = p => p.y > 0 && Number.isFinite(p.y);
+// `all` is for the CSV: a logarithmic axis has no place for zero and less.
+const line = (label, all, colour, more = {}) => ({ label, all, data: all.filter(positive), showLine: true, borderColor: colour, backgroundColor: colour, borderWidth: 1.6, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
 const dots = (label, data, colour, mark, more = {}) => line(label, data, colour, { pointStyle: mark, pointRadius: 4, pointHoverRadius: 6, pointHitRadius: 8, ...more });
 
 const plot = (id, xAxis, yTitle, plugins, onBounce) => new Chart($(id), {
@@ -43,8 +45,7 @@ const bounceAxis = (last, hasRest) => ({
   afterBuildTicks: axis => { axis.ticks = [...Array(last + (hasRest ? 2 : 1)).keys()].map(value => ({ value })); },
   ticks: { autoSkip: true, maxRotation: 0, color: () => color("dim"), callback: v => hasRest && v === last + 1 ? "rest" : v }
 });
-const point = (x, y, half) => ({ x, y, half, ...(half > 0 && Number.isFinite(half) ? { low: y - half, high: y + half } : {}) });
-const positive = p => p.y > 0 && Number.isFinite(p.y);
+const point = (x, y, half, bounce = x) => ({ x, y, half, bounce, ...(half > 0 && Number.isFinite(half) ? { low: y - half, high: y + half } : {}) });
 const fitRange = (chart, sets) => {
   const values = sets.flatMap(s => s.data).filter(positive).flatMap(p => [p.y, ...(p.high ? [p.high, Math.max(p.low, p.y / 3)] : [])]);
   range(chart.options.scales.y, values);
@@ -52,9 +53,9 @@ const fitRange = (chart, sets) => {
 
 // Means with error bars; of a single run also what follows each bounce, its bound, and the fitted decay.
 const energySets = (all, names, restAt) => all.flatMap((s, r) => {
-  const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r] } : {};
-  const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)).filter(positive), main, marks[r], dash)];
-  if (s.hasRest) sets.push(dots("rest" + tag, [point(restAt, s.run.rest.mean, s.wholeMean({ i: s.last + 1 }).interval95)].filter(positive), main, "rectRot", { showLine: false }));
+  const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r % dashes.length] } : {};
+  const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)), main, marks[r % marks.length], dash)];
+  if (s.hasRest) sets.push(dots("rest" + tag, [point(restAt, s.run.rest.mean, s.wholeMean({ i: s.last + 1 }).interval95, "rest")], main, "rectRot", { showLine: false }));
   if (all.length > 1) return sets;
   if (s.decay) {
     const { ratio, log_at_0, first, last } = s.decay;
@@ -63,9 +64,9 @@ const energySets = (all, names, restAt) => all.flatMap((s, r) => {
   if (s.hasRest) {
     let after = s.run.rest.mean;
     const follow = bounces.map(b => b.mean).reverse().map((mean, k) => { const y = after; after += mean; return { x: s.last - k, y }; }).reverse();
-    sets.push(line("all that follows", follow.filter(positive), colors[2]));
+    sets.push(line("all that follows", follow, colors[2]));
   }
-  sets.push(line("bound on all that follows", bounces.map((b, i) => ({ x: i, y: b.tail_bound })).filter(positive), color("dim"), { borderDash: dashes[2] }));
+  sets.push(line("bound on all that follows", bounces.map((b, i) => ({ x: i, y: b.tail_bound })), color("dim"), { borderDash: dashes[2] }));
   return sets.filter(set => set.data.length > 0);
 });
 
@@ -74,9 +75,9 @@ const pixelSets = (all, names, p, sum, restAt) => all.flatMap((s, r) => ["red", 
   const data = [];
   for (let i = 0; i <= s.last + (s.hasRest && !sum ? 1 : 0); ++i) {
     const ref = { i, sum };
-    if (s.isLoaded(ref)) data.push(point((i > s.last ? restAt : i) + (c - 1) * .06, s.meanAt(ref, p + c * s.pixels), s.halfInterval(ref, p + c * s.pixels)));
+    if (s.isLoaded(ref)) data.push(point((i > s.last ? restAt : i) + (c - 1) * .06, s.meanAt(ref, p + c * s.pixels), s.halfInterval(ref, p + c * s.pixels), i > s.last ? "rest" : i));
   }
-  return dots(name + names[r], data.filter(positive), channelColours()[c], marks[c], r ? { borderDash: dashes[1], pointBackgroundColor: color("back") } : {});
+  return dots(name + names[r], data, channelColours()[c], marks[c], r ? { borderDash: dashes[1], pointBackgroundColor: color("back") } : {});
 }));
 
 const errorSets = (all, names, i) => all.flatMap((s, r) => {

@@ -2,12 +2,16 @@
 // What is shown, and what it is compared with.
 const data = JSON.parse($("data").textContent);
 const all = data.runs.map((r, i) => new Series(r, i));
-const names = all.length > 1 ? [", A", ", B"] : [""];
+const letter = index => String.fromCharCode(65 + index);
+const names = all.map((_, r) => all.length > 1 ? `, ${letter(r)}` : "");
 const first = all[0];
 const state = {
-  run: 0, i: Math.min(1, first.last), sum: false, view: "colour", curve: "clip", stops: 0, fit: false,
+  run: 0, i: Math.min(1, first.last), sum: false, view: "colour", curve: "clip", stops: 0, decades: 4, fit: false,
   hover: null, pixel: null,  // { x, y }
+  rect: null,  // { x0, y0, x1, y1 }, all within
+  picking: false, corner: null,  // a drag makes a rectangle; the arrow keys do, from this corner
   zoom: 1, left: 0, top: 0,  // of the picture in the stage, in CSS pixels
+  slide: "",  // dark or white
   wipe: all.length > 1, edge: .5, other: all.length > 1 ? "run" : "next"
 };
 let playing = null;
@@ -21,7 +25,8 @@ const same = s => {
 };
 // What B is: { series, ref }. Either follows what is shown or stands still.
 const others = [
-  ...(all.length > 1 ? [["run", "the same of the other run", () => [all[1 - state.run], same(all[1 - state.run])]]] : []),
+  ...(all.length > 1 ? [["run", `the same of the ${all.length > 2 ? "next" : "other"} run`, () => { const s = all[(state.run + 1) % all.length]; return [s, same(s)]; }]] : []),
+  ...(all.length > 2 ? all.map((s, r) => [`run-${r}`, `the same of ${letter(r)}`, () => [s, same(s)]]) : []),
   ["next", "the next bounce", () => [series(), { i: state.i + 1, sum: state.sum }]],
   ["previous", "the bounce before", () => [series(), { i: state.i - 1, sum: state.sum }]],
   ["sum", "bounce or sum, the other", () => [series(), { i: state.i, sum: !state.sum }]],
@@ -32,8 +37,10 @@ const other = () => {
   const [s, ref] = others.find(o => o[0] === state.other)[2]();
   return { series: s, ref };
 };
+// What is taken from what.
+const pairOf = (s, o) => s === o.series ? "A − B" : `${letter(s.index)} − ${letter(o.series.index)}`;
 const comparing = () => state.view === "difference" || state.view === "z";
-const runName = s => all.length > 1 ? `${"AB"[s.index]}: ` : "";
+const runName = s => all.length > 1 ? `${letter(s.index)}: ` : "";
 
 // Exposure: of the contact sheet, or such that the brightest hundredth of this picture is white.
 const fitted = new Map();

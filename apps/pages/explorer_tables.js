@@ -2,13 +2,21 @@
 // The run in words.
 const sceneOf = s => s.run.scene.file.split("/").pop();
 const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.sampling_seconds)} s, ${number(s.run.timing.total_seconds)} s in all`;
-document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": A and B" : "");
+document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": " + all.map((_, r) => letter(r)).join(", ").replace(/, (.)$/, " and $1") : "");
 $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
-all.forEach(s => (s.run.health?.complaints ?? []).forEach(c => $("warnings").append(element("p", `${runName(s)}sick: ${c}`, "warning"))));
+{
+  const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
+  $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: here each term is a picture. ` +
+    `${K}ⁱ ${source}, bounce i, is ${what} that was reflected i times on its way; the sum up to it holds bounces 0 to i, and the rest all that come after the last one. ` +
+    "More is in the manual, apps/manual/explorer.md.";
+}
 const lenient = all.filter(s => s.run.scene.replaced);
-lenient.forEach(s => $("warnings").append(element("p", `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`, "warning")));
 $("lenient").hidden = lenient.length === 0;
-all.forEach(s => s.run.warnings.forEach(w => $("warnings").append(element("p", runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : ""), "warning"))));
+const warnings = [
+  ...all.flatMap(s => (s.run.health?.complaints ?? []).map(c => `${runName(s)}sick: ${c}`)),
+  ...lenient.map(s => `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`),
+  ...all.flatMap(s => s.run.warnings.map(w => runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : "")))
+].map(text => element("p", text, "warning"));
 
 // Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
 const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95", "unmet", "rare_large_samples"].includes(k));
@@ -35,12 +43,14 @@ const generic = value => {
 };
 const section = (title, ...parts) => $("tables").append(element("h2", title), ...parts);
 // What is long, and not what most readers came for.
-const folded = (title, isOpen, ...parts) => {
+const folded = (title, ...parts) => {
   const fold = element("details");
-  fold.open = isOpen;
   fold.append(element("summary", title), ...parts);
   return fold;
 };
+// Two warnings leave room for the picture.
+$("warnings").append(...warnings.slice(0, 2), ...(warnings.length > 2 ? [folded(`${warnings.length - 2} more warning${warnings.length > 3 ? "s" : ""}`, ...warnings.slice(2))] : []));
+
 const wide = t => { const w = element("div", undefined, "wide"); w.append(t); return w; };
 const bouncesTable = s => {
   const b = s.run.bounces, rest = s.run.rest, row = (name, x) => [name, number(x.mean), typeof x.interval95 === "string" ? "none: infinite variance" : (x.unmet && x.interval95 !== null ? "< " : "") + number(x.interval95, 2) + (x.rare_large_samples ? " at least" : ""),
@@ -58,24 +68,33 @@ if (data.comparison) {
     element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
       (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where pixels err together and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));
 }
+// What was left out, with what that saves; what saves nothing is named together.
+const planTable = plan => {
+  const leftOut = plan.filter(p => !p.kept), kept = plan.filter(p => p.kept), saving = leftOut.filter(p => !p.saves.startsWith("nothing"));
+  const parts = saving.length ? [generic(saving.map(({ part, reason, saves }) => ({ "left out": part, reason, saves })))] : [];
+  const idle = leftOut.filter(p => !saving.includes(p));
+  for (const nothing of new Set(idle.map(p => p.saves)))
+    parts.push(element("p", `Left out as well, which saves ${nothing}: ${idle.filter(p => p.saves === nothing).map(p => p.part).join(", ")}.`));
+  return [...parts, generic(kept.map(({ part, reason }) => ({ kept: part, reason })))];
+};
 all.forEach(s => {
-  const tag = all.length > 1 ? ` of ${"AB"[s.index]}` : "", run = s.run;
+  const tag = all.length > 1 ? ` of ${letter(s.index)}` : "", run = s.run, what = { command: run.command, ...run }, parts = [];
   section(`The bounces${tag}`, bouncesTable(s));
-  if (run.choice)
-    section(`The method${tag}`, element("p", `${run.choice.method}: ${run.choice.why}.`),
-      ...(run.choice.pilot ? [folded("The pilot", false, generic(run.choice.pilot))] : []));
+  if (run.choice) {
+    parts.push(element("p", `By ${run.choice.method}: ${run.choice.why}.`));
+    if (run.choice.pilot) parts.push(folded("The pilot that chose the method", generic(run.choice.pilot)));
+  }
   if (Array.isArray(run.plan)) {
-    const leftOut = run.plan.filter(p => !p.kept).map(p => ({ part: p.part, reason: p.reason, saves: p.saves }));
-    section(`The plan${tag}: what was left out, and why`, generic(leftOut),
-      folded("What is kept", false, generic(run.plan.filter(p => p.kept).map(p => ({ part: p.part, reason: p.reason })))));
-  } else if (run.plan) section(`The plan${tag}`, element("p", "Nothing was left out."));
-  const complaints = run.health?.complaints ?? [];
-  if (run.health)
-    section(`Health${tag}`, element("p", complaints.length ? complaints.join("; ") : "Nothing to complain of.", complaints.length ? "warning" : undefined),
-      folded("What was looked at", complaints.length > 0, generic(run.health)));
-  const what = { command: run.command, ...run };
-  for (const part of ["plan", "choice", "health", "bounces", "warnings", "ways"]) delete what[part];
-  section(`The run${tag}`, folded("All facts of run.json", false, generic(what)));
+    const kept = run.plan.filter(p => p.kept).length;
+    parts.push(folded(`The plan: ${run.plan.length - kept} parts of the machinery left out, ${kept} kept`, ...planTable(run.plan)));
+    delete what.plan;
+  }
+  if (run.health) {
+    const { complaints = [], ...looked } = run.health;
+    parts.push(folded(`Health: ${complaints.length ? `${complaints.length} complaint${complaints.length > 1 ? "s" : ""}, on top of the page` : "nothing to complain of"}`, generic(looked)));
+  }
+  for (const part of ["choice", "health", "bounces", "warnings", "ways"]) delete what[part];
+  section(`The run${tag}`, ...parts, folded("All facts of run.json", generic(what)));
 });
 section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits), standard errors to 3%. " +
   (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));

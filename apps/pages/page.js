@@ -38,7 +38,7 @@ const number = (x, digits = 3) => {
   const [m, e] = x.toExponential(digits - 1).split("e");
   return m + "·10" + superscript(+e);
 };
-const whole = n => n.toLocaleString("en").replaceAll(",", "\u202f");
+const whole = n => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 // "W m^-2 sr^-1" as W·m⁻²·sr⁻¹.
 const unitText = unit => unit.replace(/\^(-?\d+)/g, (_, n) => superscript(n)).replaceAll(" ", "·");
 

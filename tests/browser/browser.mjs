@@ -22,13 +22,13 @@ export const openBrowser = async () => {
   return {
     complaints,
     close: () => browser.close(),
-    async open(file, { width = 1280, height = 900, scheme = "light" } = {}) {
+    async open(file, { width = 1280, height = 900, scheme = "light", hash = "" } = {}) {
       const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
       const url = pathToFileURL(file).href;
-      page.on("request", r => { if (r.url() !== url) complaints.push(`asked for ${r.url()}`); });
+      page.on("request", r => { if (r.url().split("#")[0] !== url) complaints.push(`asked for ${r.url()}`); });
       page.on("console", m => { if (["error", "warning"].includes(m.type())) complaints.push(m.text()); });
       page.on("pageerror", e => complaints.push(e.message));
-      await page.goto(url);
+      await page.goto(url + hash);
       return page;
     }
   };

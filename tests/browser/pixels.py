@@ -1,4 +1,4 @@
-"""Prints the pictures of a render as JSON, read by OpenImageIO: {file: {channel: [values]}}."""
+"""Prints the pictures of a folder as JSON, read by OpenImageIO: {file: {channel: [values]}}. They are *.exr unless a second argument says."""
 import json
 import pathlib
 import sys
@@ -14,4 +14,4 @@ def read(path):
     return {name: [v if v < float("inf") else None for v in values[:, :, c].ravel().tolist()] for c, name in enumerate(spec.channelnames)}
 
 
-print(json.dumps({path.name: read(path) for path in sorted(pathlib.Path(sys.argv[1]).glob("*.exr"))}))
+print(json.dumps({path.name: read(path) for path in sorted(pathlib.Path(sys.argv[1]).glob((sys.argv[2:] or ["*.exr"])[0]))}))

@@ -191,8 +191,19 @@ TEST_F(ExplorerCompare, APageOfTwoRuns) {
     EXPECT_TRUE(run({"compare", "a", "b", "-o", "both"}).out.ends_with("\nBoth are on the page both/index.html\n"));
 }
 
+TEST_F(ExplorerCompare, MoreThanTwoRuns) {
+    const Finished two = run({"compare", "a", "b", "--json"}), three = run({"compare", "a", "b", "a", "-o", "three", "--json"});
+    ASSERT_EQ(three.exit_code, 0) << three.err;
+    EXPECT_EQ(three.out, two.out);  // the figures are those of A and B
+    const std::string page = text_of(path("three/index.html"));
+    for (const char* picture : {"picture-0-0", "picture-1-2", "picture-2-0"})
+        EXPECT_NE(page.find(picture), std::string::npos) << picture;
+    EXPECT_TRUE(run({"compare", "a", "b", "a", "-o", "three"}).out.ends_with("\nAll are on the page three/index.html\n"));
+}
+
 TEST_F(ExplorerCompare, RefusalsLoseNothing) {
     const auto before = contents(".");
+    EXPECT_EQ(refused({"compare", "a", "b", "a"}), "a: figures are of two, A and B; more folders are for the page of -o\n");
     EXPECT_EQ(refused({"compare", "a", "b", "-o", "a"}).substr(0, 7), "a holds");
     EXPECT_EQ(refused({"compare", "a/sum_000.exr", "b/sum_000.exr", "-o", "c"}),
               "-o: a/sum_000.exr is a picture; a page is made of two folders of render\n");
@@ -204,6 +215,7 @@ TEST_F(ExplorerCompare, RefusalsLoseNothing) {
     EXPECT_TRUE(refused({"compare", "a", "b", "-o", "c"}).starts_with("b/run.json: not a run.json of this version: "));
     render("scene.xml", "wide", {"-n", "1", "--spp", "4", "-D", "height=6", "--quiet"});
     EXPECT_NE(refused({"compare", "a", "wide", "-o", "c"}), "");
+    EXPECT_EQ(refused({"compare", "a", "a", "wide", "-o", "c"}).substr(0, 12), "a and wide: ");
     EXPECT_FALSE(std::filesystem::exists(path("c")));
 }
 

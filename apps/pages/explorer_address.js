@@ -1,0 +1,77 @@
+"use strict";
+// What is shown as a part of the address, so that a link or a bookmark shows it again: #bounce=3&sum=1&pixel=19,160.
+
+const flag = text => ({ 0: false, 1: true })[text];
+const within = (low, high) => text => text.trim() !== "" && +text >= low && +text <= high ? +text : undefined;
+const oneOf = values => text => values().includes(text) ? text : undefined;
+const chosen = id => oneOf(() => [...$(id).options].filter(o => !o.disabled).map(o => o.value));
+const numbers = (text, count) => {
+  const found = text.split(",");
+  return found.length === count && found.every(n => n.trim() !== "" && Number.isFinite(+n)) ? found.map(Number) : undefined;
+};
+const inPicture = ([x, y]) => x >= 0 && y >= 0 && x < first.width && y < first.height;
+// Pixels are named as in the files, of which the page may show means.
+const pixelsRead = (text, count) => {
+  const found = numbers(text, 2 * count)?.map(v => Math.floor(v / first.factor)), pixels = [];
+  for (let k = 0; found && k < count; ++k) pixels.push(found.slice(2 * k, 2 * k + 2));
+  return pixels.length && pixels.every(inPicture) ? pixels.map(([x, y]) => ({ x, y })) : undefined;
+};
+const pixelsWritten = (...pixels) => pixels.map(({ x, y }) => `${x * first.factor},${y * first.factor}`).join();
+
+// By name: what of the state it is, how it is written, and how it is read, undefined where it means nothing.
+const addressed = {
+  run: ["run", v => v + 1, text => oneOf(() => all.map((_, r) => String(r + 1)))(text) && text - 1],
+  bounce: ["i", v => v > series().last ? "rest" : v, text => text === "rest" ? Infinity : oneOf(() => [...Array(Math.max(...all.map(s => s.last)) + 1).keys()].map(String))(text) && +text],
+  sum: ["sum", Number, flag],
+  view: ["view", String, chosen("view")],
+  curve: ["curve", String, chosen("curve")],
+  exposure: ["stops", Number, within(-10, 20)],
+  decades: ["decades", Number, within(.3, 12)],
+  fit: ["fit", Number, flag],
+  pixel: ["pixel", pixelsWritten, text => pixelsRead(text, 1)?.[0]],
+  rect: ["rect", r => pixelsWritten({ x: r.x0, y: r.y0 }, { x: r.x1, y: r.y1 }), text => { const ends = pixelsRead(text, 2); return ends && rectOf(...ends); }],
+  wipe: ["wipe", Number, flag],
+  edge: ["edge", v => +v.toFixed(3), within(0, 1)],
+  b: ["other", String, chosen("other")],
+  slide: ["slide", String, oneOf(() => ["dark", "white"])]
+};
+const beginning = { ...state };
+
+// The zoom, and the place in the picture that is in the middle of the stage.
+const zoomWritten = () => {
+  const side = state.fitScale * state.zoom, middle = [[$("stage").clientWidth, state.left], [$("stage").clientHeight, state.top]];
+  return [+state.zoom.toFixed(2), ...middle.map(([size, at]) => +((size / 2 - at) / side * first.factor).toFixed(2))].join();
+};
+const zoomRead = text => {
+  const found = numbers(text, 3);
+  return found && found[0] >= 1 && inPicture(found.slice(1).map(v => v / first.factor)) ? found : undefined;
+};
+const lookAt = ([zoom, x, y]) => {
+  zoomTo(zoom);
+  const side = state.fitScale * state.zoom;
+  state.left = $("stage").clientWidth / 2 - x / first.factor * side;
+  state.top = $("stage").clientHeight / 2 - y / first.factor * side;
+  placeSheet();
+};
+
+// Browsers refuse more than some changes of the address a second.
+let addressKept = null;
+const keepAddress = () => {
+  clearTimeout(addressKept);
+  addressKept = setTimeout(() => {
+    const parts = Object.entries(addressed).filter(([, [key]]) => state[key] !== beginning[key] && state[key] !== null && state[key] !== "").map(([name, [key, write]]) => `${name}=${write(state[key])}`);
+    if (state.zoom > 1) parts.push(`zoom=${zoomWritten()}`);
+    history.replaceState(null, "", parts.length ? "#" + parts.join("&") : location.pathname + location.search);
+  }, 200);
+};
+const readAddress = () => {
+  const given = new URLSearchParams(location.hash.slice(1)), to = {};
+  for (const [name, [key, , read]] of Object.entries(addressed)) to[key] = (given.has(name) ? read(given.get(name)) : undefined) ?? beginning[key];
+  if (to.i > all[to.run].last && to.i !== Infinity) to.i = beginning.i;
+  state.run = to.run;
+  state.sum = to.sum;
+  set(to);
+  draw();
+  lookAt(zoomRead(given.get("zoom") ?? "") ?? [1, 0, 0]);
+};
+addEventListener("hashchange", readAddress);

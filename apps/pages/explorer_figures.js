@@ -1,0 +1,58 @@
+"use strict";
+// The figures under the picture: of a pixel, and of a rectangle.
+
+// Zero with an interval is what no sample met.
+const withInterval = (value, half) => !half ? number(value) : value === 0 && Number.isFinite(half) ? `0, at most ${number(half, 2)}` : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
+const channels = ["red", "green", "blue"];
+const figuresLine = text => {
+  const line = element("div", undefined, "values");
+  text.forEach(([name, value]) => { const part = element("span"); part.append(element("span", name && name + " ", "dim"), value); line.append(part); });
+  return line;
+};
+const pixelLine = (s, ref, p) => {
+  const n = s.pixels, errors = s.errors(ref), patches = s.errors(ref, "_discretisation"), values = [0, 1, 2].map(c => s.meanAt(ref, p + c * n));
+  const size = Math.hypot(...values), relative = errors && Math.hypot(...[0, 1, 2].map(c => errors(p + c * n))) / size;
+  const text = [["", runName(s) + s.title(ref)], ...channels.map((name, c) => [name, withInterval(values[c], s.halfInterval(ref, p + c * n))])];
+  if (errors && size > 0) text.push(["relative standard error", Number.isFinite(relative) ? `${number(100 * relative, 2)}%` : "unknown"]);
+  if (errors && values.some((v, c) => v === 0 && errors(p + c * n) === 0)) text.push(["", patches ? "0: no light in any sample" : "0: known to be dark"]);
+  if (patches) text.push(["discretisation", [0, 1, 2].map(c => number(patches(p + c * n), 2)).join(", ")]);
+  return figuresLine(text);
+};
+// The mean of a rectangle, channel by channel. Errors of pixels that do not go together add up by their squares; of others only a bound is
+// known.
+const rectMean = (s, ref, { x0, y0, x1, y1 }, c) => {
+  const mean = s.mean(ref), n = (x1 - x0 + 1) * (y1 - y0 + 1);
+  let total = 0, half = 0;
+  for (let y = y0; y <= y1; ++y) for (let x = x0; x <= x1; ++x) {
+    const p = y * s.width + x + c * s.pixels, h = s.halfInterval(ref, p);
+    total += mean[p];
+    half += s.independent ? h * h : h;
+  }
+  return { mean: total / n, half: (s.independent ? Math.sqrt(half) : half) / n };
+};
+const rectLine = (s, ref, rect) => figuresLine([["", runName(s) + s.title(ref)], ...channels.map((name, c) => {
+  const { mean, half } = rectMean(s, ref, rect, c);
+  return [name, withInterval(mean, half)];
+})]);
+// Pixels from one number to another, as in the files.
+const fromTo = (a, b) => a === b && first.factor === 1 ? String(a) : `${a * first.factor} to ${b * first.factor + first.factor - 1}`;
+const drawReadout = () => {
+  const at = state.hover ?? state.pixel, rect = state.rect, o = other();
+  const pictures = [{ series: series(), ref: shown() }, ...(state.wipe || comparing() ? [o] : [])].filter(picture => !missing(picture));
+  if (!pictures.length || !(at || rect)) {
+    $("readout").replaceChildren(element("span", "Point at the picture, or move through it with the arrow keys, to see values; click or Enter chooses a pixel, Shift and a drag a rectangle.", "note"));
+    return;
+  }
+  const infinite = pictures.some(({ series, ref }) => series.infiniteVariance(ref)), unit = series().unit, lines = [];
+  if (at) {
+    const where = first.factor === 1 ? `Pixel ${at.x}, ${at.y}` : `Mean of pixels ${fromTo(at.x, at.x)}, ${fromTo(at.y, at.y)}`;
+    lines.push(element("div", `${where}, ${unit}${infinite ? "; the variance is infinite: no intervals" : ", with 95% intervals"}`, "note"),
+               ...pictures.map(({ series: s, ref }) => pixelLine(s, ref, at.y * s.width + at.x)));
+  }
+  if (rect) {
+    const intervals = infinite ? "the variance is infinite: no intervals" : pictures.every(({ series: s }) => s.independent) ? "95% intervals, for errors of pixels that are independent"
+      : "95% intervals that are upper bounds where errors of pixels may go together";
+    lines.push(element("div", `Mean of the rectangle ${fromTo(rect.x0, rect.x1)}, ${fromTo(rect.y0, rect.y1)}, ${unit}; ${intervals}`, "note"), ...pictures.map(({ series: s, ref }) => rectLine(s, ref, rect)));
+  }
+  $("readout").replaceChildren(...lines);
+};

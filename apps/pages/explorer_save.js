@@ -1,0 +1,68 @@
+"use strict";
+// What can be taken out of the page: the picture, the plots, the values of a pixel.
+
+const save = (name, blob) => {
+  const link = element("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+};
+const fileName = () => `${sceneOf(series()).replace(/\.[^.]*$/, "")}-${state.i > series().last ? "rest" : `${state.sum ? "sum" : "bounce"}-${state.i}`}`;
+
+// The canvas as it is, a pixel for a pixel, with what the wipe shows.
+const savePicture = () => {
+  if (!image) return;
+  const out = element("canvas"), { width, height } = $("a"), to = out.getContext("2d");
+  Object.assign(out, { width, height });
+  to.drawImage($("a"), 0, 0);
+  if (!$("b").hidden) {
+    const from = Math.round((state.edge * $("stage").clientWidth - state.left) / (state.fitScale * state.zoom)), part = Math.max(0, Math.min(width, from));
+    if (part < width) to.drawImage($("b"), part, 0, width - part, height, part, 0, width - part, height);
+  }
+  out.toBlob(blob => save(`${fileName()}${state.view === "colour" ? "" : "-" + state.view}.png`, blob));
+};
+
+// A row a picture, with tabs, for a sheet.
+const pixelText = () => {
+  const s = series(), p = state.pixel.y * s.width + state.pixel.x;
+  const rows = [];
+  for (const sum of [false, true]) for (let i = 0; i <= s.last + 1; ++i) {
+    const ref = { i, sum };
+    if (!s.isLoaded(ref)) continue;
+    const half = k => { const h = s.halfInterval(ref, k); return Number.isFinite(h) ? h : "unknown"; };
+    rows.push([s.title(ref), ...channels.flatMap((_, c) => [s.meanAt(ref, p + c * s.pixels), half(p + c * s.pixels)])]);
+  }
+  return [[`pixel ${pixelsWritten(state.pixel)}, ${s.run.quantity.unit}`, ...channels.flatMap(c => [c, "± (95%)"])], ...rows].map(row => row.join("\t") + "\n").join("");
+};
+const copyPixel = async () => {
+  if (!state.pixel) return;
+  const text = pixelText();
+  try {
+    await navigator.clipboard.writeText(text);
+    $("copied").textContent = "Copied.";
+  } catch {
+    $("copy-text").value = text;
+    $("copy").showModal();
+    $("copy-text").select();
+  }
+};
+
+const button = (text, name, onclick) => {
+  const b = element("button", text);
+  b.setAttribute("aria-label", name);
+  b.onclick = onclick;
+  return b;
+};
+for (const [id, chart, what] of [["energy", energyPlot, "energy of each bounce"], ["pixel", pixelPlot, "the chosen pixel"], ["error", errorPlot, "error against time"]]) {
+  const row = element("div", undefined, "line saves"), name = `${id}-plot`;
+  row.append(button("SVG", `Save the plot: ${what}, SVG`, () => save(name + ".svg", new Blob([svgPlot(chart)], { type: "image/svg+xml" }))),
+             button("CSV", `Save the figures: ${what}, CSV`, () => save(name + ".csv", new Blob([csvPlot(chart)], { type: "text/csv" }))));
+  $(id).parentElement.after(row);
+  if (id === "pixel") {
+    const copied = element("output");
+    copied.id = "copied";
+    row.append(button("Copy values", "Copy the values of the chosen pixel", copyPixel), copied);
+  }
+}
+$("save-picture").onclick = savePicture;

@@ -1,0 +1,64 @@
+"use strict";
+// All bounces, or all sums, as small pictures in a row.
+const strip = { tiles: [], asked: false };
+
+const refOf = i => ({ i, sum: state.sum });
+const makeTiles = count => {
+  strip.tiles = Array.from({ length: count }, (_, i) => {
+    const tile = element("button");
+    tile.append(element("canvas"), element("span"));
+    tile.onclick = () => goTo(i);
+    return tile;
+  });
+  $("strip").replaceChildren(...strip.tiles);
+};
+// What is shown stays in sight, and keeps the focus.
+const bringIntoSight = tile => {
+  const box = $("strip"), left = tile.offsetLeft - box.offsetLeft, right = left + tile.offsetWidth;
+  if (left < box.scrollLeft || right > box.scrollLeft + box.clientWidth) box.scrollLeft = left - (box.clientWidth - tile.offsetWidth) / 2;
+  if (box.contains(document.activeElement)) tile.focus({ preventScroll: true });
+};
+const drawStrip = () => {
+  const s = series();
+  if (strip.tiles.length !== lastShown() + 1) makeTiles(lastShown() + 1);
+  strip.tiles.forEach((tile, i) => {
+    const name = s.title(refOf(i)), current = i === state.i;
+    tile.lastChild.textContent = i > s.last ? "rest" : state.sum && i > 0 ? `0–${i}` : i;
+    tile.setAttribute("aria-label", name);
+    tile.title = name;
+    tile.tabIndex = current ? 0 : -1;
+    if (current && tile.getAttribute("aria-current") !== "true") bringIntoSight(tile);
+    tile.setAttribute("aria-current", String(current));
+  });
+  paintTiles();
+};
+// Those in sight, in a frame as many as do not hold it up.
+const paintTiles = () => {
+  if (strip.asked) return;
+  strip.asked = true;
+  requestAnimationFrame(() => {
+    strip.asked = false;
+    const until = performance.now() + 12, s = series(), box = $("strip");
+    for (const [i, tile] of strip.tiles.entries()) {
+      const left = tile.offsetLeft - box.offsetLeft - box.scrollLeft, ref = refOf(i);
+      if (left > box.clientWidth || left + tile.offsetWidth < 0 || missing({ series: s, ref })) continue;
+      const as = JSON.stringify([s.index, ref, comparing() ? "colour" : state.view, state.curve, exposure(s, ref)]);
+      if (tile.drawnAs === as) continue;
+      if (performance.now() > until) { paintTiles(); return; }
+      paintTile(tile.firstChild, s, ref);
+      tile.drawnAs = as;
+    }
+  });
+};
+const largestTile = 96;  // pixels of the screen; smaller pictures are drawn whole
+const painted = document.createElement("canvas");
+const paintTile = (canvas, s, ref) => {
+  const scale = Math.min(1, largestTile / Math.max(s.width, s.height));
+  paint(painted, s, ref);
+  canvas.width = Math.max(1, Math.round(scale * s.width));
+  canvas.height = Math.max(1, Math.round(scale * s.height));
+  const to = canvas.getContext("2d", { willReadFrequently: true });
+  to.imageSmoothingQuality = "high";
+  to.drawImage(painted, 0, 0, canvas.width, canvas.height);
+};
+$("strip").onscroll = paintTiles;

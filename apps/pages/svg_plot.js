@@ -1,0 +1,54 @@
+"use strict";
+// What a plot shows as a drawing and as a table. Drawings are on white, whatever the page is on.
+
+const ink = of => {
+  const onWhite = { text: "#111111", dim: "#555555", line: "#8a8a8a", faint: "#dddddd", back: "#ffffff" };
+  return onWhite[Object.keys(onWhite).find(name => color(name) === of)] ?? of;
+};
+const escaped = text => String(text).replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
+const shapes = {  // of marks, around 0, 0
+  triangle: "M0-4.5 4 3H-4Z", rect: "M-3.5-3.5H3.5V3.5H-3.5Z", rectRot: "M0-4.5 4.5 0 0 4.5-4.5 0Z", circle: "M-4 0A4 4 0 1 0 4 0 4 4 0 1 0-4 0Z"
+};
+const svgPlot = chart => {
+  const { scales: { x, y }, chartArea: area, width, height, legend } = chart, out = [], round = v => +v.toFixed(2);
+  const text = (words, at, top, more = "") => out.push(`<text x="${round(at)}" y="${round(top)}" ${more}>${escaped(words)}</text>`);
+  const path = (d, stroke, more = "") => out.push(`<path d="${d}" stroke="${ink(stroke)}" fill="none" ${more}/>`);
+  const mark = (set, at, top) => set.pointRadius > 0 && out.push(`<path class="mark" transform="translate(${at} ${top})" d="${shapes[set.pointStyle] ?? shapes.circle}" fill="${ink(set.pointBackgroundColor ?? set.backgroundColor)}" stroke="${ink(set.borderColor)}"/>`);
+  const [middleX, middleY] = [(area.left + area.right) / 2, (area.top + area.bottom) / 2];
+  for (const [axis, isX] of [[x, true], [y, false]]) for (const tick of axis.ticks) {
+    const at = round(axis.getPixelForValue(tick.value)), label = Array.isArray(tick.label) ? tick.label.join(" ") : tick.label ?? "";
+    if (label === "") continue;
+    path(isX ? `M${at} ${area.bottom}v5` : `M${area.left} ${at}H${area.right}`, isX ? "#8a8a8a" : "#dddddd");
+    isX ? text(label, at, area.bottom + 18, 'text-anchor="middle" class="x"') : text(label, area.left - 6, at + 4, 'text-anchor="end" class="y"');
+  }
+  path(`M${area.left} ${area.top}V${area.bottom}H${area.right}`, "#8a8a8a");
+  text(x.options.title.text, middleX, area.bottom + 38, 'text-anchor="middle"');
+  text(y.options.title.text, 12, middleY, `text-anchor="middle" transform="rotate(-90 12 ${round(middleY)})"`);
+  out.push(`<clipPath id="area"><rect x="${area.left}" y="${area.top}" width="${area.right - area.left}" height="${area.bottom - area.top}"/></clipPath><g clip-path="url(#area)">`);
+  for (const set of chart.data.datasets) {
+    const place = p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)].map(round);
+    out.push(`<g class="series"><title>${escaped(set.label)}</title>`);
+    if (set.showLine && set.data.length > 1) path("M" + set.data.map(p => place(p).join(" ")).join("L"), set.borderColor, `stroke-width="${set.borderWidth}" stroke-dasharray="${(set.borderDash ?? []).join(" ")}"`);
+    for (const p of set.data) {
+      const [at, top] = place(p);
+      if (p.high !== undefined) path(`M${at} ${round(y.getPixelForValue(p.high))}V${round(p.low > 0 ? y.getPixelForValue(p.low) : area.bottom)}`, set.borderColor);
+      mark(set, at, top);
+    }
+    out.push("</g>");
+  }
+  out.push("</g>");
+  legend.legendItems.forEach((item, k) => {
+    const { left, top, height } = legend.legendHitBoxes[k], set = chart.data.datasets[item.datasetIndex], level = round(top + height / 2);
+    if (set.showLine) path(`M${left - 2} ${level}h16`, set.borderColor, `stroke-width="2" stroke-dasharray="${(set.borderDash ?? []).join(" ")}"`);
+    mark(set, round(left + 6), level);
+    text(item.text, left + 18, level + 4);
+  });
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12" fill="#111111"><rect width="100%" height="100%" fill="#ffffff"/>\n${out.join("\n")}\n</svg>\n`;
+};
+
+// All points, also those that have no place on a logarithmic axis.
+const csvPlot = chart => {
+  const cell = v => /[",\n]/.test(v) ? `"${String(v).replaceAll('"', '""')}"` : v ?? "";
+  const { x, y } = chart.scales, rows = chart.data.datasets.flatMap(set => set.all.map(p => [set.label || p.label, p.bounce ?? p.x, p.y, p.half]));
+  return [["series", x.options.title.text, y.options.title.text, "half of the 95% interval"], ...rows].map(row => row.map(cell).join(",") + "\n").join("");
+};
