@@ -116,7 +116,7 @@ std::string print_roulette(const Roulette& roulette) {
 }
 
 std::optional<TreeGoal> read_tree(const std::string& text) {
-    if (text == "sum") return TreeGoal{};
+    if (text == "sum") return std::make_optional<TreeGoal>();
     const auto bounce = number<int>(text);
     return bounce && *bounce >= 1 && *bounce <= most_depths_of_tree ? std::optional(TreeGoal{*bounce}) : std::nullopt;
 }

@@ -110,7 +110,7 @@ TEST(TreePilot, PredictsTheVarianceOfSplitRenders) {
 
 // The tree's terms and rest are those of the walk, whether it splits, thins or does both: the same blocks, |z| ≤ 4.5 in some 200
 // comparisons a case (false alarm 0.2%), and 92% and more within their 95% intervals. Passed over five seeds.
-TEST(TreeWalk, HasTheTermsOfTheWalk) {
+TEST(TreeWalkSlow, HasTheTermsOfTheWalk) {
     const std::vector<std::vector<double>> all_ratios{{0.3, 3.4, 0.5, 1.6}, {7.0}, {0.2, 0.6, 0.6, 0.6}};
     for (const char* name : {"cornell-box", "floating-panels"}) {
         const Scene scene = read_scene(fmt::format(SCENES "/{0}/{0}.xml", name), {{"res", "24"}});
