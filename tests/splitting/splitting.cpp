@@ -108,8 +108,9 @@ TEST(TreePilot, PredictsTheVarianceOfSplitRenders) {
     }
 }
 
-// The tree's terms and rest are those of the walk, whether it splits, thins or does both: the same blocks, |z| ≤ 4.5 in some 200
-// comparisons a case (false alarm 0.2%), and 92% and more within their 95% intervals. Passed over five seeds.
+// The tree's terms and rest are those of the walk, whether it splits, thins or does both: the same blocks, |z| ≤ 4.5 in some 100 to 200
+// comparisons a case (false alarm 0.1%), and most within their 95% intervals. The channels of a block go together, so that 138 values
+// are about as many as 46, of which 85% leaves 3 standard deviations. Passed over five seeds.
 TEST(TreeWalkSlow, HasTheTermsOfTheWalk) {
     const std::vector<std::vector<double>> all_ratios{{0.3, 3.4, 0.5, 1.6}, {7.0}, {0.2, 0.6, 0.6, 0.6}};
     for (const char* name : {"cornell-box", "floating-panels"}) {
@@ -133,7 +134,7 @@ TEST(TreeWalkSlow, HasTheTermsOfTheWalk) {
                         ++all;
                     }
             EXPECT_GE(all, 90) << name;
-            EXPECT_GE(within, 0.92 * all) << name;
+            EXPECT_GE(within, 0.85 * all) << name;
         }
     }
 }
