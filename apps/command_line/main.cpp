@@ -2,10 +2,13 @@
 #include "apps/command_line/command_manual.h"
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
+#include "apps/command_line/unknown_words.h"
 #include "apps/processes/launch.h"
+#include "core/base/did_you_mean.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <malloc.h>
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +18,8 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -38,12 +43,13 @@ std::string join(int argc, char** argv) {
 // The command of this name; of none, the program itself.
 const CLI::App& find(const CLI::App& app, const std::string& name) {
     if (name.empty()) return app;
-    std::string names;
+    std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) {
         if (command->get_name() == name) return *command;
-        names += (names.empty() ? "" : ", ") + command->get_name();
+        names.push_back(command->get_name());
     }
-    throw neumann::InputError(fmt::format("no command is called '{}'; there are {}", name, names));
+    throw neumann::InputError(
+        fmt::format("no command is called '{}'; there are {}{}", name, fmt::join(names, ", "), neumann::did_you_mean(name, names)));
 }
 
 // Memory that was taken is kept for what is next: pictures come and go, and on virtual machines the first touch of a page takes
@@ -83,6 +89,8 @@ int main(int argc, char** argv) try {
         app.parse(std::move(arguments));
     } catch (const CLI::ParseError& e) {
         if (launch.is_helper()) return launch.help();
+        if (const std::string about = neumann::about_unknown_options(app, app.remaining(true)); !about.empty())
+            throw neumann::InputError(about + "\nRun with --help for more information.");
         const int code = app.exit(e);
         return code == 0 ? finish(0) : wrong_input;
     }

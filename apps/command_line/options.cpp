@@ -1,5 +1,6 @@
 #include "apps/command_line/options.h"
 
+#include "apps/command_line/scenes_along.h"
 #include "apps/commands/patch_scene.h"
 #include "apps/files/chosen_files.h"
 
@@ -31,7 +32,16 @@ CLI::Validator whole_from(std::uint64_t low, std::uint64_t high) {
         "", "whole");
 }
 
-void add_scene(CLI::App& command, std::string& scene) { command.add_option("SCENE", scene, "Mitsuba 3 scene file")->required(); }
+void add_scene(CLI::App& command, std::string& scene) {
+    const auto along = [](std::string& text) {
+        text = scene_along(text);
+        return std::string();
+    };
+    command
+        .add_option("SCENE", scene, "Scene file (Mitsuba 3, glTF, COLLADA, pbrt-v4, Tungsten), or the name of one that comes along")
+        ->transform(CLI::Validator(along, "", "along"))
+        ->required();
+}
 
 void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning) {
     command.add_option("--seed", seed, meaning)->type_name("N")->check(whole_from(0, ~std::uint64_t{0}))->capture_default_str();

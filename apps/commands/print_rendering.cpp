@@ -19,6 +19,25 @@ std::string interval(const MeanWithError& mean, bool infinite_variance, bool rar
     return fmt::format("± {:.2g}{}", mean.interval(), rare_large_samples ? " at least" : "");
 }
 
+// The mean of all that is known of the light: the bounces, and the rest where it was measured.
+double light(const SeriesReport& report) {
+    return report.sum.mean + (report.rest_verdict == RestVerdict::measured ? report.rest.mean : 0.0);
+}
+
+// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of the sum is 0.4%." Nothing where there is no such answer.
+std::string answer(const BounceSeries& series) {
+    const SeriesReport& report = series.report;
+    const double all = light(report), error = series.convergence.back().sum_error;
+    if (report.rest_verdict != RestVerdict::measured || report.importance || !(all > 0.0)) return "";
+    const double rest = report.rest.mean / all;
+    const std::string noise = report.infinite_variance() || !std::isfinite(error) ? ""
+                              : error == 0.0                                      ? "; the sum has no noise"
+                                             : fmt::format("; the noise of a pixel of the sum is {:.2g}%", 100.0 * error);
+    return fmt::format("{} hold{} {:.4g}% of the light, the rest {:.2g}%{}.\n",
+                       series.bounces() == 0 ? "Bounce 0" : fmt::format("Bounces 0 to {}", series.bounces()),
+                       series.bounces() == 0 ? "s" : "", 100.0 * (1.0 - rest), 100.0 * rest, noise);
+}
+
 }  // namespace
 
 void print_summary(const BounceSeries& series, const std::string& folder) {
@@ -28,27 +47,33 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
         return d ? fmt::format("  {:>9.2g}  {:>9.2g}", d->mean, d->worst) : std::string();
     };
     const bool subset = series.paths != Paths::all;
-    fmt::print("{:>6}  {:>12}  {:<18}  {:>8}  {:>10}{}{}\n", "bounce", "mean", "95% interval", "ratio", "tail bound",
-               discretised ? "  discretisation: mean, worst" : "", subset ? "  missing" : "");
+    const double all = light(report);
+    const auto part = [&](double of) { return all > 0.0 ? fmt::format("{:.3g}%", 100.0 * of / all) : ""; };
+    const Checkpoint& now = series.convergence.back();
+    const auto noise = [](double error) {
+        return std::isfinite(error) && error > 0.0 ? fmt::format("{:.2g}%", 100.0 * error) : "";
+    };
+    fmt::print("{:>6}  {:>12}  {:<18}  {:>8}  {:>8}  {:>8}  {:>7}{}{}\n", "bounce", "mean", "95% interval", "share", "up to it",
+               "noise", "ratio", discretised ? "  discretisation: mean, worst" : "", subset ? "  missing" : "");
+    double up_to_it = 0.0;
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const BounceReport& b = report.bounces[i];
+        up_to_it += b.mean.mean;
         fmt::print(
-            "{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>10}{}{}\n", i, b.mean.mean,
-            interval(b.mean, b.infinite_variance, b.rare_large_samples, b.unmet), b.ratio ? fmt::format("{:.4f}", *b.ratio) : "",
-            std::isfinite(b.bound) ? fmt::format("{:.3g}", b.bound) : "none", patches(b.discretisation),
+            "{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>8}  {:>8}  {:>7}{}{}\n", i, b.mean.mean,
+            interval(b.mean, b.infinite_variance, b.rare_large_samples, b.unmet), part(b.mean.mean), part(up_to_it),
+            noise(now.term_error[i]), b.ratio ? fmt::format("{:.4f}", *b.ratio) : "", patches(b.discretisation),
             b.missing ? fmt::format("  {:.3g} {}", b.missing->mean, interval(*b.missing, b.infinite_variance, b.rare_large_samples))
                       : "");
     }
-    fmt::print("{:>6}  {:>12.6g}  {:<18}{:>22}{}\n", "sum", report.sum.mean,
-               interval(report.sum, report.infinite_variance(), report.rare_large_samples()), "",
-               patches(report.sum_discretisation));
+    fmt::print("{:>6}  {:>12.6g}  {:<18}  {:>8}  {:>8}  {:>8}  {:>7}{}\n", "sum", report.sum.mean,
+               interval(report.sum, report.infinite_variance(), report.rare_large_samples()), part(report.sum.mean), "",
+               noise(now.sum_error), "", patches(report.sum_discretisation));
     switch (report.rest_verdict) {
         case RestVerdict::measured:
-            fmt::print("{:>6}  {:>12.6g}  {:<18}  measured: {}\n", "rest", report.rest.mean,
+            fmt::print("{:>6}  {:>12.6g}  {:<18}  {:>8}  {}\n", "rest", report.rest.mean,
                        interval(report.rest, report.rest_infinite_variance, report.rest_rare_large_samples, report.rest_unmet),
-                       std::isfinite(report.tail_fraction())
-                           ? fmt::format("with its interval {:.2g} of the sum", report.tail_fraction())
-                           : "no sample met any light");
+                       part(report.rest.mean), std::isfinite(report.tail_fraction()) ? "measured" : "no sample met any light");
             break;
         case RestVerdict::not_converging:
             fmt::print("{:>6}  not converging: {}\n", "rest",
@@ -73,6 +98,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
             "too short; more samples help, or another method.\n");
     if (series.choice) fmt::print("By method {}: {}.\n", name_of(series.choice->method), series.choice->why);
     if (series.outcome == Outcome::interrupted) fmt::print("Interrupted: the pictures hold what was sampled so far.\n");
+    fmt::print("{}", answer(series));
     fmt::print("{} samples a pixel in {:.1f} s. The pictures are in {}\n", series.samples, series.seconds, folder);
 }
 

@@ -1,5 +1,6 @@
 #include "operators/methods/method_options.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ const std::vector<Method>& all_methods() {
 }
 
 std::string not_in(const std::string& text, const std::vector<std::string>& names) {
-    return fmt::format("{} not in {{{}}}", text, fmt::join(names, ","));
+    return fmt::format("{} not in {{{}}}{}", text, fmt::join(names, ","), did_you_mean(text, names));
 }
 
 template <class Value>
@@ -79,6 +80,13 @@ const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent",
 const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
 const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
+
+// Names of Mitsuba, pbrt and papers.
+const Named<std::string> methods_elsewhere{
+    {"path", "walk"},      {"pt", "walk"},           {"bdpt", "bidirectional"},  {"vcm", "photon or bidirectional"},
+    {"ptracer", "light"},  {"lighttracer", "light"}, {"photonmapper", "photon"}, {"ppm", "photon"},
+    {"sppm", "photon"},    {"mlt", "metropolis"},    {"mmlt", "metropolis"},     {"pssmlt", "metropolis"},
+    {"irrcache", "cache"}, {"radiosity", "patches"}, {"whitted", "classic"}};
 
 template <class Number>
 std::optional<Number> number(const std::string& text) {
@@ -381,7 +389,11 @@ Method make_method(const MethodText& text) {
     }
     const auto is_it = [&](const Method& method) { return name_of(method) == text.name; };
     const auto found = std::find_if(all_methods().begin(), all_methods().end(), is_it);
-    if (found == all_methods().end()) throw InputError("--method: " + not_in(text.name, method_names()));
+    if (found == all_methods().end()) {
+        const auto here = value(methods_elsewhere, text.name);
+        if (here) throw InputError(fmt::format("--method: what other programs call {} is {} here", text.name, *here));
+        throw InputError("--method: " + not_in(text.name, method_names()));
+    }
     Method method = *found;
     bool lights = false;
     for (const auto& [name, value] : text.options) {

@@ -42,6 +42,21 @@ TEST_F(BadInputOptions, RealNumbers) {
     expect_refused("--error", "small");
 }
 
+// Misspelt, or another program's.
+TEST_F(BadInputOptions, WhatWasMeant) {
+    const std::string more = "\nRun with --help for more information.\n";
+    EXPECT_EQ(refusal({"--sp", "4"}), "--sp: render has no such option; did you mean '--spp'?" + more);
+    EXPECT_EQ(refusal({"--methd=walk"}), "--methd: render has no such option; did you mean '--method'?" + more);
+    EXPECT_EQ(refusal({"--unheard-of"}), "--unheard-of: render has no such option" + more);
+    EXPECT_EQ(
+        refusal({"--max-depth", "5"}),
+        "--max-depth: render has no such option; here it is -n, the last bounce; programs count differently, see counting.md of "
+        "the manual" +
+            more);
+    EXPECT_TRUE(refusal({"--method", "corected"}).ends_with("; did you mean 'corrected'?" + more));
+    EXPECT_EQ(refusal({"--method", "bdpt"}), "--method: what other programs call bdpt is bidirectional here" + more);
+}
+
 TEST_F(BadInputOptions, Chains) {
     expect_refused("--chain", "0");
     EXPECT_EQ(refusal({"--chain", "10"}), "--chain belongs to --method metropolis, not to walk\n");

@@ -169,10 +169,35 @@ TEST_F(RenderFiles, OneBounceAndTheSummary) {
     EXPECT_EQ(names("out/plates"), expected);
     EXPECT_EQ(text_of(path("out/plates/notes.txt")), "mine");
     EXPECT_EQ(picture("out/plates", "bounce_000.exr").mean.width, 164);
-    EXPECT_EQ(done.out.substr(0, done.out.find('\n')), "bounce          mean  95% interval           ratio  tail bound");
+    EXPECT_EQ(done.out.substr(0, done.out.find('\n')),
+              "bounce          mean  95% interval           share  up to it     noise    ratio");
     EXPECT_NE(done.out.find("\n  rest  "), std::string::npos) << done.out;
     EXPECT_TRUE(done.out.ends_with(" s. The pictures are in out/plates\n")) << done.out;
     EXPECT_NE(done.out.find("\n4 samples a pixel in "), std::string::npos) << done.out;
+}
+
+// The last lines answer what a render is asked for.
+TEST_F(RenderFiles, TheSummaryAnswers) {
+    write("scene.xml", plates());
+    const Finished done = render("scene.xml", "a", {"-n", "2", "--spp", "64"});
+    const nlohmann::json json = run_json("a");
+    const double sum = json.at("sum").at("mean"), rest = json.at("rest").at("mean");
+    EXPECT_NE(done.out.find(
+                  fmt::format("\nBounces 0 to 2 hold {:.4g}% of the light, the rest {:.2g}%; the noise of a pixel of the sum is ",
+                              100.0 * sum / (sum + rest), 100.0 * rest / (sum + rest))),
+              std::string::npos)
+        << done.out;
+    // Shares add up, with the rest, to all.
+    EXPECT_NE(done.out.find(fmt::format("{:.3g}%", 100.0 * json.at("bounces").at(1).at("mean").get<double>() / (sum + rest))),
+              std::string::npos)
+        << done.out;
+}
+
+TEST_F(RenderFiles, AScenesNameIsEnough) {
+    const Finished done = run({"render", "cornell-box", "-D", "res=8", "-n", "1", "--spp", "1"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(picture("out/cornell-box", "bounce_001.exr").mean.width, 8);
+    EXPECT_EQ(run({"render", "cornell-bx"}).err, "cornell-bx: there is no such file\n");
 }
 
 TEST_F(RenderFiles, JsonPrintsRunJson) {

@@ -167,7 +167,7 @@ protected:
         std::vector<std::string> options{"-n",     run.at("options").at("bounces").dump(),
                                          "--spp",  run.at("samples").at("per_pixel").dump(),
                                          "--seed", run.at("options").at("seed").dump()};
-        for (const char* name : {"method", "direct", "lights", "roulette", "split", "patches", "directions"})
+        for (const char* name : {"method", "direct", "lights", "roulette", "split", "adaptive", "patches", "directions"})
             if (run.at("options").contains(name)) {
                 const nlohmann::json& value = run.at("options").at(name);
                 options.insert(options.end(),

@@ -1,6 +1,6 @@
 // Files that are no scenes are told what they are; names that are misspelt, what they may mean.
 #include "core/reader/meshes/write_ply.h"
-#include "core/reader/xml/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 #include "tests/reader/xml_scene_files.h"
 
 namespace neumann::other_files_test {
@@ -63,11 +63,11 @@ TEST_F(OtherFiles, MisspeltNamesAreGuessed) {
               "bsplinecurve, cube, cylinder, disk, instance, linearcurve, merge, obj, ply, rectangle, serialized, shapegroup, "
               "sphere; did you mean 'sphere'?");
     const std::vector<std::string> names = {"radius", "center", "to_world"};
-    EXPECT_EQ(reader::did_you_mean("Radius", names), "; did you mean 'radius'?");
-    EXPECT_EQ(reader::did_you_mean("centre", names), "; did you mean 'center'?");
-    EXPECT_EQ(reader::did_you_mean("height", names), "");
-    EXPECT_EQ(reader::did_you_mean("", names), "");
-    EXPECT_EQ(reader::did_you_mean(std::string(100'000, 'r'), names), "");
+    EXPECT_EQ(did_you_mean("Radius", names), "; did you mean 'radius'?");
+    EXPECT_EQ(did_you_mean("centre", names), "; did you mean 'center'?");
+    EXPECT_EQ(did_you_mean("height", names), "");
+    EXPECT_EQ(did_you_mean("", names), "");
+    EXPECT_EQ(did_you_mean(std::string(100'000, 'r'), names), "");
 }
 
 // Numbers that are no floats, normals, coordinates and colours, of vertices and of faces.

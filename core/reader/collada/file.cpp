@@ -1,8 +1,8 @@
 #include "core/reader/collada/file.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/collada/texts.h"
 #include "core/reader/import/percent_encoding.h"
-#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/parse_xml.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "core/reader/collada/sources.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/collada/file.h"
 #include "core/reader/collada/texts.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "core/reader/collada/textures.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/collada/texts.h"
 #include "core/reader/collada/uri.h"
 #include "core/reader/import/make_elements.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <array>
 #include <filesystem>

@@ -1,8 +1,8 @@
 #include "core/reader/gltf/cameras.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/import/film.h"
 #include "core/reader/import/make_elements.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 #include <cmath>

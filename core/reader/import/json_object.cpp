@@ -1,6 +1,6 @@
 #include "core/reader/import/json_object.h"
 
-#include "core/reader/xml/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 
 #include <algorithm>
 #include <cmath>

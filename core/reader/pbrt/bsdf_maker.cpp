@@ -1,9 +1,9 @@
 // What all materials have: roughness, normals, two sides.
 #include "core/reader/pbrt/bsdf_maker.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 #include "core/reader/pbrt/colours.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/colour/blackbody.h"
 #include "core/colour/cie.h"
 #include "core/reader/import/find_file.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/named_spectra.h"
 #include "core/reader/pbrt/unpack.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 #include <charconv>

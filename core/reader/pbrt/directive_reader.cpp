@@ -1,11 +1,11 @@
 // Files, the stack of states, and what is common to all directives.
 #include "core/reader/pbrt/directive_reader.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/import/find_file.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/transforms.h"
 #include "core/reader/pbrt/unpack.h"
-#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/element.h"
 
 #include <algorithm>

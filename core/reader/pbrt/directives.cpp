@@ -1,8 +1,8 @@
 // The directives themselves.
+#include "core/base/did_you_mean.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/directive_reader.h"
 #include "core/reader/pbrt/transforms.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
+#include "core/base/did_you_mean.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/sensor.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 

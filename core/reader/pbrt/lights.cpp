@@ -1,5 +1,6 @@
 #include "core/reader/pbrt/lights.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/base/frame.h"
 #include "core/reader/import/find_file.h"
 #include "core/reader/import/make_elements.h"
@@ -9,7 +10,6 @@
 #include "core/reader/pbrt/light_scale.h"
 #include "core/reader/pbrt/octahedral.h"
 #include "core/reader/pbrt/rigid.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <cmath>
 #include <numbers>

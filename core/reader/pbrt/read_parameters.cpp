@@ -1,7 +1,7 @@
 // The syntax of parameters: "type name" value, or "type name" [ value value … ].
+#include "core/base/did_you_mean.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/parameters.h"
-#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/element.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "core/reader/pbrt/shapes.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 #include <cmath>

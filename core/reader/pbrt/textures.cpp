@@ -1,8 +1,8 @@
 #include "core/reader/pbrt/textures.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/colours.h"
-#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/element.h"
 
 #include <algorithm>

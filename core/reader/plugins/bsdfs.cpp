@@ -1,5 +1,6 @@
 #include "core/reader/plugins/bsdfs.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/colour/metals.h"
 #include "core/reader/plugins/glossy_bsdfs.h"
 #include "core/reader/plugins/plastics.h"
@@ -8,7 +9,6 @@
 #include "core/reader/plugins/roughness_parameters.h"
 #include "core/reader/plugins/textures.h"
 #include "core/reader/plugins/transparent_bsdfs.h"
-#include "core/reader/xml/did_you_mean.h"
 #include "core/reader/xml/grammar.h"
 
 #include <fmt/format.h>

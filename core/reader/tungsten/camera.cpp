@@ -1,10 +1,10 @@
 #include "core/reader/tungsten/camera.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/import/film.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/tungsten/transforms.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 #include <cmath>

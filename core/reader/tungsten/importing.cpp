@@ -1,8 +1,8 @@
 #include "core/reader/tungsten/importing.h"
 
+#include "core/base/did_you_mean.h"
 #include "core/reader/import/find_file.h"
 #include "core/reader/meshes/mesh_text.h"
-#include "core/reader/xml/did_you_mean.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "core/reader/xml/properties.h"
 
-#include "core/reader/xml/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 #include "core/reader/xml/grammar.h"
 #include "core/reader/xml/instead_of.h"
 #include "core/reader/xml/numbers.h"

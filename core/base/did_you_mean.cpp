@@ -1,4 +1,4 @@
-#include "core/reader/xml/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace neumann::reader {
+namespace neumann {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string allowed_instead(std::string_view given, std::span<const std::string>
     return fmt::format("allowed: {}{}", fmt::join(known, ", "), did_you_mean(given, known));
 }
 
-}  // namespace neumann::reader
+}  // namespace neumann
