@@ -2,6 +2,7 @@
 
 import hashlib
 import html
+import os
 import re
 import shutil
 import subprocess
@@ -18,7 +19,7 @@ def key_of(folder, version, root):
     """What the pictures depend on, but for changes of the program under the same version: --fresh is for these."""
     key = hashlib.sha256(repr((version, OPTIONS, FILES)).encode())
     for path in sorted(p for p in [*folder.rglob("*"), *(root / "apps/pages").iterdir()] if p.is_file()):
-        if path.suffix not in (".md", ".png"):
+        if path.suffix not in (".md", ".png", ".gif"):
             key.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes())
     return key.hexdigest()
 
@@ -33,8 +34,9 @@ def render_all(scenes, neumann, version, cache, root):
             new = cache / (folder.name + ".new")
             shutil.rmtree(new, ignore_errors=True)
             new.mkdir(parents=True)
-            command = [neumann, "render", str(folder / f"{folder.name}.xml"), *OPTIONS]
-            subprocess.run([*command, "--files", "page,strips", "--quiet", "-o", str(new)], check=True)
+            # By paths within the repository, for pages say which scene it was.
+            command = [neumann, "render", f"scenes/{folder.name}/{folder.name}.xml", *OPTIONS, "--files", "page,strips", "--quiet"]
+            subprocess.run([*command, "-o", os.path.relpath(new, root)], check=True, cwd=root)
             for path in new.iterdir():
                 if path.name not in FILES:
                     path.unlink()
@@ -58,10 +60,11 @@ def strip(site, page, name, file, what):
 
 
 def summary_of(site, page, folder):
-    """The first paragraph of a scene's README.md, in HTML."""
+    """The title of a scene's README.md and its first sentence, in HTML."""
     text = (folder / "README.md").read_text(encoding="utf-8")
     title, first = re.match(r"# (.+)\n+((?:.+\n)+)", text).groups()
-    return title, site.from_markdown(first, page)[0]
+    sentence = re.match(r".+?\.(?=\s)", first, re.DOTALL)[0]
+    return title, site.from_markdown(sentence, page)[0]
 
 
 def write_gallery(site, page, scenes, renders):

@@ -4,6 +4,7 @@ import hashlib
 import html
 import importlib.util
 import json
+import os
 import re
 import sys
 from pathlib import Path
@@ -33,6 +34,7 @@ def run_all(root, version, cache):
     import nbclient
     import nbformat
 
+    os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # the kernel's debugger is not used, and need not say so
     done = {}
     for path in files(root):
         key = hashlib.sha256(version.encode())
@@ -41,7 +43,7 @@ def run_all(root, version, cache):
         kept = cache / f"{path.stem}.{key.hexdigest()[:16]}.ipynb"
         if not kept.is_file():
             print(f"running {path.name}", file=sys.stderr)
-            notebook = nbformat.from_dict(converter(root).notebook(path.read_text(encoding="utf-8")))
+            notebook = nbformat.reads(json.dumps(converter(root).notebook(path.read_text(encoding="utf-8"))), as_version=4)
             where = {"metadata": {"path": str(path.parent)}}
             nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3", resources=where, record_timing=False).execute()
             cache.mkdir(parents=True, exist_ok=True)

@@ -42,7 +42,7 @@ def main():
             (folder / name).symlink_to(repository / name)
         (folder / "run").write_text(STAND_IN)
         (folder / "run").chmod(0o755)
-        environment = os.environ | {"PYTHON": sys.executable}
+        environment = os.environ | {"PYTHON": sys.executable, "XDG_CACHE_HOME": str(folder / "cache")}
         named, commands, printed = set(), 0, ""
         for language, content, before in blocks(text):
             name = re.search(r"`([\w./-]+)`:$", before)
