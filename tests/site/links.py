@@ -73,6 +73,8 @@ def problems(site):
 
 def main():
     repository = Path(sys.argv[1])
+    version = re.search(r"project\(neumann VERSION (\S+)", (repository / "CMakeLists.txt").read_text())[1]
+    assert f"\nversion: {version}\n" in (repository / "CITATION.cff").read_text(), "CITATION.cff has another version"
     with tempfile.TemporaryDirectory() as folder:
         given = len(sys.argv) > 2
         site = Path(sys.argv[2]) if given else Path(folder).resolve() / "site"
