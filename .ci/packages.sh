@@ -48,15 +48,20 @@ libpetsc-real-dev   | PETSc 3.18 or later, for real numbers   | petsc.h
 libslepc-real-dev   | SLEPc 3.18 or later, likewise           | slepc.h
 '
 
+packages_to_site='
+python3-markdown    | Python-Markdown, which makes pages      |
+libjs-katex         | KaTeX, formulas of lessons (optional)   |
+python3-nbclient    | nbclient, which runs lessons            |
+python3-nbformat    | nbformat, which reads them              |
+python3-ipykernel   | the kernel for Python of Jupyter        |
+'
+
 packages_to_test='
 libgtest-dev        | GoogleTest                              | gtest/gtest.h
 libbenchmark-dev    | Google Benchmark                        | benchmark/benchmark.h
 dpkg-dev            | what cpack finds dependencies with      | dpkg-shlibdeps
 file                | file, which cpack asks of each file     | file
 python3-openimageio | the Python module of OpenImageIO        |
-python3-nbclient    | nbclient, which runs notebooks          |
-python3-nbformat    | nbformat, which reads them              |
-python3-ipykernel   | the kernel for Python of Jupyter         |
 chromium            | Chromium, in which pages are tested     | chromium chromium-browser google-chrome
 nodejs              | Node.js 18 or later, which drives it    | node nodejs
 npm                 | npm, which fetches playwright-core      | npm

@@ -1,0 +1,97 @@
+"""Lessons as pages and as notebooks, with their outputs where neumann, nbclient and matplotlib can be imported."""
+
+import hashlib
+import html
+import importlib.util
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+
+def files(root):
+    return sorted((root / "notebooks").glob("[1-9]_*.py"))
+
+
+def title(path):
+    return re.search(r"^# # (.+)$", path.read_text(encoding="utf-8"), re.MULTILINE)[1]
+
+
+def converter(root):
+    spec = importlib.util.spec_from_file_location("to_ipynb", root / "notebooks/to_ipynb.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def run_all(root, version, cache):
+    """Notebooks with outputs, by the lesson's name; none where something is missing that runs them."""
+    missing = [name for name in ("neumann", "nbclient", "nbformat", "ipykernel", "matplotlib", "scipy") if not importlib.util.find_spec(name)]
+    if missing:
+        print(f"Lessons come without outputs: this python3 has no {', '.join(missing)}.", file=sys.stderr)
+        return {}
+    import nbclient
+    import nbformat
+
+    os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # the kernel's debugger is not used, and need not say so
+    done = {}
+    for path in files(root):
+        key = hashlib.sha256(version.encode())
+        for used in [path, root / "notebooks/lesson.py", root / "notebooks/corner.xml", *sorted(root.glob("scenes/*/*.xml"))]:
+            key.update(used.read_bytes())
+        kept = cache / f"{path.stem}.{key.hexdigest()[:16]}.ipynb"
+        if not kept.is_file():
+            print(f"running {path.name}", file=sys.stderr)
+            notebook = nbformat.reads(json.dumps(converter(root).notebook(path.read_text(encoding="utf-8"))), as_version=4)
+            where = {"metadata": {"path": str(path.parent)}}
+            nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3", resources=where, record_timing=False).execute()
+            cache.mkdir(parents=True, exist_ok=True)
+            for old in cache.glob(f"{path.stem}.*.ipynb"):
+                old.unlink()
+            # Where the repository was is of no use elsewhere.
+            kept.write_text(nbformat.writes(notebook).replace(str(root) + "/", ""), encoding="utf-8")
+        done[path.stem] = json.loads(kept.read_text(encoding="utf-8"))
+    return done
+
+
+def output_as_html(output):
+    kind = output["output_type"]
+    if kind == "stream":
+        text = re.sub(r"[^\n]*\r(?!\n)", "", joined(output["text"]))
+        return f"<pre>{html.escape(text)}</pre>" if text.strip() and output["name"] == "stdout" else ""
+    data = output.get("data", {})
+    if "image/png" in data:
+        return f'<img alt="figure" src="data:image/png;base64,{joined(data["image/png"]).strip()}">'
+    if "text/html" in data:
+        return joined(data["text/html"])
+    return f"<pre>{html.escape(joined(data['text/plain']))}</pre>" if "text/plain" in data else ""
+
+
+def joined(text):
+    return text if isinstance(text, str) else "".join(text)
+
+
+def write_lesson(site, page, notebook):
+    has_outputs = notebook is not None
+    if not has_outputs:
+        notebook = converter(site.root).notebook(page.source.read_text(encoding="utf-8"))
+    name = page.source.stem
+    path = site.folder / f"lessons/{name}.ipynb"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(notebook, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    source = site.relative(site.copy(page.source), page)
+    what = "with outputs" if has_outputs else "without outputs"
+    out = []
+    for cell in notebook["cells"]:
+        text = joined(cell["source"])
+        if cell["cell_type"] == "markdown":
+            out.append(site.from_markdown(text, page, formulas=True)[0])
+            continue
+        out.append(f'<pre class="in" tabindex="0"><code>{html.escape(text)}</code></pre>')
+        shown = "\n".join(filter(None, map(output_as_html, cell.get("outputs", []))))
+        if shown:
+            out.append(f'<div class="out">{shown}</div>')
+    files_line = f'<p><a href="{name}.ipynb">{name}.ipynb</a>, the notebook {what}; <a href="{source}">{name}.py</a>, the lesson as a script</p>'
+    body = "\n".join(out).replace("</h1>", f"</h1>\n{files_line}", 1)
+    site.write(page, body)
