@@ -5,9 +5,7 @@
 namespace neumann {
 
 void add_method_options(CLI::App& command, MethodText& method) {
-    command.add_option("--method", method.name, method_help())
-        ->type_name("NAME")
-        ->check(CLI::IsMember(method_names()).description(""));
+    command.add_option("--method", method.name, method_help())->type_name("NAME")->check(wrong_method);
     for (const MethodOption& o : method_options()) {
         const auto take = [&method, name = o.name](const std::string& text) { method.options.emplace_back(name, text); };
         if (o.kind == MethodOption::Kind::flag) {

@@ -358,6 +358,13 @@ std::vector<std::string> method_names() {
     return names;
 }
 
+std::string wrong_method(const std::string& name) {
+    const std::vector<std::string> all = method_names();
+    if (std::ranges::find(all, name) != all.end()) return "";
+    if (const auto here = value(methods_elsewhere, name)) return fmt::format("what other programs call {} is {} here", name, *here);
+    return not_in(name, all);
+}
+
 const std::string& method_help() {
     static const std::string text =
         "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a short "
@@ -389,11 +396,7 @@ Method make_method(const MethodText& text) {
     }
     const auto is_it = [&](const Method& method) { return name_of(method) == text.name; };
     const auto found = std::find_if(all_methods().begin(), all_methods().end(), is_it);
-    if (found == all_methods().end()) {
-        const auto here = value(methods_elsewhere, text.name);
-        if (here) throw InputError(fmt::format("--method: what other programs call {} is {} here", text.name, *here));
-        throw InputError("--method: " + not_in(text.name, method_names()));
-    }
+    if (found == all_methods().end()) throw InputError("--method: " + wrong_method(text.name));
     Method method = *found;
     bool lights = false;
     for (const auto& [name, value] : text.options) {

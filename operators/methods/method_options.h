@@ -28,6 +28,8 @@ struct MethodOption {
 // All options, in the order of the help.
 std::span<const MethodOption> method_options();
 std::vector<std::string> method_names();
+// What is wrong with the name of a method, and what may be meant; "" if it is one.
+std::string wrong_method(const std::string& name);
 // Help text: all methods, in a few words each.
 const std::string& method_help();
 

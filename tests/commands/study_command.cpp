@@ -201,7 +201,7 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
               "--methods wlak: --method: wlak not in "
               "{auto,walk,guided,corrected,surface,light,bidirectional,photon,cache,metropolis,classic,pointwise,matrix,gather,"
-              "patches}\n");
+              "patches}; did you mean 'walk'?\n");
     EXPECT_EQ(refusal({"--methods", "walk,auto"}),
               "--methods auto: a study compares methods, and auto is one of the others; name those that it is to compare\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
