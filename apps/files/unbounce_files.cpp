@@ -4,6 +4,7 @@
 #include "apps/files/other_picture.h"
 #include "apps/files/rendered_picture.h"
 #include "apps/sheets/strips.h"
+#include "apps/sheets/superscript.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 
@@ -142,8 +143,8 @@ void write_unbounced(OutputFolder& folder, const Unbounced& found, const std::ve
         // Rounded down to a power of two, as the strips of a render.
         const double factor = std::max(1.0, std::exp2(std::floor(std::log2(exposure_for(reference, black) / exposure) + 1e-3)));
         const std::string times = factor == 1.0 ? "" : fmt::format("{:g} ", factor);
-        strip[0].push_back({fmt::format("{}C^{} L", times, n + 1), &found.terms[n].mean, factor});
-        if (!forward.empty()) strip[1].push_back({fmt::format("{}K^{} Le", times, n + 1), &forward[n].mean, factor});
+        strip[0].push_back({fmt::format("{}C{} L", times, superscript(n + 1)), &found.terms[n].mean, factor});
+        if (!forward.empty()) strip[1].push_back({fmt::format("{}K{} Le", times, superscript(n + 1)), &forward[n].mean, factor});
     }
     PixelEstimate rest;
     rest.mean = found.rest;

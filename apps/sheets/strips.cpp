@@ -1,6 +1,7 @@
 #include "apps/sheets/strips.h"
 
 #include "apps/sheets/flip_book.h"
+#include "apps/sheets/superscript.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
@@ -22,9 +23,9 @@ double brightening(const Image& term, const Image& emission, double exposure) {
     return black ? 1.0 : std::max(1.0, factor);
 }
 
-// "Le", "K Le", "K^2 Le", … and "16 K^2 Le".
+// "Le", "K Le", "K² Le", … and "16 K² Le".
 LabelledPicture term(const SeriesPictures& series, std::size_t i, double factor = 1.0) {
-    const std::string power = i == 0 ? "" : i == 1 ? series.K + " " : fmt::format("{}^{} ", series.K, i);
+    const std::string power = i == 0 ? "" : i == 1 ? series.K + " " : series.K + superscript(i) + " ";
     return {(factor == 1.0 ? "" : fmt::format("{:.6g} ", factor)) + power + series.Le + series.kind, &series.terms[i], factor};
 }
 

@@ -20,7 +20,7 @@ struct SeriesPictures {
     std::string K = "K", Le = "Le";  // or "K*", "We"
     std::string kind = {};           // appended to labels, such as ", some paths"
 
-    // "Le", "K Le", "K^2 Le", …, "rest, beyond 6", "bounce 0", "bounces 0 to 1", …, "all bounces".
+    // "Le", "K Le", "K² Le", …, "rest, beyond 6", "bounce 0", "bounces 0 to 1", …, "all bounces".
     Pictures all() const;
 };
 
@@ -28,7 +28,7 @@ struct SeriesPictures {
 using Strip = std::vector<Pictures>;
 
 // Bounces 0 to 6, as far as they exist. The row below shows each multiplied by the largest power of two, at least 1, for which the
-// 99th percentile of its luminance is at most white at this exposure: "16 K^3 Le". Pixels where `emission` is not black are ignored
+// 99th percentile of its luminance is at most white at this exposure: "16 K³ Le". Pixels where `emission` is not black are ignored
 // (exposure_for).
 Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double exposure);
 // The sums up to bounce 0, …, 6, as far as they exist.

@@ -9,15 +9,30 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <boost/regex/pending/unicode_iterator.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace neumann::encoders {
 
 namespace {
+
+// Of UTF-8; of anything else, such as an old file name, byte by byte.
+std::vector<FT_ULong> characters(const std::string& text) {
+    using Iterator = boost::u8_to_u32_iterator<std::string::const_iterator>;
+    try {
+        return {Iterator(text.begin(), text.begin(), text.end()), Iterator(text.end(), text.begin(), text.end())};
+    } catch (const std::out_of_range&) {
+        return {reinterpret_cast<const unsigned char*>(text.data()),
+                reinterpret_cast<const unsigned char*>(text.data()) + text.size()};
+    }
+}
 
 // A font file, open. FreeType is for one thread at a time.
 class Font {
@@ -38,8 +53,8 @@ public:
         const std::scoped_lock lock(one_at_a_time_);
         if (!is_there() || FT_Set_Pixel_Sizes(face_, static_cast<FT_UInt>(size), 0) != 0) return;
         int x = 0;
-        for (const char c : text) {
-            if (FT_Load_Char(face_, static_cast<unsigned char>(c), FT_LOAD_RENDER) != 0) continue;
+        for (const FT_ULong c : characters(text)) {
+            if (FT_Load_Char(face_, c, FT_LOAD_RENDER) != 0) continue;
             what(*face_->glyph, x);
             x += static_cast<int>(face_->glyph->advance.x >> 6);
         }
