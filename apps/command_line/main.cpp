@@ -89,8 +89,9 @@ int main(int argc, char** argv) try {
         app.parse(std::move(arguments));
     } catch (const CLI::ParseError& e) {
         if (launch.is_helper()) return launch.help();
-        if (const std::string about = neumann::about_unknown_options(app, app.remaining(true)); !about.empty())
-            throw neumann::InputError(about + "\nRun with --help for more information.");
+        if (dynamic_cast<const CLI::ExtrasError*>(&e))
+            if (const std::string about = neumann::about_unknown_options(app, app.remaining(true)); !about.empty())
+                throw neumann::InputError(about + "\nRun with --help for more information.");
         const int code = app.exit(e);
         return code == 0 ? finish(0) : wrong_input;
     }

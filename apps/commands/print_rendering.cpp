@@ -24,15 +24,19 @@ double light(const SeriesReport& report) {
     return report.sum.mean + (report.rest_verdict == RestVerdict::measured ? report.rest.mean : 0.0);
 }
 
-// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of the sum is 0.4%." Nothing where there is no such answer.
+// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of a pixel of the sum is 0.4%." Nothing where that is not
+// known.
 std::string answer(const BounceSeries& series) {
     const SeriesReport& report = series.report;
     const double all = light(report), error = series.convergence.back().sum_error;
-    if (report.rest_verdict != RestVerdict::measured || report.importance || !(all > 0.0)) return "";
+    if (report.rest_verdict != RestVerdict::measured || report.rest_unmet || report.rest_infinite_variance || report.importance ||
+        series.paths != Paths::all || !(all > 0.0))
+        return "";
     const double rest = report.rest.mean / all;
     const std::string noise = report.infinite_variance() || !std::isfinite(error) ? ""
                               : error == 0.0                                      ? "; the sum has no noise"
-                                             : fmt::format("; the noise of a pixel of the sum is {:.2g}%", 100.0 * error);
+                                             : fmt::format("; the {} of a pixel of the sum is {:.2g}%",
+                                                           has_fields(series.method) ? "error" : "noise", 100.0 * error);
     return fmt::format("{} hold{} {:.4g}% of the light, the rest {:.2g}%{}.\n",
                        series.bounces() == 0 ? "Bounce 0" : fmt::format("Bounces 0 to {}", series.bounces()),
                        series.bounces() == 0 ? "s" : "", 100.0 * (1.0 - rest), 100.0 * rest, noise);
@@ -50,11 +54,12 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
     const double all = light(report);
     const auto part = [&](double of) { return all > 0.0 ? fmt::format("{:.3g}%", 100.0 * of / all) : ""; };
     const Checkpoint& now = series.convergence.back();
+    const bool fields = has_fields(series.method);  // whose errors have that of discretisation in them
     const auto noise = [](double error) {
         return std::isfinite(error) && error > 0.0 ? fmt::format("{:.2g}%", 100.0 * error) : "";
     };
     fmt::print("{:>6}  {:>12}  {:<18}  {:>8}  {:>8}  {:>8}  {:>7}{}{}\n", "bounce", "mean", "95% interval", "share", "up to it",
-               "noise", "ratio", discretised ? "  discretisation: mean, worst" : "", subset ? "  missing" : "");
+               fields ? "error" : "noise", "ratio", discretised ? "  discretisation: mean, worst" : "", subset ? "  missing" : "");
     double up_to_it = 0.0;
     for (std::size_t i = 0; i < report.bounces.size(); ++i) {
         const BounceReport& b = report.bounces[i];

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 namespace neumann {
 
@@ -101,20 +102,32 @@ Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& 
                                        *request.number));
 }
 
-// Of a merged render: the one of its renders that has the sample, and the sample's name there.
-// `size`: samples of its pixel in a replicate.
-std::pair<RecordedRender, SampleName> where_it_began(const RecordedRun& run, SampleName name, std::uint64_t size) {
-    RecordedRender render = run.render;
-    std::uint64_t replicate = name.sample / size;
+// A render with its settings made again, and the name there of a sample; of a merged render, the one of its seeds that has it.
+struct Beginning {
+    std::unique_ptr<const RecordedSamples> samples;
+    SampleName name;
+};
+Beginning where_it_began(const Scene& scene, const RecordedRun& run, SampleName name) {
+    const std::uint32_t pixel = name.pixel;
+    const std::uint64_t asked = name.sample;
+    const auto size_in = [&](const RecordedSamples& samples) { return std::uint64_t{samples.sampler().layout().size(pixel)}; };
     for (const SeedRange& range : run.merged) {
-        if (replicate < range.count) {
-            render.seed = range.seed;
-            name.sample = (range.first + replicate) * size + name.sample % size;
-            break;
+        RecordedRender render = run.render;
+        render.seed = range.seed;
+        auto samples = std::make_unique<const RecordedSamples>(scene, render);
+        const std::uint64_t size = size_in(*samples);
+        if (name.sample < range.count * size) {
+            name.sample += range.first * size;
+            return {std::move(samples), name};
         }
-        replicate -= range.count;
+        name.sample -= range.count * size;
     }
-    return {render, name};
+    if (!run.merged.empty()) expect_sample(asked, 0, asked - name.sample);
+    auto samples = std::make_unique<const RecordedSamples>(scene, run.render);
+    const std::uint64_t size = size_in(*samples), replicates = run.samples / run.render.replicate_size,
+                        first = run.first / run.render.replicate_size * size;
+    expect_sample(name.sample, first, replicates * size);
+    return {std::move(samples), name};
 }
 
 std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
@@ -198,16 +211,8 @@ int replay_command(const ReplayRequest& request) {
         fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", request.folder, run.version,
                    NEUMANN_VERSION);
     const Chosen chosen = choose(request, run, scene.film);
-    // All seeds have the same numbers of samples in pixels.
-    std::uint64_t size = run.render.replicate_size;
-    if (adaptive_of(run.render.method)) {
-        size = RecordedSamples(scene, run.render).sampler().layout().size(chosen.name.pixel);
-        if (!request.number)
-            expect_sample(chosen.name.sample, run.first / run.render.replicate_size * size,
-                          run.samples / run.render.replicate_size * size);
-    }
-    const auto [render, name] = where_it_began(run, chosen.name, size);
-    const Replay found = RecordedSamples(scene, render).replay(name);
+    const auto [samples, name] = where_it_began(scene, run, chosen.name);
+    const Replay found = samples->replay(name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 

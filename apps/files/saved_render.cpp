@@ -64,13 +64,13 @@ Tally tally_from(const Json& json) {
 
 Json as_json(const std::vector<SeedRange>& merged) {
     Json json = Json::array();
-    for (const SeedRange& range : merged) json.push_back({range.seed, range.first, range.count});
+    for (const SeedRange& range : merged) json.push_back({range.seed, range.first, range.count, range.sizes});
     return json;
 }
 
 std::vector<SeedRange> merged_from(const Json& json) {
     std::vector<SeedRange> merged;
-    for (const Json& range : json) merged.push_back({range.at(0), range.at(1), range.at(2)});
+    for (const Json& range : json) merged.push_back({range.at(0), range.at(1), range.at(2), range.at(3)});
     return merged;
 }
 

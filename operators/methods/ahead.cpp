@@ -20,9 +20,10 @@ Film small_film(const Film& film, int most) {
 }
 
 double expected_rays(const Goal& goal, const Film& film, int bounces) {
-    constexpr double a_second = 1e7, a_bounce = 2.0;
+    constexpr double a_second = 1e7;
     double rays = std::numeric_limits<double>::infinity();
-    if (goal.samples) rays = static_cast<double>(*goal.samples) * film.crop_width * film.crop_height * a_bounce * (bounces + 1.0);
+    if (goal.samples)
+        rays = static_cast<double>(*goal.samples) * film.crop_width * film.crop_height * rays_of_bounce * (bounces + 1.0);
     if (goal.seconds) rays = std::min(rays, *goal.seconds * a_second);
     return rays;
 }

@@ -11,7 +11,7 @@ Film small_film(const Film& film, int most);
 
 // Rays that a render by the walk casts: two of a bounce where samples are given, ten million a second where seconds are.
 // A render that is expected to cast fewer does without: a pilot takes some 15 million, first pictures less.
-constexpr double rays_of_a_long_render = 3e7;
+constexpr double rays_of_a_long_render = 3e7, rays_of_bounce = 2.0;
 double expected_rays(const Goal& goal, const Film& film, int bounces);
 
 }  // namespace neumann

@@ -25,6 +25,8 @@ constexpr std::uint32_t trial_replicates = 4;
 
 // Part of the work of the methods before it that a method may take to replace them: the pilot is no more exact than that.
 constexpr double clearly_better = 0.8;
+// Samples a pixel from which it pays to distribute them by a pilot.
+constexpr double fewest_to_distribute = 32.0;
 // The largest Σ_i E|error|² / |K^i Le|² of a pilot that is believed.
 constexpr double largest_known_error = 1.0;
 // Rays before the first sample are traced in order, without shading.
@@ -171,11 +173,13 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
         choice.method = other.method;
         choice.why = other.why;
     }
-    std::visit(
-        [](auto& m) {
-            if constexpr (requires { m.adaptive; }) m.adaptive = LeastError::of_all;
-        },
-        choice.method);
+    const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
+    if (samples >= fewest_to_distribute)
+        std::visit(
+            [](auto& m) {
+                if constexpr (requires { m.adaptive; }) m.adaptive = LeastError::of_product;
+            },
+            choice.method);
     choice.seconds = clock.seconds();
     return choice;
 }

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<SeedRange> seeds_of(const RenderState& state) {
     if (!state.series.merged.empty()) return state.series.merged;
-    return {{state.render.seed, state.series.moments.first(), state.series.moments.replicates()}};
+    return {{state.render.seed, state.series.moments.first(), state.series.moments.replicates(), state.series.sizes}};
 }
 
 void expect_alike(const NamedState& a, const NamedState& b) {
@@ -36,8 +36,6 @@ void expect_alike(const NamedState& a, const NamedState& b) {
     if (x.replicate_size != y.replicate_size)
         unlike(fmt::format("one has replicates of {} samples a pixel", x.replicate_size),
                fmt::format("the other of {}, because of its fewer or more samples", y.replicate_size));
-    if (a.state.series.sizes != b.state.series.sizes)
-        unlike("one has other numbers of samples in its pixels", "the other too: the scenes or versions are not the same");
     if ((x.rest_probability > 0.0) != (y.rest_probability > 0.0)) unlike("one has a rest", "the other has none");
 }
 
@@ -62,13 +60,19 @@ bool are_consecutive(const std::vector<NamedState>& renders) {
     return true;
 }
 
-// The samples get the numbers that they have where these replicates begin with number `to`.
-void rename_samples(RenderedSeries& series, std::uint64_t from, std::uint64_t to) {
-    Tally& tally = series.tally;
-    const auto rename = [&](SamplePlace& place) {
-        const std::uint64_t size = series.sizes.empty() ? series.replicate_size : series.sizes[place.name.pixel];
-        place.name.sample += (to - from) * size;  // wraps around where it is less
+// The samples of a pixel get the numbers that they have where those of `before` are in front of them.
+void rename_samples(RenderState& state, const std::vector<SeedRange>& before) {
+    const std::uint64_t size = state.render.replicate_size;
+    const auto of_pixel = [&](const std::vector<std::uint32_t>& sizes, std::uint32_t pixel) {
+        return sizes.empty() ? size : std::uint64_t{sizes[pixel]};
     };
+    const RenderedSeries& series = state.series;
+    const std::uint64_t first = series.merged.empty() ? series.moments.first() : 0;
+    const auto rename = [&](SamplePlace& place) {
+        place.name.sample -= first * of_pixel(series.sizes, place.name.pixel);
+        for (const SeedRange& range : before) place.name.sample += range.count * of_pixel(range.sizes, place.name.pixel);
+    };
+    Tally& tally = state.series.tally;
     for (NonFiniteSample& s : tally.non_finite) rename(s.place);
     for (LargestSamples& largest : tally.largest) {
         std::vector<LargestSamples::Sample> kept = largest.kept();
@@ -90,23 +94,26 @@ RenderState merge(std::vector<NamedState> renders) {
     RenderState merged = std::move(renders.front().state);
     RenderedSeries& all = merged.series;
     std::vector<SeedRange> seeds = seeds_of(merged);
-    if (!consecutive) rename_samples(all, all.moments.first(), 0);
+    if (!consecutive) rename_samples(merged, {});
     std::erase_if(all.convergence, [](const Checkpoint& c) { return !std::has_single_bit(c.samples); });
     for (auto r = renders.begin() + 1; r != renders.end(); ++r) {
         RenderedSeries& next = r->state.series;
-        for (const SeedRange& range : seeds_of(r->state)) seeds.push_back(range);
         if (consecutive) {
             all.moments.add(next.moments);
         } else {
-            rename_samples(next, next.moments.first(), all.moments.replicates());
+            rename_samples(r->state, seeds);
             all.moments.unite(next.moments);
         }
+        for (const SeedRange& range : seeds_of(r->state)) seeds.push_back(range);
         all.tally.merge(next.tally);
         all.samples += next.samples;
         all.seconds += next.seconds;
         all.convergence.push_back(make_checkpoint(all, {}));
     }
-    if (!consecutive) all.merged = std::move(seeds);
+    if (!consecutive) {
+        all.merged = std::move(seeds);
+        all.sizes.clear();
+    }
     return merged;
 }
 

@@ -141,6 +141,8 @@ Method as_it_ran(Method method, const SamplingSettings& settings, const Film& fi
     std::visit(
         [&]<class M>(M& m) {
             if constexpr (MakesPaths<M>) m.sampler = settings.sampler;
+            if constexpr (requires { m.adaptive; })
+                if (!settings.allocation) m.adaptive = {};  // its pilot was interrupted
             if constexpr (std::same_as<M, method::Guided>) {
                 m.patches = settings.guide->settings().patches;
                 m.directions = settings.guide->settings().rays;
@@ -161,13 +163,18 @@ Method as_it_ran(Method method, const SamplingSettings& settings, const Film& fi
     return method;
 }
 
+bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settings) {
+    return set_up(method, job.scene, settings.walk.bounces, job.goal.seed, job.goal.memory.value_or(default_memory()), settings,
+                  job.watch);
+}
+
 // For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N.
 struct Sampled {
     RenderedSeries series;
     SeriesReport report;
 };
 Sampled sample(const Method& method, SamplingSettings& settings, const SamplingGoal& goal, RestVerdict verdict,
-               const RenderJob& job) {
+               const RenderJob& job, double& setup_seconds) {
     std::optional<RenderedSeries> from;
     if (job.saving.from) from = std::move(job.saving.from->series);
     for (;;) {
@@ -196,6 +203,8 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
         watch.tell(fmt::format("The rest is {:.3g} of the sum, more than {}: once more with {} bounces", report.tail_fraction(),
                                tail, settings.walk.bounces));
         watch.chosen(settings.walk.bounces);
+        const Stopwatch clock;
+        if (set_up(method, job, settings)) setup_seconds += clock.seconds();
     }
 }
 
@@ -211,8 +220,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     SamplingGoal to_reach = sampling_goal(goal);
     double setup_seconds = goal.spent;
     const Stopwatch clock;
-    if (set_up(method, scene, settings.walk.bounces, goal.seed, goal.memory.value_or(default_memory()), settings, job.watch))
-        setup_seconds += clock.seconds();
+    if (set_up(method, job, settings)) setup_seconds += clock.seconds();
     // The set-up counts towards the time limit.
     if (setup_seconds > 0.0 && to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
     settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split, walks_worth(method, settings.walk.bounces));
@@ -222,7 +230,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
 
     const Paths paths = paths_of(settings.generator, scene);
     const RestVerdict verdict = rest_verdict(settings.generator, job);
-    auto [sampled, report] = sample(method, settings, to_reach, verdict, job);
+    auto [sampled, report] = sample(method, settings, to_reach, verdict, job, setup_seconds);
     if (paths != Paths::all) report_missing(report, job.pilot());
 
     const auto moments = std::make_shared<const SeriesMoments::Result>(sampled.moments.result());

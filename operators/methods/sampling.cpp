@@ -135,7 +135,12 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
     else if (const auto* walk = std::get_if<method::Walk>(&method); walk && walk->tree)
         settings.tree = tree_ratios(scene.with(small_film(scene.film, tree_width)), bounces, *walk->tree, watch);
     const std::optional<LeastError> least = adaptive_of(method);
-    if (least) settings.allocation = allocate(scene, settings, *least, watch);
+    settings.allocation = {};
+    try {
+        if (least) settings.allocation = allocate(scene, settings, *least, watch);
+    } catch (const Stopped&) {
+        // What can still be sampled is as much in all pixels; the render tells so (as_it_ran() in render_paths.cpp).
+    }
     return least || settings.guide || settings.approximation || settings.photons || settings.records || settings.tree;
 }
 

@@ -157,7 +157,7 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
     const std::vector<std::int8_t> powers = as_powers(
-        best_numbers(blocks, least == LeastError::of_all ? LeastOf::product : LeastOf::largest), blocks.costs, most_doublings);
+        best_numbers(blocks, least == LeastError::of_product ? LeastOf::product : LeastOf::largest), blocks.costs, most_doublings);
     for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) allocation.exponents[pixel] = powers[block_of(pixel)];
     return std::make_shared<const Allocation>(std::move(allocation));
 }

@@ -22,7 +22,7 @@ namespace neumann {
 enum class LeastError {
     of_bounces,  // the largest relative error of a bounce
     of_sum,      // the relative error of the sum of all bounces
-    of_all       // the product of these, so that none is bought with much of another
+    of_product       // the product of these, so that none is bought with much of another
 };
 
 // V_kb for each k, k by k, and c_b.
@@ -40,7 +40,8 @@ std::vector<double> best_numbers(const BlockCosts& costs, LeastOf least = LeastO
 // The nearest powers of 2 to σ s_b, as exponents within ±most, with the largest σ for which they cost no more than Σ c_b.
 std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, int most);
 
-// For walks, guided ones and corrected ones among them, and the bidirectional method; the same for all seeds. Throws Stopped if
+// For walks, guided ones and corrected ones among them, and the bidirectional method. By guides and fields as the seed has made them,
+// and otherwise the same for all seeds. Throws Stopped if
 // `watch` stops it.
 std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
                                            const Watch& watch = {});

@@ -59,6 +59,8 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
                              const Watch& watch, Continuation continuation, Helpers* helpers) {
     const PictureSampler sampler(scene, settings);
     const std::uint64_t size = settings.replicate_size;
+    if (continuation.from && continuation.from->merged.empty() && continuation.from->sizes != sampler.layout().sizes())
+        throw std::logic_error("render_series: the pixels of what is there have other numbers of samples");
     RenderedSeries series = beginning(sampler, continuation.from);
     series.replicate_size = settings.replicate_size;
     series.sizes = sampler.layout().sizes();

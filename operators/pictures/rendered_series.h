@@ -22,6 +22,7 @@ struct SamplingGoal {
 // Replicates of a seed.
 struct SeedRange {
     std::uint64_t seed = 0, first = 0, count = 0;
+    std::vector<std::uint32_t> sizes = {};  // of pixels in a replicate, where they differ; another seed may have others
 };
 
 enum class Outcome { samples_reached, time_reached, error_reached, interrupted, memory_reached, does_not_pay };
@@ -33,7 +34,7 @@ struct RenderedSeries {
     Outcome outcome = Outcome::samples_reached;
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
-    std::vector<std::uint32_t> sizes = {};  // of pixels in a replicate, where they differ (sample_layout.h)
+    std::vector<std::uint32_t> sizes = {};  // of pixels in a replicate, where they differ (sample_layout.h); of `merged`, there
     // Where renders of several seeds were merged: whose replicates come one after the other. Otherwise empty.
     std::vector<SeedRange> merged = {};
     double seconds = 0.0;

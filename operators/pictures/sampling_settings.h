@@ -50,7 +50,7 @@ struct SamplingSettings {
     std::uint64_t seed = 0;
     std::uint32_t replicate_size = 8;  // samples per pixel; a power of two
     std::uint32_t chain_length = 512;  // for `metropolis`: states of a chain
-    // For `walk` and `bidirectional`, if pixels have different numbers of samples: powers of 2 that are factors of replicate_size.
+    // Where pixels have different numbers of samples, in `walk`, `guided`, `corrected` and `bidirectional`.
     std::shared_ptr<const Allocation> allocation = {};
     std::shared_ptr<const TreeRatios> tree = {};  // for `walk`, if paths are trees (tree_walk.h)
     // If given, pictures and their errors are of this matrix times the samples' RGB.

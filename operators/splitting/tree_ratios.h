@@ -21,7 +21,8 @@ struct TreeGoal {
 constexpr int most_depths_of_tree = 8;
 
 struct TreeRatios {
-    std::vector<double> of_depths;  // m_j / m_{j−1} for j = 1 …; what the pilot did not see may be anywhere: within 1/10 … 16
+    std::vector<double> of_depths;  // m_j / m_{j−1} for j = 1 …; within 1/10 … 16, and with 256 branches at most:
+                                    // what the pilot did not see may be anywhere
     std::uint64_t rays = 0;         // of the pilot
 };
 

@@ -47,6 +47,9 @@ TEST_F(BadInputOptions, WhatWasMeant) {
     const std::string more = "\nRun with --help for more information.\n";
     EXPECT_EQ(refusal({"--sp", "4"}), "--sp: render has no such option; did you mean '--spp'?" + more);
     EXPECT_EQ(refusal({"--methd=walk"}), "--methd: render has no such option; did you mean '--method'?" + more);
+    const Finished help = run({"render", "scene.xml", "--sp", "4", "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("--spp N"), std::string::npos);
     EXPECT_EQ(refusal({"--unheard-of"}), "--unheard-of: render has no such option" + more);
     EXPECT_EQ(
         refusal({"--max-depth", "5"}),

@@ -177,6 +177,26 @@ protected:
             options.insert(options.end(), {"-D", name + "=" + value.get<std::string>()});
         return options;
     }
+    // The largest samples, which the health names, have these values again when they are replayed. Returns their number, without
+    // those from lights, which bring it to other pixels than their own.
+    int expect_replayed(const std::string& output) const {
+        const nlohmann::json health = run_json(output).at("health");
+        int compared = 0;
+        for (const nlohmann::json& largest : health.at("largest_samples")) {
+            for (const nlohmann::json& sample : health.at("samples")) {
+                if (sample.at("number") != largest.at("number") || sample.contains("pixel_of_path")) continue;
+                const Finished found = run({"replay", output, sample.at("number").dump(), "--json"});
+                EXPECT_EQ(found.exit_code, 0) << found.err;
+                if (found.exit_code != 0) return compared;
+                const nlohmann::json replayed = nlohmann::json::parse(found.out);
+                const nlohmann::json& term = replayed.at("terms").at(largest.at("bounce").get<std::size_t>());
+                const double value = std::max({term.at(0).get<double>(), term.at(1).get<double>(), term.at(2).get<double>()});
+                EXPECT_NEAR(value, largest.at("value").get<double>(), 1e-12 * value) << output << ", " << largest.dump();
+                ++compared;
+            }
+        }
+        return compared;
+    }
     // Every picture of both folders has the same bytes.
     void expect_same_pictures(const std::string& a, const std::string& b) const {
         EXPECT_EQ(names(a), names(b));

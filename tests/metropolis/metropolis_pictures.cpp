@@ -147,7 +147,7 @@ TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
         constexpr std::size_t bounces = 4;
         const Blocks reference(scene, settings_of(scene, make_method({c.reference, {}}), bounces, fixed_seed, 16, 0.5), 8,
                                c.replicates);
-        const Blocks chains(scene, settings_of(scene, method::Metropolis{}, bounces, fixed_seed + 1, 16, 0.5), 8, 32);
+        const Blocks chains(scene, settings_of(scene, method::Metropolis{}, bounces, fixed_seed + 1, 16, 0.5), 8, 48);
         int within = 0, count = 0;
         double worst = 0.0;
         for (std::size_t q = 0; q <= bounces + (c.rest ? 1 : 0); ++q)
@@ -160,7 +160,7 @@ TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
                         EXPECT_NEAR(m.mean, r.mean, 1e-9 * r.mean);
                         continue;
                     }
-                    within += off <= student_t_quantile(0.95, 31.0) * error;
+                    within += off <= student_t_quantile(0.95, 47.0) * error;
                     worst = std::max(worst, off / error);
                     EXPECT_LE(off, 4.5 * error) << c.scene << ", bounce " << q << ", block " << b << ", channel " << channel << ": "
                                                 << m.mean << " ± " << m.error << ", " << r.mean << " ± " << r.error;

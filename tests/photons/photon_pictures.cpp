@@ -44,7 +44,7 @@ TEST(PhotonPicturesSlow, AreWithinTheirStatedErrors) {
         for (const char* gather : {"false", "true"}) {
             const SamplingSettings settings = settings_of(
                 scene, make_method({"photon", {{"gather", gather}, {"photons", "16384"}}}), bounces, fixed_seed + 1, 0.5);
-            const Blocks photons(scene, settings, 8, 64);
+            const Blocks photons(scene, settings, 8, 128);
             int within = 0, count = 0;
             for (std::size_t q = 0; q <= bounces + (c.rest ? 1 : 0); ++q)
                 for (std::size_t b = 0; b < photons.blocks(); ++b)
@@ -53,7 +53,7 @@ TEST(PhotonPicturesSlow, AreWithinTheirStatedErrors) {
                                    r = reference.at(b, q, channel, c.replicates);
                         if (r.mean == 0.0 || r.error > 0.02 * r.mean) continue;
                         const double error = std::hypot(p.error, r.error), off = std::abs(p.mean - r.mean);
-                        within += off <= student_t_quantile(0.95, 63.0) * error + p.bias;
+                        within += off <= student_t_quantile(0.95, 127.0) * error + p.bias;
                         EXPECT_LE(off, 4.5 * error + 2.0 * p.bias)
                             << c.scene << ", gather " << gather << ", bounce " << q << ", block " << b << ", channel " << channel
                             << ": " << p.mean << " ± " << p.error << " and bias " << p.bias << ", " << r.mean << " ± " << r.error;
