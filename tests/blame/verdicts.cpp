@@ -79,7 +79,7 @@ TEST_P(VerdictsSlow, NameTheBounceAndTheKind) {
 // A right renderer is called right in 99 of 100 seeds; that more than 3 of 100 are called wrong happens by chance in 1 of 50 if it
 // is 1 of 100, and practically never if it is 1 of 200, as it is meant to be.
 TEST(RightSlow, IsCalledRight) {
-    const Scene room = blame_room(48);
+    const Scene room = blame_room(32);
     int wrong = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         const Blame found = blame(room, pictures(room, Bug::none, 32, seed), settings(128, seed));

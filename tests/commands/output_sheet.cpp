@@ -135,8 +135,8 @@ protected:
 TEST_F(Strips, TermsAtOneExposureAndBelowAsBrightAsTheyCanBe) {
     const Strip strip = strip_of_terms(up_to(9), dark, 1.0);
     ASSERT_EQ(strip.size(), 2u);
-    EXPECT_EQ(labels(strip[0]), (Labels{"Le", "K Le", "K^2 Le", "K^3 Le", "K^4 Le", "K^5 Le", "K^6 Le"}));
-    EXPECT_EQ(labels(strip[1]), (Labels{"Le", "2 K Le", "4 K^2 Le", "8 K^3 Le", "16 K^4 Le", "32 K^5 Le", "64 K^6 Le"}));
+    EXPECT_EQ(labels(strip[0]), (Labels{"Le", "K Le", "K² Le", "K³ Le", "K⁴ Le", "K⁵ Le", "K⁶ Le"}));
+    EXPECT_EQ(labels(strip[1]), (Labels{"Le", "2 K Le", "4 K² Le", "8 K³ Le", "16 K⁴ Le", "32 K⁵ Le", "64 K⁶ Le"}));
     for (std::size_t i = 0; i <= 6; ++i) {
         EXPECT_EQ(strip[0][i].factor, 1.0);
         EXPECT_EQ(strip[1][i].factor, std::ldexp(1.0, static_cast<int>(i)));
@@ -152,7 +152,7 @@ TEST_F(Strips, NamesOfImportanceAndOfSomePaths) {
     SeriesPictures series = up_to(2);
     series.K = "K*";
     series.Le = "We";
-    EXPECT_EQ(labels(strip_of_terms(series, dark, 1.0)[0]), (Labels{"We", "K* We", "K*^2 We"}));
+    EXPECT_EQ(labels(strip_of_terms(series, dark, 1.0)[0]), (Labels{"We", "K* We", "K*² We"}));
     series = up_to(1);
     series.kind = ", some paths";
     EXPECT_EQ(labels(series.all()), (Labels{"Le, some paths", "K Le, some paths", "rest, beyond 1, some paths",
