@@ -1,54 +1,20 @@
 #include "operators/methods/method_options.h"
 
-#include "core/base/did_you_mean.h"
 #include "core/base/error.h"
+#include "operators/methods/method_table.h"
+#include "operators/methods/named_values.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 namespace neumann {
 
 namespace {
 
 using Kind = MethodOption::Kind;
-
-const std::vector<Method>& all_methods() {
-    static const std::vector<Method> all{method::Auto{},    method::Walk{},       method::Guided{},        method::Corrected{},
-                                         method::Surface{}, method::Light{},      method::Bidirectional{}, method::Photon{},
-                                         method::Cache{},   method::Metropolis{}, method::Classic{},       method::Pointwise{},
-                                         method::Matrix{},  method::Gather{},     method::Patches{}};
-    return all;
-}
-
-std::string not_in(const std::string& text, const std::vector<std::string>& names) {
-    return fmt::format("{} not in {{{}}}{}", text, fmt::join(names, ","), did_you_mean(text, names));
-}
-
-template <class Value>
-using Named = std::vector<std::pair<std::string, Value>>;
-
-template <class Value>
-std::vector<std::string> names(const Named<Value>& all) {
-    std::vector<std::string> found;
-    for (const auto& [name, value] : all) found.push_back(name);
-    return found;
-}
-
-template <class Value>
-std::optional<Value> value(const Named<Value>& all, const std::string& name) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.first == name; });
-    return found == all.end() ? std::nullopt : std::optional(found->second);
-}
-
-template <class Value>
-std::string name(const Named<Value>& all, const Value& value) {
-    return std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.second == value; })->first;
-}
 
 // A value of --direct: everything in DirectLightSettings but the choice among lights.
 struct Strategy {
@@ -81,13 +47,6 @@ const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Sp
 const Named<LeastError> least_errors{
     {"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_product}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
-
-// Names of Mitsuba, pbrt and papers.
-const Named<std::string> methods_elsewhere{
-    {"path", "walk"},      {"pt", "walk"},           {"bdpt", "bidirectional"},  {"vcm", "photon or bidirectional"},
-    {"ptracer", "light"},  {"lighttracer", "light"}, {"photonmapper", "photon"}, {"ppm", "photon"},
-    {"sppm", "photon"},    {"mlt", "metropolis"},    {"mmlt", "metropolis"},     {"pssmlt", "metropolis"},
-    {"irrcache", "cache"}, {"radiosity", "patches"}, {"whitted", "classic"}};
 
 template <class Number>
 std::optional<Number> number(const std::string& text) {
@@ -322,12 +281,6 @@ std::vector<MethodOption> make_options() {
             [](auto& m, bool on) { m.importance = on; })};
 }
 
-std::string listed(const std::vector<std::string>& names) {
-    if (names.size() == 1) return names.front();
-    return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
-}
-
-// Throws InputError if options exclude each other. `lights`: --lights was given.
 void expect_sense(const method::Walk& walk, bool lights) {
     if (lights && !asks_lights(walk.direct))
         throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
@@ -353,105 +306,10 @@ std::span<const MethodOption> method_options() {
     return all;
 }
 
-std::vector<std::string> method_names() {
-    std::vector<std::string> names;
-    for (const Method& method : all_methods()) names.push_back(name_of(method));
-    return names;
-}
-
-std::string wrong_method(const std::string& name) {
-    const std::vector<std::string> all = method_names();
-    if (std::ranges::find(all, name) != all.end()) return "";
-    if (const auto here = value(methods_elsewhere, name)) return fmt::format("what other programs call {} is {} here", name, *here);
-    return not_in(name, all);
-}
-
-const std::string& method_help() {
-    static const std::string text =
-        "auto: of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a short "
-        "pilot, the default (walk, if an option is given that auto does not have, or the render is small); walk: one walk from the "
-        "camera "
-        "for all bounces; guided: the same with directions sampled from a matrix "
-        "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
-        "sampled on all surfaces; light: walks from the lights to the camera; "
-        "bidirectional: walks from both ends, joined everywhere; photon: photon maps, for caustics, with a bias that falls; "
-        "cache: an irradiance cache, for diffuse rooms, with a bias that stays; "
-        "metropolis: chains of paths that mutate, for light that is hard to find; "
-        "classic: mirrors and glass alone, which leaves out other paths; "
-        "pointwise: each bounce by itself, slow and plain; matrix: T and R on patches, fast; gather: the same with K applied once "
-        "more at the pixel; patches: the patches as they are";
-    return text;
-}
-
 std::string name_of(const DirectLightSettings& direct) { return name(strategies, strategy(direct)); }
 
-Method make_method(const MethodText& text) {
-    if (text.name.empty()) {
-        const Method open = method::Auto{};
-        const bool enough = std::all_of(text.options.begin(), text.options.end(), [&](const auto& given) {
-            const auto all = method_options();
-            return std::any_of(all.begin(), all.end(),
-                               [&](const MethodOption& o) { return o.name == given.first && o.belongs_to(open); });
-        });
-        return make_method({enough ? name_of(open) : method::Walk::name, text.options});
-    }
-    const auto is_it = [&](const Method& method) { return name_of(method) == text.name; };
-    const auto found = std::find_if(all_methods().begin(), all_methods().end(), is_it);
-    if (found == all_methods().end()) throw InputError("--method: " + wrong_method(text.name));
-    Method method = *found;
-    bool lights = false;
-    for (const auto& [name, value] : text.options) {
-        const auto all = method_options();
-        const auto o =
-            std::find_if(all.begin(), all.end(), [&, &n = name](const MethodOption& option) { return option.name == n; });
-        if (o == all.end())
-            throw InputError(fmt::format("'{}' is not an option of a method, such as direct, lights or roulette", name));
-        if (!o->belongs_to(method)) {
-            std::vector<std::string> owners;
-            for (const Method& m : all_methods())
-                if (o->belongs_to(m)) owners.push_back(name_of(m));
-            throw InputError(fmt::format("--{} belongs to --method {}, not to {}", name, listed(owners), text.name));
-        }
-        if (const std::string wrong = o->wrong(value); !wrong.empty()) throw InputError(fmt::format("--{}: {}", name, wrong));
-        o->read(method, value);
-        lights = lights || name == "lights";
-    }
+void expect_sense(const Method& method, bool lights) {
     std::visit([&](const auto& m) { expect_sense(m, lights); }, method);
-    return method;
-}
-
-Method read_method(const std::string& word) {
-    MethodText text;
-    std::istringstream parts(word);
-    std::string part;
-    std::getline(parts, text.name, ':');
-    while (std::getline(parts, part, ':')) {
-        const std::size_t equals = part.find('=');
-        if (equals == std::string::npos)
-            throw InputError(fmt::format("{}: '{}' is no option, expected NAME=VALUE as in direct=bsdf", word, part));
-        text.options.emplace_back(part.substr(0, equals), part.substr(equals + 1));
-    }
-    try {
-        return make_method(text);
-    } catch (const InputError& e) {
-        throw InputError(fmt::format("{}: {}", word, e.what()));
-    }
-}
-
-MethodText text_of(const Method& method) {
-    MethodText text{name_of(method)};
-    for (const MethodOption& o : method_options())
-        if (const std::string value = o.text(method); !value.empty()) text.options.emplace_back(o.name, value);
-    return text;
-}
-
-MethodText differences_of(const Method& method) {
-    const MethodText usual = text_of(make_method({name_of(method), {}}));
-    MethodText text = text_of(method);
-    std::erase_if(text.options, [&](const auto& option) {
-        return std::find(usual.options.begin(), usual.options.end(), option) != usual.options.end();
-    });
-    return text;
 }
 
 }  // namespace neumann

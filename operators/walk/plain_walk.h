@@ -59,7 +59,7 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
         rays[q] += walkers.alive.size();
         walkers.follow(T, bounce, observer, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.w;
-            if (emitters.is_emitter(w.x.shape)) {
+            if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
                 const Rgb emitted = emitters.emitted(w.x, w.wo);
                 if (!is_black(emitted)) find(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf, w.from, w.w, w.x));
             }

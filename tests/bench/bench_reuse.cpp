@@ -15,6 +15,7 @@
 #include "operators/walk/continuation.h"
 #include "operators/walk/direct_light.h"
 #include "operators/walk/walks.h"
+#include "tests/bench/bench_arguments.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -169,13 +170,7 @@ Sums measure(const Scene& scene, const DirectLightSampler& direct, int left, int
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::string resolution = argc > 1 ? argv[1] : "64";
-    const std::uint32_t samples = argc > 2 ? static_cast<std::uint32_t>(std::stoul(argv[2])) : 64;
-    std::vector<std::string> paths(argv + std::min(argc, 3), argv + argc);
-    if (paths.empty())
-        for (const char* name :
-             {"cornell-box", "door-ajar", "floating-panels", "glossy-floor", "metal-room", "glass-ball", "outdoor"})
-            paths.push_back(fmt::format("{}/{}/{}.xml", SCENES, name, name));
+    const auto [resolution, samples, paths] = BenchArguments(argc, argv, "64", 64);
     for (const std::string& path : paths) {
         const Scene scene = read_scene(path, {{"res", resolution}});
         const DirectLightSampler direct(scene, {});

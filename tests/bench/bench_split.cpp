@@ -6,6 +6,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/pictures/picture_sampler.h"
 #include "operators/splitting/tree_pilot.h"
+#include "tests/bench/bench_arguments.h"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -53,13 +54,7 @@ double measured(const Scene& scene, int walks, std::uint64_t samples) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::string resolution = argc > 1 ? argv[1] : "32";
-    const std::uint32_t samples = argc > 2 ? static_cast<std::uint32_t>(std::stoul(argv[2])) : 1024;
-    std::vector<std::string> paths(argv + std::min(argc, 3), argv + argc);
-    if (paths.empty())
-        for (const char* name :
-             {"cornell-box", "door-ajar", "floating-panels", "glossy-floor", "metal-room", "glass-ball", "outdoor"})
-            paths.push_back(fmt::format("{}/{}/{}.xml", SCENES, name, name));
+    const auto [resolution, samples, paths] = BenchArguments(argc, argv, "32", 1024);
     for (const std::string& path : paths) {
         const Scene scene = read_scene(path, {{"res", resolution}});
         const TreePilot pilot = measure_tree(scene, bounces, samples, 1);
