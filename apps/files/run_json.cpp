@@ -8,6 +8,7 @@
 #include "apps/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/cache/record_places.h"
+#include "operators/mixture/mixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,22 @@ Json chains_json(const std::vector<ChainStatistics>& all) {
     return json;
 }
 
+// What each method of a mixture does: its part of the work, and its mean weight in each bounce.
+Json mixture_json(const Mixture& mixture) {
+    Json json = Json::array();
+    const std::size_t blocks = mixture.blocks.count();
+    for (std::size_t part = 0; part < mixture.parts.size(); ++part) {
+        std::vector<double> weights(mixture.bounces, 0.0);
+        for (std::size_t bounce = 0; bounce < mixture.bounces; ++bounce)
+            for (std::size_t block = 0; block < blocks; ++block)
+                weights[bounce] += mixture.weight(part, bounce, block) / static_cast<double>(blocks);
+        json.push_back({{"method", mixture.parts[part].method},
+                        {"part_of_work", mixture.parts[part].share},
+                        {"mean_weight_of_bounces", weights}});
+    }
+    return json;
+}
+
 Json samples_json(const BounceSeries& series) {
     Json json = {{"per_pixel", series.samples}};
     if (const auto* paths = std::get_if<PathRecord>(&series.record)) {
@@ -172,6 +189,7 @@ Json samples_json(const BounceSeries& series) {
             for (const double ratio : paths->tree->of_depths)
                 json["at_depths"].push_back(json["at_depths"].back().get<double>() * ratio);
         }
+        if (paths->mixture) json["mixture"] = mixture_json(*paths->mixture);
         if (!paths->chains.empty()) json["chains"] = chains_json(paths->chains);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},

@@ -117,6 +117,12 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
         add("strip-sums.png", [&] { return strip_png(of_sums, exposure, font, note); });
         if (!doubling.empty()) add("strip-doubling.png", [&] { return strip_png(doubling, exposure, font, note); });
     }
+    std::vector<Image> maps;
+    Strip of_mixture;
+    if (const auto* paths = std::get_if<PathRecord>(&series.record); files.strips && paths && paths->mixture) {
+        of_mixture = strip_of_mixture(*paths->mixture, maps);
+        add("strip-mixture.png", [&] { return strip_png(of_mixture, 1.0, font, note); });
+    }
     run_jobs(jobs, jobs.size());
     return {font ? ""
                  : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "

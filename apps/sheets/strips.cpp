@@ -23,9 +23,12 @@ double brightening(const Image& term, const Image& emission, double exposure) {
     return black ? 1.0 : std::max(1.0, factor);
 }
 
+// "", "K ", "K² ", …
+std::string power_of(const std::string& K, std::size_t i) { return i == 0 ? "" : i == 1 ? K + " " : K + superscript(i) + " "; }
+
 // "Le", "K Le", "K² Le", … and "16 K² Le".
 LabelledPicture term(const SeriesPictures& series, std::size_t i, double factor = 1.0) {
-    const std::string power = i == 0 ? "" : i == 1 ? series.K + " " : series.K + superscript(i) + " ";
+    const std::string power = power_of(series.K, i);
     return {(factor == 1.0 ? "" : fmt::format("{:.6g} ", factor)) + power + series.Le + series.kind, &series.terms[i], factor};
 }
 
@@ -88,6 +91,22 @@ Strip strip_of_doubling(const SeriesPictures& series) {
     for (std::size_t i = 1; i <= last && i < series.sums.size(); i *= 2) strip[0].push_back(sum_to(series, i));
     if (series.sums.size() <= last && series.limit != nullptr) strip[0].push_back(limit_of(series));
     return strip[0].empty() ? Strip() : strip;
+}
+
+Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps) {
+    const std::size_t bounces = std::min(mixture.bounces, last_in_strip + 1);
+    maps.clear();
+    for (std::size_t part = 0; part < mixture.parts.size(); ++part)
+        for (std::size_t bounce = 0; bounce < bounces; ++bounce) {
+            Image& map = maps.emplace_back(static_cast<int>(mixture.blocks.across), static_cast<int>(mixture.blocks.down));
+            for (std::size_t block = 0; block < map.pixels.size(); ++block) map.pixels[block] = Rgb(mixture.weight(part, bounce, block));
+        }
+    Strip strip;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        if (i % bounces == 0) strip.emplace_back();
+        strip.back().push_back({mixture.parts[i / bounces].method + ", " + power_of("K", i % bounces) + "Le", &maps[i]});
+    }
+    return strip;
 }
 
 std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font, const std::string& comment) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/sheets/labelled_picture.h"
+#include "operators/mixture/mixture.h"
 
 #include <optional>
 #include <span>
@@ -35,6 +36,10 @@ Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double
 Strip strip_of_sums(const SeriesPictures& series);
 // The sums up to bounce 1, 2, 4, 8 and 16. If the series ends before, its limit follows. May be empty.
 Strip strip_of_doubling(const SeriesPictures& series);
+
+// For each method of a mixture a row with its weights in bounces 0 to 6, as far as they exist, from 0 (black) to 1 (white): a pixel is a
+// block of the picture. The pictures are kept in `maps`.
+Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps);
 
 // A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. The strip must not be empty.
 // The file carries the comment, unless that is empty.

@@ -39,6 +39,7 @@ struct PathRecord {
     std::shared_ptr<const PhotonPilot> photons;            // of `photon`
     std::shared_ptr<const RecordPlaces> records;           // of `cache`
     std::shared_ptr<const TreeRatios> tree;                // of --tree
+    std::shared_ptr<const Mixture> mixture;                // of `mixed`
     std::uint32_t fewest_of_pixel = 0, most_of_pixel = 0;  // samples in a replicate, where pixels have different numbers
     std::vector<ChainStatistics> chains;                   // of `metropolis`, for bounces 0 … N
     std::optional<Health> health;                          // none if only pictures were wanted

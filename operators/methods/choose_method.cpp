@@ -4,6 +4,7 @@
 #include "core/base/stopwatch.h"
 #include "operators/correction/diffuse_sides.h"
 #include "operators/methods/ahead.h"
+#include "operators/methods/candidates.h"
 #include "operators/methods/render.h"
 #include "operators/pictures/missing_paths.h"
 
@@ -31,18 +32,6 @@ constexpr double fewest_to_distribute = 32.0;
 constexpr double largest_known_error = 1.0;
 // Rays before the first sample are traced in order, without shading.
 constexpr double price_of_setup = 0.3;
-
-// The time of a method's ray in that of the walk's, measured on the scenes in scenes/.
-struct Candidate {
-    Method method;
-    double price;
-};
-
-std::vector<Candidate> candidates(const method::Auto& open, const Scene& scene) {
-    std::vector<Candidate> all{{method::Walk{open}, 1.0}, {method::Corrected{open}, 1.3}, {method::Guided{open}, 1.2}};
-    if (!scene.hide_emitters) all.push_back({method::Bidirectional{open}, 1.4});
-    return all;
-}
 
 double square(const Image& image) {
     double sum = 0.0;
@@ -134,11 +123,11 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
     const Scene small = scene.with(small_film(scene.film, trial_width));
     std::vector<Candidate> all;
     std::vector<Result> results;
-    for (Candidate& candidate : candidates(open, scene)) {
+    for (const Candidate& candidate : candidates(open, scene)) {
         if (watch.stop()) break;
         try {
             results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));
-            all.push_back(std::move(candidate));
+            all.push_back(candidate);
         } catch (const InputError&) {
             // Others refuse what the walk does not: a scene without surfaces has no patches.
             if (all.empty()) throw;

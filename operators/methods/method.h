@@ -115,6 +115,13 @@ struct Metropolis : PathOptions {
     bool operator==(const Metropolis&) const = default;
 };
 
+// Walk, guided, corrected and bidirectional together: each block of the picture and each bounce is a mean of their pictures, weighted by
+// their precision there, which a pilot tells (best_mixture.h).
+struct Mixed : PathOptions {
+    static constexpr const char* name = "mixed";
+    bool operator==(const Mixed&) const = default;
+};
+
 // Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
 struct Classic : PathOptions {
     static constexpr const char* name = "classic";
@@ -156,7 +163,7 @@ struct Patches : FieldOptions {
 }  // namespace method
 
 using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                            method::Bidirectional, method::Photon, method::Cache, method::Metropolis, method::Classic,
+                            method::Bidirectional, method::Mixed, method::Photon, method::Cache, method::Metropolis, method::Classic,
                             method::Pointwise, method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {

@@ -17,7 +17,7 @@ const Named<std::string> methods_elsewhere{
 
 const std::vector<Method>& all_methods() {
     static const std::vector<Method> all{method::Auto{},    method::Walk{},       method::Guided{},        method::Corrected{},
-                                         method::Surface{}, method::Light{},      method::Bidirectional{}, method::Photon{},
+                                         method::Surface{}, method::Light{},      method::Bidirectional{}, method::Mixed{}, method::Photon{},
                                          method::Cache{},   method::Metropolis{}, method::Classic{},       method::Pointwise{},
                                          method::Matrix{},  method::Gather{},     method::Patches{}};
     return all;
@@ -44,7 +44,8 @@ const std::string& method_help() {
         "for all bounces; guided: the same with directions sampled from a matrix "
         "solution; corrected: walks that read approximate fields on patches and remove their errors; surface: the same with points "
         "sampled on all surfaces; light: walks from the lights to the camera; "
-        "bidirectional: walks from both ends, joined everywhere; photon: photon maps, for caustics, with a bias that falls; "
+        "bidirectional: walks from both ends, joined everywhere; mixed: walk, guided, corrected and bidirectional, each for the "
+        "blocks of the picture and the bounces where it is best; photon: photon maps, for caustics, with a bias that falls; "
         "cache: an irradiance cache, for diffuse rooms, with a bias that stays; "
         "metropolis: chains of paths that mutate, for light that is hard to find; "
         "classic: mirrors and glass alone, which leaves out other paths; "

@@ -10,6 +10,7 @@
 #include "operators/methods/path_warnings.h"
 #include "operators/methods/render_job.h"
 #include "operators/methods/sampling.h"
+#include "operators/mixture/mixture.h"
 #include "operators/photons/photon_pilot.h"
 #include "operators/pictures/least_errors.h"
 
@@ -160,6 +161,8 @@ Method as_it_ran(Method method, const SamplingSettings& settings, const Film& fi
                 m.chain = chain_numbers(settings.layout(film).paths(), settings.chain_length).length;
         },
         method);
+    if (const auto* mixed = std::get_if<method::Mixed>(&method); mixed && !settings.mixture)
+        return method::Walk{*mixed};  // its pilot was interrupted
     return method;
 }
 
@@ -259,6 +262,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
         if (settings.records) series.rays += settings.records->rays();
         if (settings.allocation) series.rays += settings.allocation->rays;
         if (settings.tree) series.rays += settings.tree->rays;
+        if (settings.mixture) series.rays += settings.mixture->rays;
         for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
     }
 
@@ -276,6 +280,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     record.records = settings.records;
     record.chains = sampled.tally.chains;
     record.tree = settings.tree;
+    record.mixture = settings.mixture;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;
         as_sampled.replicate_size = sampled.replicate_size;

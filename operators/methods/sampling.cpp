@@ -6,6 +6,7 @@
 #include "operators/guide/guide.h"
 #include "operators/methods/ahead.h"
 #include "operators/methods/method_options.h"
+#include "operators/methods/mixed_method.h"
 #include "operators/photons/photon_pilot.h"
 #include "operators/splitting/tree_ratios.h"
 #include "operators/walk/direct_light.h"
@@ -32,6 +33,7 @@ PathGenerator kind() {
     if constexpr (std::same_as<M, method::Photon>) return PathGenerator::photon;
     if constexpr (std::same_as<M, method::Cache>) return PathGenerator::cache;
     if constexpr (std::same_as<M, method::Metropolis>) return PathGenerator::metropolis;
+    if constexpr (std::same_as<M, method::Mixed>) return PathGenerator::mixed;
     if constexpr (std::same_as<M, method::Classic>) return PathGenerator::classic;
     return PathGenerator::pointwise;
 }
@@ -134,6 +136,16 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
         settings.records = std::make_shared<const RecordPlaces>(scene, settings_of(*cache), settings.sampler, seed, memory, watch);
     else if (const auto* walk = std::get_if<method::Walk>(&method); walk && walk->tree)
         settings.tree = tree_ratios(scene.with(small_film(scene.film, tree_width)), bounces, *walk->tree, watch);
+    else if (const auto* mixed = std::get_if<method::Mixed>(&method)) {
+        settings.generator = PathGenerator::walk;
+        try {
+            settings.mixture = std::make_shared<const Mixture>(make_mixture(*mixed, scene, settings, memory, watch));
+            settings.generator = PathGenerator::mixed;
+        } catch (const Stopped&) {
+            // What can still be sampled is walks; the render tells so.
+        }
+        return true;
+    }
     const std::optional<LeastError> least = adaptive_of(method);
     settings.allocation = {};
     try {

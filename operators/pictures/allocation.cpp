@@ -88,18 +88,21 @@ std::vector<double> best_numbers(const BlockCosts& all, LeastOf least_of) {
     return best;
 }
 
-std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, int most) {
-    const double budget = std::accumulate(costs.begin(), costs.end(), 0.0);
+std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, double budget, int most,
+                                   Below below) {
+    const auto power = [&](double number) -> std::int8_t {
+        const double k = number > 0.0 ? std::round(std::log2(number)) : -std::numeric_limits<double>::infinity();
+        if (k < -most && below == Below::none) return Allocation::none;
+        return static_cast<std::int8_t>(std::clamp<double>(k, -most, most));
+    };
     const auto powers = [&](double scale) {
         std::vector<std::int8_t> all;
-        for (const double s : numbers)
-            all.push_back(
-                static_cast<std::int8_t>(s > 0.0 ? std::clamp<double>(std::round(std::log2(scale * s)), -most, most) : -most));
+        for (const double s : numbers) all.push_back(power(scale * s));
         return all;
     };
     const auto cost = [&](const std::vector<std::int8_t>& all) {
         double sum = 0.0;
-        for (std::size_t b = 0; b < all.size(); ++b) sum += costs[b] * std::exp2(all[b]);
+        for (std::size_t b = 0; b < all.size(); ++b) sum += costs[b] * Allocation::times(all[b]);
         return sum;
     };
     double low = std::exp2(-2.0 * most), high = std::exp2(2.0 * most);
@@ -156,8 +159,9 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     if (least != LeastError::of_bounces) add(terms);
     Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
-    const std::vector<std::int8_t> powers = as_powers(
-        best_numbers(blocks, least == LeastError::of_product ? LeastOf::product : LeastOf::largest), blocks.costs, most_doublings);
+    const std::vector<std::int8_t> powers =
+        as_powers(best_numbers(blocks, least == LeastError::of_product ? LeastOf::product : LeastOf::largest), blocks.costs,
+                  std::accumulate(blocks.costs.begin(), blocks.costs.end(), 0.0), most_doublings);
     for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) allocation.exponents[pixel] = powers[block_of(pixel)];
     return std::make_shared<const Allocation>(std::move(allocation));
 }

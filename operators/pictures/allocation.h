@@ -22,7 +22,7 @@ namespace neumann {
 enum class LeastError {
     of_bounces,  // the largest relative error of a bounce
     of_sum,      // the relative error of the sum of all bounces
-    of_product       // the product of these, so that none is bought with much of another
+    of_product   // the product of these, so that none is bought with much of another
 };
 
 // V_kb for each k, k by k, and c_b.
@@ -37,12 +37,14 @@ struct BlockCosts {
 // s_b that make the largest e_k least, or their product, with Σ c_b s_b = Σ c_b.
 enum class LeastOf { largest, product };
 std::vector<double> best_numbers(const BlockCosts& costs, LeastOf least = LeastOf::largest);
-// The nearest powers of 2 to σ s_b, as exponents within ±most, with the largest σ for which they cost no more than Σ c_b.
-std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, int most);
+// The nearest powers of 2 to σ s_b, as exponents within ±most, with the largest σ for which they cost no more than `budget`. What
+// is below is as much as allowed, or none.
+enum class Below { least, none };
+std::vector<std::int8_t> as_powers(const std::vector<double>& numbers, std::span<const double> costs, double budget, int most,
+                                   Below below = Below::least);
 
-// For walks, guided ones and corrected ones among them, and the bidirectional method. By guides and fields as the seed has made them,
-// and otherwise the same for all seeds. Throws Stopped if
-// `watch` stops it.
+// For walks, guided ones and corrected ones among them, and the bidirectional method. By guides and fields as the seed has made
+// them, and otherwise the same for all seeds. Throws Stopped if `watch` stops it.
 std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
                                            const Watch& watch = {});
 

@@ -16,6 +16,8 @@ bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings) {
         case PathGenerator::corrected:
         case PathGenerator::cache:  // records stand at fixed places, apart from what they see
             return true;
+        case PathGenerator::mixed:  // of methods that are
+            return settings.walk.direct.direct == DirectLight::mis;
         case PathGenerator::bidirectional:
             return !settings.ways_of_last_bounce;  // half of these have no MIS weight
         default:

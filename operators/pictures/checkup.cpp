@@ -76,7 +76,7 @@ double Checkup::self_hits_at_most() const {
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
     if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected ||
-        has_two_radii(settings.generator) || settings.generator == PathGenerator::metropolis)
+        has_two_radii(settings.generator) || settings.generator == PathGenerator::metropolis || settings.generator == PathGenerator::mixed)
         return std::nullopt;
     const std::uint32_t size = settings.replicate_size;
     const SampleLayout& layout = sampler.layout();

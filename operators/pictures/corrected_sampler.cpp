@@ -33,7 +33,8 @@ CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& s
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)) {
     if (!settings.approximation) throw std::logic_error("PictureSampler: corrected fields are missing");
     points_ = std::make_shared<const PointMaker>(scene, *direct_, settings_.walk, *settings_.approximation, settings_.sampler,
-                                                 settings_.seed, choose_points(layout_.pixels(), settings_), at_point);
+                                                 settings_.seed, choose_points(settings_.pixels_of_points > 0 ? settings_.pixels_of_points : layout_.pixels(), settings_),
+                                                 at_point);
     std::uint32_t largest = 1;
     for (std::uint32_t pixel = 0; pixel < layout_.pixels(); ++pixel) largest = std::max(largest, layout_.size(pixel));
     for (std::uint32_t size = 1; size <= largest; size *= 2) direction_nets_.emplace_back(size * at_pixel.directions);

@@ -1,5 +1,6 @@
 #include "operators/pictures/least_errors.h"
 
+#include "operators/mixture/mixture.h"
 #include "operators/pictures/missing_paths.h"
 #include "operators/pictures/reachable_light.h"
 #include "operators/statistics/student_t.h"
@@ -63,6 +64,7 @@ public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
         : scene_(&scene),
           generator_(settings.generator),
+          reads_fields_(settings.approximation || (settings.mixture && settings.mixture->has(PathGenerator::corrected))),
           result_(&result),
           ranges_(&ranges),
           quantities_(result.quantities()),
@@ -124,7 +126,7 @@ private:
         return splats(generator_) ? std::min(part, 1.0) : part;
     }
     bool samples_are_mixtures(std::size_t q) const {
-        return (generator_ == PathGenerator::corrected || has_two_radii(generator_)) && q > 1;
+        return (reads_fields_ || has_two_radii(generator_)) && q > 1;
     }
     const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * stride_ + q]; }
 
@@ -178,6 +180,7 @@ private:
 
     const Scene* scene_;
     PathGenerator generator_;
+    bool reads_fields_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
     std::size_t quantities_, stride_;

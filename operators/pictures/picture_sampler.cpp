@@ -3,6 +3,7 @@
 #include "core/base/hot.h"
 #include "core/base/large_array.h"
 #include "operators/pictures/pixel_average.h"
+#include "operators/pictures/pixel_groups.h"
 #include "operators/pictures/whole_pictures.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -45,13 +46,23 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWor
     std::swap(waiting[level], work.carry);
 }
 
-std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler> make_sampler(
-    const Scene& scene, const SamplingSettings& settings) {
+// One thread's work space for pixels of a whole picture.
+struct PictureWork {
+    explicit PictureWork(std::size_t quantities) : average(quantities), tally(quantities) {}
+    PathGroup group;
+    PixelSamples samples;
+    PixelAverage average;
+    Tally tally;
+};
+
+std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler, MixedSampler>
+make_sampler(const Scene& scene, const SamplingSettings& settings) {
     if (splats(settings.generator)) return SplatSampler(scene, settings);
     if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
     if (settings.generator == PathGenerator::photon) return PhotonSampler(scene, settings);
     if (settings.generator == PathGenerator::cache) return CacheSampler(scene, settings);
     if (settings.generator == PathGenerator::metropolis) return MetropolisSampler(scene, settings);
+    if (settings.generator == PathGenerator::mixed) return MixedSampler(scene, settings);
     return make_estimator(scene, settings);
 }
 
@@ -170,7 +181,21 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
         return cache->sample_picture(replicate, picture, ranges, tally, watch);
     if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_))
         return chains->sample_picture(replicate, picture, ranges, tally, watch);
-    return std::get<CorrectedSampler>(sampler_).sample_picture(replicate, picture, ranges, tally, watch);
+    if (const auto* mixed = std::get_if<MixedSampler>(&sampler_))
+        return mixed->sample_picture(replicate, picture, ranges, tally, watch);
+    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_))
+        return corrected->sample_picture(replicate, picture, ranges, tally, watch);
+    return std::visit(
+        [&](const auto& estimate) {
+            return sample_groups<PictureWork>(
+                settings_, layout_, replicate, picture, ranges, tally, watch, [&](const PixelGroup& pixels, PictureWork& work) {
+                    work.samples.begin(scene_.film, settings_, layout_, pixels);
+                    work.tally.given_up +=
+                        trace(scene_, estimate, std::span(work.samples.samplers), std::span<const Pixel>(work.samples.pixels),
+                              replicate, work.group, std::span(work.tally.rays));
+                });
+        },
+        std::get<TermEstimator>(sampler_));
 }
 
 bool PictureSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {

@@ -6,6 +6,7 @@
 #include "operators/pictures/cache_sampler.h"
 #include "operators/pictures/corrected_sampler.h"
 #include "operators/pictures/metropolis_sampler.h"
+#include "operators/pictures/mixed_sampler.h"
 #include "operators/pictures/own_samples.h"
 #include "operators/pictures/path_group.h"
 #include "operators/pictures/photon_sampler.h"
@@ -64,6 +65,14 @@ public:
     // may have different numbers of samples. False if `watch` stopped it.
     bool own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch = {}) const;
 
+    // Adds the picture of one replicate, all quantities of each pixel, black where a pixel has no samples. False if `watch` stopped
+    // it.
+    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                        const Watch& watch = {}) const;
+
+    // Null unless several methods are mixed.
+    const MixedSampler* mixed() const { return std::get_if<MixedSampler>(&sampler_); }
+
     // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
     // their numbers in the group. With a cache: the ray of a record with this number, which has number 0.
     void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
@@ -79,13 +88,12 @@ private:
     // Samples pixels of replicates; data and ranges are of these pixels. Whether it was not stopped.
     bool sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
                        const Watch& watch) const;
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
 
     const Scene& scene_;
     Settings settings_;
     SampleLayout layout_;
-    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler> sampler_;
+    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler, MixedSampler>
+        sampler_;
 };
 
 }  // namespace neumann

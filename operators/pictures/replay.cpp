@@ -17,6 +17,15 @@ bool is_finite(const ReplayedStep& replayed) {
 }
 
 Replay replay(const PictureSampler& sampler, const SampleName& name) {
+    if (const MixedSampler* mixed = sampler.mixed()) {
+        const auto [of_part, name_there, part] = mixed->part_of(name);
+        Replay replayed = replay(of_part, name_there);
+        for (std::size_t q = 0; q < replayed.terms.size(); ++q) replayed.terms[q] *= mixed->scale(part, q, name.pixel);
+        for (ReplayedStep& step : replayed.steps)
+            for (auto& [quantity, value, position] : step.found)
+                value *= position ? mixed->scale(part, quantity, *position) : mixed->scale(part, quantity, name.pixel);
+        return replayed;
+    }
     struct Recorder : PathObserver {
         std::uint32_t chosen;
         std::vector<ReplayedStep> steps;

@@ -20,17 +20,20 @@ SampleLayout::SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared
         largest = std::max(largest, here);
         first_path_.push_back(paths);
         paths += here;
-        if (pixel == 0 || here != this->size(pixel - 1) || (pixel + 1 - group_begin_.back()) * here > std::max(paths_at_once, here))
-            group_begin_.push_back(pixel);
+        if (here == 0) continue;
+        const bool goes_on = !groups_.empty() && groups_.back().end == pixel && groups_.back().size == here &&
+                             (pixel + 1 - groups_.back().begin) * here <= paths_at_once;
+        if (!goes_on) groups_.push_back({pixel, pixel, here});
+        ++groups_.back().end;
     }
     first_path_.push_back(paths);
-    group_begin_.push_back(pixels);
     for (std::uint32_t points = 1; points <= largest; points *= 2) nets_.emplace_back(points);
 }
 
 std::uint32_t SampleLayout::size(std::uint32_t pixel) const {
     if (!allocation_) return size_;
     const int k = allocation_->exponents[pixel];
+    if (k == Allocation::none) return 0;
     return k >= 0 ? size_ << k : std::max(size_ >> -k, 1u);
 }
 
@@ -50,20 +53,20 @@ std::uint32_t SampleLayout::pixel_of(std::uint32_t path) const {
 }
 
 std::uint32_t SampleLayout::groups() const {
-    if (allocation_) return static_cast<std::uint32_t>(group_begin_.size()) - 1;
+    if (allocation_) return static_cast<std::uint32_t>(groups_.size());
     const std::uint32_t at_once = std::max(paths_at_once / size_, 1u);
     return (pixels_ + at_once - 1) / at_once;
 }
 
 PixelGroup SampleLayout::group(std::uint32_t number) const {
-    if (allocation_) return {group_begin_[number], group_begin_[number + 1], size(group_begin_[number])};
+    if (allocation_) return groups_[number];
     const std::uint32_t at_once = std::max(paths_at_once / size_, 1u);
     return {number * at_once, std::min((number + 1) * at_once, pixels_), size_};
 }
 
 std::uint32_t SampleLayout::group_of(std::uint32_t pixel) const {
     if (!allocation_) return pixel / std::max(paths_at_once / size_, 1u);
-    return static_cast<std::uint32_t>(std::ranges::upper_bound(group_begin_, pixel) - group_begin_.begin()) - 1;
+    return static_cast<std::uint32_t>(std::ranges::upper_bound(groups_, pixel, {}, &PixelGroup::begin) - groups_.begin()) - 1;
 }
 
 SampleName SampleLayout::name(std::uint64_t replicate, std::uint32_t path) const {

@@ -5,6 +5,7 @@
 #include "core/sampling/sobol_points.h"
 #include "operators/statistics/sample_place.h"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -12,8 +13,11 @@
 namespace neumann {
 
 struct Allocation {
-    std::vector<std::int8_t> exponents;  // k of all pixels of the crop, row by row
-    std::uint64_t rays = 0;              // cast to find them
+    static constexpr std::int8_t none = -128;  // of a pixel without samples
+    std::vector<std::int8_t> exponents;        // k of all pixels of the crop, row by row
+    std::uint64_t rays = 0;                    // cast to find them
+
+    static double times(std::int8_t exponent) { return exponent == none ? 0.0 : std::ldexp(1.0, exponent); }
 };
 
 // Consecutive pixels with as many samples each, whose paths advance together.
@@ -30,7 +34,8 @@ struct PlaceInGroup {
 
 class SampleLayout {
 public:
-    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many; otherwise size · 2^k, at least 1.
+    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many; otherwise size · 2^k, at least 1,
+    // or none.
     SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {});
 
     std::uint32_t size(std::uint32_t pixel) const;
@@ -41,9 +46,10 @@ public:
     std::uint32_t first_path(std::uint32_t pixel) const;
     std::uint32_t pixel_of(std::uint32_t path) const;
 
+    // Of all pixels that have samples.
     std::uint32_t groups() const;
     PixelGroup group(std::uint32_t number) const;
-    // Of which this pixel is one.
+    // Of which this pixel, which has samples, is one.
     std::uint32_t group_of(std::uint32_t pixel) const;
     // Of which this path is one.
     PixelGroup group_with(std::uint32_t path) const { return group(group_of(pixel_of(path))); }
@@ -57,9 +63,9 @@ public:
 private:
     std::uint32_t pixels_, size_;
     std::shared_ptr<const Allocation> allocation_;
-    std::vector<std::uint32_t> first_path_;   // of each pixel, and their number
-    std::vector<std::uint32_t> group_begin_;  // pixels; and the number of pixels
-    std::vector<SobolPoints> nets_;           // of 1, 2, 4, … points where there is an allocation; otherwise of `size`
+    std::vector<std::uint32_t> first_path_;  // of each pixel, and their number
+    std::vector<PixelGroup> groups_;
+    std::vector<SobolPoints> nets_;  // of 1, 2, 4, … points where there is an allocation; otherwise of `size`
 };
 
 }  // namespace neumann

@@ -14,6 +14,7 @@ namespace neumann {
 class Approximation;
 class Guide;
 class RecordPlaces;
+struct Mixture;
 struct PhotonPilot;
 struct TreeRatios;
 
@@ -27,6 +28,7 @@ enum class PathGenerator {
     photon,         // photon maps
     cache,          // walks from the camera that read an irradiance cache
     metropolis,     // Markov chains for each bounce
+    mixed,          // several of these, each where it is best
     classic,        // walks from the camera that follow delta lobes alone
     pointwise       // separate walks for each term
 };
@@ -50,8 +52,11 @@ struct SamplingSettings {
     std::uint64_t seed = 0;
     std::uint32_t replicate_size = 8;  // samples per pixel; a power of two
     std::uint32_t chain_length = 512;  // for `metropolis`: states of a chain
+    // For `corrected`: points are as many as for a film of so many pixels; 0: as for this one.
+    std::uint32_t pixels_of_points = 0;
     // Where pixels have different numbers of samples, in `walk`, `guided`, `corrected` and `bidirectional`.
     std::shared_ptr<const Allocation> allocation = {};
+    std::shared_ptr<const Mixture> mixture = {};  // for `mixed`
     std::shared_ptr<const TreeRatios> tree = {};  // for `walk`, if paths are trees (tree_walk.h)
     // If given, pictures and their errors are of this matrix times the samples' RGB.
     std::optional<glm::dmat3> colors = {};

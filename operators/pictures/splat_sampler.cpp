@@ -117,7 +117,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     ranges.merge(of_shares);
     const double of_splats = static_cast<double>(pixels_) / samples;
     for (std::size_t i = 0; i < picture.size(); ++i) {
-        const double own = 1.0 / layout_.size(static_cast<std::uint32_t>(i / Q));
+        const double own = 1.0 / std::max(layout_.size(static_cast<std::uint32_t>(i / Q)), 1u);
         picture[i] = own == of_splats ? (picture[i] + splatted[i]) * own : picture[i] * own + splatted[i] * of_splats;
         if (settings_.colors) picture[i] = *settings_.colors * picture[i];
     }

@@ -78,17 +78,17 @@ TEST(Allocation, ByPowersCostsNoMoreThanOneSampleEach) {
         std::vector<double> numbers(200), costs(200);
         for (double& s : numbers) s = numbers_of(random);
         for (double& c : costs) c = costs_of(random);
-        const auto powers = as_powers(numbers, costs, 4);
-        double cost = 0.0, budget = 0.0;
+        double cost = 0.0;
+        const double budget = std::accumulate(costs.begin(), costs.end(), 0.0);
+        const auto powers = as_powers(numbers, costs, budget, 4);
         for (std::size_t b = 0; b < 200; ++b) {
             EXPECT_LE(std::abs(powers[b]), 4);
             cost += costs[b] * std::exp2(powers[b]);
-            budget += costs[b];
         }
         EXPECT_LE(cost, budget);
         EXPECT_GE(cost, 0.9 * budget);
     }
-    EXPECT_EQ(as_powers({1.0, 1.0, 1.0}, std::vector{1.0, 1.0, 1.0}, 4), (std::vector<std::int8_t>{0, 0, 0}));
+    EXPECT_EQ(as_powers({1.0, 1.0, 1.0}, std::vector{1.0, 1.0, 1.0}, 3.0, 4), (std::vector<std::int8_t>{0, 0, 0}));
 }
 
 std::shared_ptr<const Allocation> pattern(std::size_t pixels) {
@@ -97,8 +97,16 @@ std::shared_ptr<const Allocation> pattern(std::size_t pixels) {
     return std::make_shared<const Allocation>(all);
 }
 
+// As pattern(), but every seventh pixel, the first and the last have no samples.
+std::shared_ptr<const Allocation> with_holes(std::size_t pixels) {
+    Allocation all = *pattern(pixels);
+    for (std::size_t pixel = 0; pixel < pixels; pixel += 7) all.exponents[pixel] = Allocation::none;
+    all.exponents.back() = Allocation::none;
+    return std::make_shared<const Allocation>(all);
+}
+
 TEST(SampleLayout, GivesEachPathANameAndFindsItAgain) {
-    for (const auto& allocation : {std::shared_ptr<const Allocation>(), pattern(101)})
+    for (const auto& allocation : {std::shared_ptr<const Allocation>(), pattern(101), with_holes(101)})
         for (const std::uint32_t size : {1u, 4u, 32u}) {
             const SampleLayout layout(101, size, allocation);
             std::uint32_t path = 0;

@@ -1,0 +1,16 @@
+#include "operators/methods/candidates.h"
+
+#include "operators/pictures/missing_paths.h"
+
+namespace neumann {
+
+std::vector<Candidate> candidates(const method::PathOptions& options, const Scene& scene) {
+    const Candidate both{method::Bidirectional{options}, 1.4};
+    // What mirrors and glass throw on from a light without extent is found from the light alone.
+    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && !scene.hide_emitters) return {both};
+    std::vector<Candidate> all{{method::Walk{options}, 1.0}, {method::Corrected{options}, 1.3}, {method::Guided{options}, 1.2}};
+    if (!scene.hide_emitters) all.push_back(both);
+    return all;
+}
+
+}  // namespace neumann

@@ -1,0 +1,18 @@
+// The methods among which `auto` chooses, and which `mixed` mixes.
+#pragma once
+
+#include "operators/methods/method.h"
+
+#include <vector>
+
+namespace neumann {
+
+struct Candidate {
+    Method method;
+    double price;  // the time of a ray in that of the walk's, measured on the scenes in scenes/
+};
+
+// Those that make the same paths in this scene, all that can be made. The first is the plainest.
+std::vector<Candidate> candidates(const method::PathOptions& options, const Scene& scene);
+
+}  // namespace neumann

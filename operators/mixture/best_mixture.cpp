@@ -1,0 +1,119 @@
+#include "operators/mixture/best_mixture.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace neumann {
+
+namespace {
+
+constexpr int steps = 300;
+
+// P_kb, bounce by bounce.
+std::vector<double> precisions(const MixtureCosts& all, const std::vector<double>& numbers) {
+    std::vector<double> P(all.errors * all.blocks, 0.0);
+    for (std::size_t m = 0; m < all.methods; ++m)
+        for (std::size_t k = 0; k < all.errors; ++k)
+            for (std::size_t b = 0; b < all.blocks; ++b)
+                P[k * all.blocks + b] += numbers[m * all.blocks + b] / all.variance(m, k, b);
+    return P;
+}
+
+std::vector<double> errors_with(const MixtureCosts& all, const std::vector<double>& P) {
+    std::vector<double> errors(all.errors, 0.0);
+    for (std::size_t k = 0; k < all.errors; ++k)
+        for (std::size_t b = 0; b < all.blocks; ++b) errors[k] += 1.0 / P[k * all.blocks + b];
+    return errors;
+}
+
+void spend(const MixtureCosts& all, std::vector<double>& numbers) {
+    double cost = 0.0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) cost += all.costs[i] * numbers[i];
+    const double scale = all.budget / cost;
+    for (double& s : numbers) s *= scale;
+}
+
+double mean_of(const MixtureCosts& all, const std::vector<double>& errors) {
+    double of_sum = 0.0, logarithms = 0.0;
+    for (std::size_t k = 0; k < all.errors; ++k) {
+        of_sum += all.sizes[k] * errors[k];
+        logarithms += std::log(errors[k]);
+    }
+    return std::exp((logarithms + std::log(of_sum)) / static_cast<double>(all.errors + 1));
+}
+
+}  // namespace
+
+std::vector<double> best_mixture(const MixtureCosts& all) {
+    std::vector<double> numbers(all.methods * all.blocks, 1.0), best;
+    spend(all, numbers);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<double> weights(all.errors);
+    for (int step = 0; step < steps; ++step) {
+        const std::vector<double> P = precisions(all, numbers), errors = errors_with(all, P);
+        if (const double mean = mean_of(all, errors); mean < least) {
+            least = mean;
+            best = numbers;
+        }
+        const double of_sum = std::inner_product(errors.begin(), errors.end(), all.sizes.begin(), 0.0);
+        for (std::size_t k = 0; k < all.errors; ++k) weights[k] = 1.0 / errors[k] + all.sizes[k] / of_sum;
+        for (std::size_t m = 0; m < all.methods; ++m)
+            for (std::size_t b = 0; b < all.blocks; ++b) {
+                double g = 0.0;
+                for (std::size_t k = 0; k < all.errors; ++k) {
+                    const double p = P[k * all.blocks + b];
+                    g += weights[k] / (all.variance(m, k, b) * p * p);
+                }
+                numbers[m * all.blocks + b] *= std::sqrt(g / all.costs[m * all.blocks + b]);
+            }
+        spend(all, numbers);
+    }
+    return best;
+}
+
+std::vector<double> weights_of(const MixtureCosts& all, const std::vector<double>& numbers) {
+    const std::vector<double> P = precisions(all, numbers);
+    std::vector<double> weights(all.variances.size());
+    for (std::size_t m = 0; m < all.methods; ++m)
+        for (std::size_t k = 0; k < all.errors; ++k)
+            for (std::size_t b = 0; b < all.blocks; ++b) {
+                const double p = P[k * all.blocks + b];
+                weights[(m * all.errors + k) * all.blocks + b] =
+                    p > 0.0 ? numbers[m * all.blocks + b] / (all.variance(m, k, b) * p) : 1.0 / static_cast<double>(all.methods);
+            }
+    return weights;
+}
+
+std::vector<double> shares_of(const MixtureCosts& all, const std::vector<double>& numbers) {
+    std::vector<double> shares(all.methods, 0.0);
+    double cost = 0.0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        shares[i / all.blocks] += all.costs[i] * numbers[i];
+        cost += all.costs[i] * numbers[i];
+    }
+    for (double& share : shares) share /= cost;
+    return shares;
+}
+
+double mean_error(const MixtureCosts& all, const std::vector<double>& numbers) {
+    return mean_of(all, errors_with(all, precisions(all, numbers)));
+}
+
+MixtureCosts without(const MixtureCosts& all, std::size_t method) {
+    MixtureCosts left = all;
+    const auto cut = [method](std::vector<double>& of, std::size_t stride) {
+        const auto begin = of.begin() + static_cast<std::ptrdiff_t>(method * stride);
+        of.erase(begin, begin + static_cast<std::ptrdiff_t>(stride));
+    };
+    cut(left.variances, all.errors * all.blocks);
+    cut(left.costs, all.blocks);
+    --left.methods;
+    return left;
+}
+
+std::vector<double> errors_of(const MixtureCosts& all, const std::vector<double>& numbers) {
+    return errors_with(all, precisions(all, numbers));
+}
+
+}  // namespace neumann

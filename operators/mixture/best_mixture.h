@@ -1,0 +1,47 @@
+// How several unbiased methods are best mixed over the blocks of a picture and its bounces.
+//
+// With V_mkb the variance of a sample by method m of bounce k in block b, as a part of the bounce's squared size, c_mb what the
+// sample costs, and s_mb samples in each pixel, the means are weighted by their precision,
+//
+//     w_mkb = (s_mb / V_mkb) / P_kb,   P_kb = Σ_m s_mb / V_mkb,      and the error of bounce k is  e_k² = Σ_b 1 / P_kb.
+//
+// This is convex in s. At given cost Σ c_mb s_mb the product of the errors of all bounces and of their sum is least where
+//
+//     g_mb = Σ_k λ_k / (V_mkb P_kb²)   is c_mb times the same for all s_mb > 0,     λ_k ∝ 1/e_k² + r_k/e²,   e² = Σ_k r_k e_k²,
+//
+// r_k the squared size of bounce k as a part of the sum's, whose bounces count as if they were independent. It is found by
+// multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010).
+// As in MARS (Grittmann et al. 2024), who choose numbers of samples of techniques by pilots; there techniques share their paths'
+// weights, here methods are estimators of their own.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace neumann {
+
+struct MixtureCosts {
+    std::size_t methods = 0, errors = 0, blocks = 0;
+    std::vector<double> variances;  // V_mkb > 0, method by method, bounce by bounce
+    std::vector<double> costs;      // c_mb, method by method
+    std::vector<double> sizes;      // r_k
+    double budget = 1.0;            // Σ_mb c_mb s_mb
+
+    double& variance(std::size_t m, std::size_t k, std::size_t b) { return variances[(m * errors + k) * blocks + b]; }
+    double variance(std::size_t m, std::size_t k, std::size_t b) const { return variances[(m * errors + k) * blocks + b]; }
+};
+
+// s_mb, method by method.
+std::vector<double> best_mixture(const MixtureCosts& costs);
+// w_mkb, arranged as variances; with s_mb = 0 for all m the methods have equal weights.
+std::vector<double> weights_of(const MixtureCosts& costs, const std::vector<double>& numbers);
+// e_k² with these numbers.
+std::vector<double> errors_of(const MixtureCosts& costs, const std::vector<double>& numbers);
+// The geometric mean of e_k², for all bounces and their sum: what best_mixture() makes least.
+double mean_error(const MixtureCosts& costs, const std::vector<double>& numbers);
+// Each method's part of the cost.
+std::vector<double> shares_of(const MixtureCosts& costs, const std::vector<double>& numbers);
+// What is left of the costs without one method.
+MixtureCosts without(const MixtureCosts& costs, std::size_t method);
+
+}  // namespace neumann

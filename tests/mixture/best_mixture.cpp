@@ -1,0 +1,87 @@
+// The best mixture of methods beside closed forms, and beside all others nearby.
+#include "operators/mixture/best_mixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace neumann::best_mixture_test {
+
+double product_of(const MixtureCosts& costs, const std::vector<double>& numbers) {
+    double sum = 0.0, logarithm = 0.0;
+    const std::vector<double> errors = errors_of(costs, numbers);
+    for (std::size_t k = 0; k < costs.errors; ++k) {
+        sum += costs.sizes[k] * errors[k];
+        logarithm += std::log(errors[k]);
+    }
+    return logarithm + std::log(sum);
+}
+double cost_of(const MixtureCosts& costs, const std::vector<double>& numbers) {
+    return std::inner_product(numbers.begin(), numbers.end(), costs.costs.begin(), 0.0);
+}
+
+// One method and one bounce: s_b ∝ √(V_b / c_b).
+TEST(BestMixture, OfOneMethodGivesBlocksWhatTheyNeed) {
+    const MixtureCosts costs{1, 1, 3, {1.0, 4.0, 9.0}, {1.0, 1.0, 4.0}, {1.0}, 6.0};
+    const std::vector<double> numbers = best_mixture(costs);
+    const double scale = 6.0 / (1.0 + 2.0 + 4.0 * 1.5);
+    EXPECT_NEAR(numbers[0], scale, 1e-3);
+    EXPECT_NEAR(numbers[1], 2.0 * scale, 1e-3);
+    EXPECT_NEAR(numbers[2], 1.5 * scale, 1e-3);
+    EXPECT_NEAR(cost_of(costs, numbers), 6.0, 1e-9);
+}
+
+// Where a method is better for its cost in all bounces, it gets all samples; where both cost V c alike, both have equal precision
+// for their cost, and the weights are as the costs spent.
+TEST(BestMixture, TakesTheBetterMethodInEachBlock) {
+    const MixtureCosts costs{2, 1, 2, {1.0, 8.0, 6.0, 1.0}, {1.0, 1.0, 1.0, 1.0}, {1.0}, 2.0};
+    const std::vector<double> numbers = best_mixture(costs);
+    EXPECT_NEAR(numbers[0], 1.0, 1e-3);
+    EXPECT_NEAR(numbers[1], 0.0, 1e-3);
+    EXPECT_NEAR(numbers[2], 0.0, 1e-3);
+    EXPECT_NEAR(numbers[3], 1.0, 1e-3);
+    const std::vector<double> weights = weights_of(costs, {1.0, 1.0, 3.0, 2.0});
+    // Σ_m s/V = 1 + 3/6 in block 0, 1/8 + 2 in block 1.
+    EXPECT_DOUBLE_EQ(weights[0], 1.0 / 1.5);
+    EXPECT_DOUBLE_EQ(weights[1], 0.125 / 2.125);
+    EXPECT_DOUBLE_EQ(weights[2], 0.5 / 1.5);
+    EXPECT_DOUBLE_EQ(weights[3], 2.0 / 2.125);
+    const std::vector<double> errors = errors_of(costs, {1.0, 1.0, 3.0, 2.0});
+    EXPECT_DOUBLE_EQ(errors[0], 1.0 / 1.5 + 1.0 / 2.125);
+    const std::vector<double> shares = shares_of(costs, {1.0, 1.0, 3.0, 2.0});
+    EXPECT_DOUBLE_EQ(shares[0], 2.0 / 7.0);
+}
+
+// Two methods, each good for one of two bounces of equal size, one block: by the symmetry half of the cost each.
+TEST(BestMixture, SharesABlockWhereEachMethodHasItsBounce) {
+    const MixtureCosts costs{2, 2, 1, {1.0, 100.0, 100.0, 1.0}, {1.0, 1.0}, {0.5, 0.5}, 1.0};
+    const std::vector<double> numbers = best_mixture(costs);
+    EXPECT_NEAR(numbers[0], 0.5, 1e-3);
+    EXPECT_NEAR(numbers[1], 0.5, 1e-3);
+}
+
+// The problem is convex, so a place that no nearby one betters is the best: 200 random problems, 50 steps away from each.
+TEST(BestMixture, IsBetterThanAllNearby) {
+    std::mt19937_64 random(7);
+    std::lognormal_distribution<double> variance(0.0, 2.0), cost(0.0, 0.5), step(0.0, 0.1);
+    for (int problem = 0; problem < 200; ++problem) {
+        MixtureCosts costs{3, 4, 5, std::vector<double>(60), std::vector<double>(15), {0.6, 0.2, 0.15, 0.05}, 5.0};
+        for (double& v : costs.variances) v = variance(random);
+        for (double& c : costs.costs) c = cost(random);
+        const std::vector<double> best = best_mixture(costs);
+        EXPECT_NEAR(cost_of(costs, best), 5.0, 1e-9);
+        for (int k = 0; k < 50; ++k) {
+            std::vector<double> other = best;
+            for (double& s : other) s *= step(random);
+            const double scale = 5.0 / cost_of(costs, other);
+            for (double& s : other) s *= scale;
+            EXPECT_GE(product_of(costs, other), product_of(costs, best) - 1e-3) << problem;
+        }
+        const std::vector<double> weights = weights_of(costs, best);
+        for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(weights[i] + weights[20 + i] + weights[40 + i], 1.0, 1e-12);
+    }
+}
+
+}  // namespace neumann::best_mixture_test
