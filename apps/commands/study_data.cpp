@@ -16,6 +16,7 @@ std::string StudyData::picture_name(std::size_t picture) const {
 std::vector<std::string> StudyData::warnings() const {
     std::vector<std::string> all;
     for (const auto& [text, count] : scene.warnings.counts()) all.push_back(text);
+    for (const std::string& why : left_out) all.push_back("left out: " + why);
     all.insert(all.end(), reference.warnings.begin(), reference.warnings.end());
     for (const StudyPoint& point : points)
         for (const StudyRun& run : point.runs)

@@ -68,10 +68,11 @@ TEST_F(RenderHelp, OptionsOfExport) {
 }
 
 TEST_F(RenderHelp, OptionsOfStudy) {
-    EXPECT_EQ(options(printed({"help", "study"})),
-              (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
-                                     "--repeats", "-n", "--error", "--resume", "--checkpoint", "--seed", "-t", "-D", "--lenient",
-                                     "--quiet", "--json"}));
+    EXPECT_EQ(
+        options(printed({"help", "study"})),
+        (std::set<std::string>{"-h,--help", "--methods",  "-o",     "--reference", "--reference-spp", "--budgets", "--samples",
+                               "--repeats", "--interval", "--crop", "-n",          "--error",         "--resume",  "--checkpoint",
+                               "--seed",    "-t",         "-D",     "--lenient",   "--quiet",         "--json"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStress) {
