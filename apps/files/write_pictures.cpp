@@ -51,17 +51,15 @@ Means write_estimates(OutputFolder& folder, const BounceSeries& series, const Ch
                 if (files.page) packed.add_sum(i, sum);
                 means.sums[i] = std::move(sum.mean);
             }
-            if (files.page) packed.pack(i);
         });
     if (series.rest)
         jobs.emplace_back([&] {
             if (files.pictures) folder.write("rest.exr", rest_exr(series, scene));
             means.terms.back() = series.rest->mean;
-            if (!files.page) return;
-            packed.add_term(bounces, *series.rest);
-            packed.pack(bounces);
+            if (files.page) packed.add_term(bounces, *series.rest);
         });
     run_jobs(jobs, pictures_at_once(scene.film));
+    if (files.page) packed.pack();
     return means;
 }
 

@@ -20,7 +20,7 @@ PackedSeries packed(const ComparedCrop& crop) {
     series.add_term(0, Estimate{crop.reference.mean, {}});
     for (std::size_t m = 0; m < crop.methods.size(); ++m)
         series.add_term(1 + m, Estimate{crop.methods[m].picture, crop.methods[m].errors});
-    for (std::size_t i = 0; i <= crop.methods.size(); ++i) series.pack(i);
+    series.pack();
     return series;
 }
 
@@ -42,7 +42,7 @@ std::string study_page(const StudyData& data, const Json& study) {
     const Image& whole = data.reference.pictures.back().mean;
     PackedSeries overview(whole.width, whole.height, 1);
     overview.add_term(0, Estimate{whole, {}});
-    overview.pack(0);
+    overview.pack();
     pictures["whole"] = add("whole", overview);
     pictures["crops"] = Json::array();
     for (const ComparedCrop& crop : data.crops)
