@@ -92,7 +92,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
         {"render",
          {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
           "strip-terms.gif", preview_file, unfinished_render_file, samples_file, "strip-sums.png", "strip-sums.gif",
-          "strip-doubling.png", "strip-doubling.gif"}},
+          "strip-doubling.png", "strip-doubling.gif", "strip-terms.svg", "strip-sums.svg", "strip-doubling.svg"}},
         {"study", {"study.csv", "study.json", unfinished_run_file}},
         {"compare", {"compare.json"}},
         {"blame", {"blame.json"}},
