@@ -37,7 +37,8 @@ class Study(Case):
         self.assertGreaterEqual(study.data.repeats, 2)
         self.assertEqual(study.data.interval, 0.5)
         self.assertEqual(study.data.pictures[-1].verdict.best, "walk:direct=bsdf")  # by directions of the material a furnace has no variance
-        self.assertTrue(study.data.pictures[-1].verdict.others[0].seen)
+        self.assertTrue(study.data.verdict.startswith("In the sum of bounces 0 to 1 "))
+        self.assertEqual(study.data.verdict, study.data.pictures[-1].verdict.text)
         first = study.data.crops[0]
         self.assertEqual([first.x, first.y, first.width, first.height, first.given], [1, 2, 3, 4, True])
 
