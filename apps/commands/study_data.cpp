@@ -46,6 +46,12 @@ std::vector<std::string> StudyData::warnings() const {
     return all;
 }
 
+std::size_t StudyData::fewest_repeats() const {
+    std::size_t fewest = request.repeats;
+    for (const StudyPoint& point : points) fewest = std::min(fewest, point.runs.size());
+    return fewest;
+}
+
 std::string study_csv(const StudyData& data) {
     std::string csv =
         "method,budget,repeat,bounce,samples,patches,directions,seed,setup_seconds,sampling_seconds,rays,peak_memory,mse,rmse,"

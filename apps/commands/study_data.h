@@ -33,6 +33,7 @@ struct StudyData {
     std::string picture_name(std::size_t picture) const;                                         // "0" … "sum"
     std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4"
     std::vector<std::string> warnings() const;
+    std::size_t fewest_repeats() const;  // of any point; fewer than were asked for where the study was cut off
 };
 
 struct StudyEnd {

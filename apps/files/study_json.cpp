@@ -112,7 +112,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = request.command_line;
     json["complete"] = data.complete;
-    json["verdict"] = verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), request.repeats));
+    json["verdict"] = verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.fewest_repeats()));
     json["scene"] = scene_json(data.scene, request.scene, request.definitions);
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
@@ -166,7 +166,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
                         {"reference_rms", p.reference_size},
                         {"reference_noise_subtracted", p.reference_noise},
                         {"given_error", p.error},
-                        {"verdict", as_json(data, q, verdict_on(p, request.repeats))},
+                        {"verdict", as_json(data, q, verdict_on(p, data.fewest_repeats()))},
                         {"methods", Json::array()}};
         for (const StudiedMethod& m : p.methods) picture["methods"].push_back(as_json(data, q, m));
         json["pictures"].push_back(picture);

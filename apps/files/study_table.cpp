@@ -66,7 +66,7 @@ void print_method(const StudyData& data, const StudiedMethod& method) {
 }  // namespace
 
 void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictures) {
-    fmt::print("{}\n\n", folded(verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.request.repeats))));
+    fmt::print("{}\n\n", folded(verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.fewest_repeats()))));
     for (std::size_t q = 0; q < pictures.size(); ++q) {
         const StudiedPicture& p = pictures[q];
         const std::string title =
