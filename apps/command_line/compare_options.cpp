@@ -13,6 +13,9 @@ CLI::App* add_compare(CLI::App& app, CompareRequest& request) {
     compare->add_option("MORE", request.more, "With -o: further folders on the page; the figures are of A and B");
     compare->add_option("-o", request.output, "For folders: write into this folder a page that shows all, bounce by bounce")
         ->type_name("DIR");
+    compare->add_flag(
+        "--flip", request.flip,
+        "HDR-FLIP besides, how different the pictures look; it takes about a second for a picture of 512 x 512 pixels");
     compare->add_flag("--json", request.json, "Print JSON");
     return compare;
 }

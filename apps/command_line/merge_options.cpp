@@ -13,7 +13,7 @@ CLI::App* add_merge(CLI::App& app, MergeRequest& request) {
         ->expected(2, 1 << 20);
     merge->add_option("-o", request.output, "Folder for the pictures and tables of all together")->type_name("DIR")->required();
     merge->add_option("--scene", request.scene, "The scene, if it has moved since")->type_name("SCENE");
-    add_files(*merge, request.files);
+    add_files(*merge, request.files, request.theme);
     add_threads(*merge, request.threads);
     merge->add_flag("--quiet", request.quiet, "Print nothing but errors");
     return merge;

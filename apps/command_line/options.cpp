@@ -85,11 +85,17 @@ CLI::Validator whole_part() {
         "", "part");
 }
 
-void add_files(CLI::App& command, std::vector<std::string>& files) {
+void add_files(CLI::App& command, std::vector<std::string>& files, std::string& theme) {
     command.add_option("--files", files, "What is written beside run.json; default all of these")
         ->type_name("pictures,tables,sheets,strips,page")
         ->delimiter(',')
         ->check(CLI::IsMember(file_groups()));
+    command
+        .add_option("--theme", theme,
+                    "What the contact sheet, the strips and the GIFs are on: dark, or white for slides and papers")
+        ->type_name("THEME")
+        ->check(CLI::IsMember({"dark", "white"}))
+        ->capture_default_str();
 }
 
 void add_definitions(CLI::App& command, std::vector<std::string>& texts) {

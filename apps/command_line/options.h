@@ -29,8 +29,8 @@ void add_memory(CLI::App& command, std::optional<double>& gibibytes);
 // "3/16": K from 1 to N.
 CLI::Validator whole_part();
 PartOfSamples part_of(const std::string& text);
-// --files: what is written beside run.json.
-void add_files(CLI::App& command, std::vector<std::string>& files);
+// --files: what is written beside run.json; --theme: what sheets and strips are on.
+void add_files(CLI::App& command, std::vector<std::string>& files, std::string& theme);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
 // --petsc, with or without a value.

@@ -35,7 +35,7 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->add_option("--reference", request.reference,
                      "Folder of an earlier render; convergence.csv then also has the errors against it")
         ->type_name("DIR");
-    add_files(*render, request.files);
+    add_files(*render, request.files, request.theme);
     render
         ->add_option_function<std::string>(
             "--part", [&request](const std::string& text) { request.goal.part = part_of(text); },

@@ -4,6 +4,7 @@
 #include "apps/files/rendered_picture.h"
 #include "apps/pages/compare_page.h"
 #include "core/base/error.h"
+#include "operators/statistics/flip.h"
 #include "operators/statistics/metrics.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ struct Row {
     Metrics metrics;
     MeanDifferences means;
     double noise = 0.0;
+    std::optional<double> flip = {};  // mean, where it is asked for
     bool a_has_error = false, b_has_error = false, degrees_known = true, infinite_variance = false;
     bool widest = false;  // the interval of the mean: the errors of a picture's pixels may go together
 
@@ -50,12 +52,18 @@ ComparedPicture compared(const RenderedPicture& p) {
     return {p.picture, p.degrees_of_freedom.value_or(exact_degrees_of_freedom), p.means ? &*p.means : nullptr};
 }
 
-Row compare_pictures(const std::string& name, const std::string& path_a, const std::string& path_b) {
+Row compare_pictures(const std::string& name, const std::string& path_a, const std::string& path_b, bool flip) {
     const RenderedPicture a = read_rendered_picture(path_a), b = read_rendered_picture(path_b);
     try {
-        Row row{
-            name, compare(a.picture.mean, b.picture.mean), {}, expected_rmse(a.picture, b.picture), a.has_error(), b.has_error(),
-            true};
+        Row row{name,
+                compare(a.picture.mean, b.picture.mean),
+                {},
+                expected_rmse(a.picture, b.picture),
+                {},
+                a.has_error(),
+                b.has_error(),
+                true};
+        if (flip) row.flip = mean_hdr_flip(a.picture.mean, b.picture.mean);
         row.means = compare_means(compared(a), compared(b), confidence);
         row.degrees_known = (!a.has_error() || a.degrees_of_freedom) && (!b.has_error() || b.degrees_of_freedom);
         row.infinite_variance = a.infinite_variance || b.infinite_variance;
@@ -89,7 +97,7 @@ std::set<std::string, SeriesOrder> pictures_in(const std::string& folder) {
     return names;
 }
 
-Comparison compare_folders(const std::string& a, const std::string& b) {
+Comparison compare_folders(const std::string& a, const std::string& b, bool flip) {
     const auto in_a = pictures_in(a), in_b = pictures_in(b);
     Comparison out;
     std::set_difference(in_a.begin(), in_a.end(), in_b.begin(), in_b.end(), std::back_inserter(out.only_in_a), SeriesOrder());
@@ -104,7 +112,8 @@ Comparison compare_folders(const std::string& a, const std::string& b) {
         out.rests = {{last_bounce(in_a), last_bounce(in_b)}};
     for (const std::string& name : in_a) {
         if (!in_b.contains(name) || (out.rests && name == "rest.exr")) continue;
-        out.rows.push_back(compare_pictures(fs::path(name).stem(), (fs::path(a) / name).string(), (fs::path(b) / name).string()));
+        out.rows.push_back(
+            compare_pictures(fs::path(name).stem(), (fs::path(a) / name).string(), (fs::path(b) / name).string(), flip));
     }
     if (out.rows.empty()) throw InputError(fmt::format("{} and {}: no picture that both have", a, b));
     return out;
@@ -157,12 +166,14 @@ void print_notes(const Comparison& comparison) {
 
 void print_table(const std::string& a, const std::string& b, const Comparison& comparison, bool by_channel) {
     fmt::print("A  {}\nB  {}  (the reference)\n\n", a, b);
-    fmt::print("{:<13}{:>13}{:>13}{:>13}{:>13}{:>13}{:>13}\n", "", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A-B|");
+    const bool flip = comparison.rows.front().flip.has_value();
+    fmt::print("{:<13}{:>13}{:>13}{:>13}{:>13}{:>13}{:>13}{}\n", "", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A-B|",
+               flip ? "     FLIP" : "");
     for (const Row& row : comparison.rows) {
         const Metrics& m = row.metrics;
         const std::string noise = row.has_interval() && std::isfinite(row.noise) ? fmt::format("{:.4e}", row.noise) : "unknown";
-        fmt::print("{:<13}{:>13.4e}{:>13}{:>13.4e}{:>13.4e}{:>13.4e}{:>13.4e}\n", row.name, m.rmse, noise, m.rel_mse, m.mape,
-                   m.smape, m.max_error);
+        fmt::print("{:<13}{:>13.4e}{:>13}{:>13.4e}{:>13.4e}{:>13.4e}{:>13.4e}{}\n", row.name, m.rmse, noise, m.rel_mse, m.mape,
+                   m.smape, m.max_error, row.flip ? fmt::format("{:>9.4f}", *row.flip) : "");
     }
     fmt::print("\n{:<13}{:>13}{:>14}{:>14}   {}\n", "", "mean A", "mean B", "mean A-B", "95% interval of mean A-B");
     for (const Row& row : comparison.rows) {
@@ -176,6 +187,7 @@ void print_table(const std::string& a, const std::string& b, const Comparison& c
         "  SMAPE 2|A-B|/(|A|+|B|+ε·(mean|A|+mean|B|))\n"
         "By noise: the RMSE that the standard errors alone explain.\n",
         metrics_epsilon);
+    if (flip) fmt::print("FLIP: the mean of HDR-FLIP, from 0, no difference that is seen, to 1.\n");
     print_notes(comparison);
 }
 
@@ -206,6 +218,7 @@ nlohmann::ordered_json json_of(const Row& row) {
                                 {"infinite_variance", row.infinite_variance},
                                 {"interval_is_upper_bound", row.has_interval() && row.widest}};
     if (row.has_interval()) j["rmse_by_noise"] = row.noise;
+    if (row.flip) j["flip"] = *row.flip;
     j.update(json_of(row, row.means.all));
     constexpr const char* names[] = {"red", "green", "blue"};
     for (int c = 0; c < 3; ++c) j[names[c]] = json_of(row, row.means.channel[c]);
@@ -224,7 +237,7 @@ nlohmann::ordered_json json_of(const std::string& a, const std::string& b, const
 }  // namespace
 
 int compare_command(const CompareRequest& request) {
-    const auto& [a, b, output, json, more] = request;
+    const auto& [a, b, output, json, more, flip] = request;
     const bool a_is_folder = is_folder(a), b_is_folder = is_folder(b);
     if (a_is_folder != b_is_folder) {
         throw InputError(fmt::format("{} and {}: a folder against a picture", a_is_folder ? a : b, a_is_folder ? b : a));
@@ -234,7 +247,8 @@ int compare_command(const CompareRequest& request) {
         throw InputError(fmt::format("-o: {} is a picture; a page is made of two folders of render", a));
     if (!more.empty() && output.empty())
         throw InputError(fmt::format("{}: figures are of two, A and B; more folders are for the page of -o", more.front()));
-    const Comparison comparison = folders ? compare_folders(a, b) : Comparison{{compare_pictures("A against B", a, b)}, {}, {}, {}};
+    const Comparison comparison =
+        folders ? compare_folders(a, b, flip) : Comparison{{compare_pictures("A against B", a, b, flip)}, {}, {}, {}};
     const auto figures = json_of(a, b, comparison);
     if (!output.empty()) {
         std::vector<std::string> shown = {a, b};

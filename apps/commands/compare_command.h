@@ -11,6 +11,7 @@ struct CompareRequest {
     std::string output;  // the folder of a page of all folders, or empty
     bool json = false;
     std::vector<std::string> more = {};  // folders that the page has besides
+    bool flip = false;
 };
 
 // Prints the error metrics of A against B: of two pictures, or of the bounces, sums and rest that two folders both have; the others

@@ -13,6 +13,7 @@ struct MergeRequest {
     std::string output;
     std::string scene;  // where it is now; empty: where it was
     std::vector<std::string> files = file_groups();
+    std::string theme = "dark";
     int threads = 0;  // 0: all
     bool quiet = false;
     std::string command_line;  // as typed, for run.json

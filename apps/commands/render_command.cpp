@@ -83,7 +83,7 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
     if (reference) warn_of_reference(request.reference, series, series.warnings);
     return std::make_shared<Rendering>(Rendering{request.scene, request.command_line, request.options, request.definitions,
                                                  std::move(scene), std::move(series), clock.seconds(),
-                                                 choose_files(request.files)});
+                                                 choose_files(request.files, request.theme == "white")});
 }
 
 int render_command(const RenderRequest& given) {
@@ -93,7 +93,7 @@ int render_command(const RenderRequest& given) {
     if (request.goal.part && (fields || !request.goal.samples))
         throw InputError(fields ? fmt::format("--part: --method {} has no samples that could be put together", request.method.name)
                                 : std::string("--part needs --spp, the samples of all parts"));
-    const ChosenFiles files = choose_files(request.files);
+    const ChosenFiles files = choose_files(request.files, request.theme == "white");
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
     std::error_code missing;

@@ -10,12 +10,16 @@
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/bounces.h"
+#include "operators/study/methods_for_scene.h"
 #include "operators/study/reference_choice.h"
+#include "operators/study/repeats.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
@@ -38,6 +42,34 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request) {
     return methods;
 }
 
+// Throws InputError unless it is within the picture.
+Crop read_crop(const std::string& text, const Film& film) {
+    std::array<int, 4> values{};
+    const char *at = text.data(), *const end = at + text.size();
+    std::size_t read = 0;
+    for (int& value : values) {
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || (read < 3 ? next == end || *next != ',' : next != end)) break;
+        at = next + 1;
+        ++read;
+    }
+    const auto [x, y, width, height] = values;
+    const bool fits = x >= 0 && y >= 0 && width > 0 && height > 0 && width <= film.crop_width - x && height <= film.crop_height - y;
+    if (read < 4 || !fits)
+        throw InputError(fmt::format("--crop {}: expected X,Y,WIDTH,HEIGHT within the picture's {}×{} pixels, as in 0,0,{},{}",
+                                     text, film.crop_width, film.crop_height, film.crop_width, film.crop_height));
+    return {x, y, width, height};
+}
+
+// "1 min 20 s"
+std::string duration(double seconds) {
+    if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long>(std::lround(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    return whole < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
 using Json = nlohmann::ordered_json;
 
 void expect_growing(const char* option, const auto& values) {
@@ -55,7 +87,8 @@ Json identity(const StudyRequest& request, const Scene& scene) {
     json["methods"] = request.methods;
     json["budgets"] = request.budgets;
     json["samples"] = request.samples;
-    json["repeats"] = request.repeats;
+    json["repeats"] = request.interval ? Json(nullptr) : Json(request.repeats);
+    json["interval"] = request.interval ? Json(*request.interval) : Json(nullptr);
     json["bounces"] = request.bounces ? Json(*request.bounces) : Json(nullptr);
     json["seed"] = request.seed;
     json["reference"] = request.reference;
@@ -63,8 +96,12 @@ Json identity(const StudyRequest& request, const Scene& scene) {
     return json;
 }
 
-Json as_json(const StudyPlan& plan, int bounces) {
+Json as_json(const StudyPlan& plan, int bounces, std::size_t repeats, const std::vector<std::string>& methods,
+             const std::vector<std::string>& left_out) {
     Json json = {{"bounces", bounces}, {"budgets", plan.budgets}, {"reference_samples", plan.reference_samples}};
+    json["repeats"] = repeats;
+    json["methods"] = methods;
+    json["left_out"] = left_out;
     json["efforts"] = Json::array();
     for (const auto& efforts : plan.efforts) {
         Json& method = json["efforts"].emplace_back(Json::array());
@@ -89,12 +126,26 @@ StudyPlan study_plan(const Json& json, bool budgets_are_samples) {
     return plan;
 }
 
+// Of those that the page shows where methods differ most.
+constexpr std::size_t found_crops = 3;
+
 void expect_sense(const StudyRequest& request) {
     if (request.repeats < 2) throw InputError("--repeats 1: a variance takes at least 2 repeats");
     if (!request.budgets.empty() && !request.samples.empty())
         throw InputError("--budgets and --samples exclude each other: seconds of a run, or samples a pixel");
     expect_growing("--budgets", request.budgets);
     expect_growing("--samples", request.samples);
+}
+
+// "3 methods, 4 budgets and 16 repeats take about 1 min 20 s, the reference at most 20 s more".
+std::string what_it_takes(const StudyData& data, bool makes_reference) {
+    const auto counted = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+    std::string text = fmt::format("{}, {} and {}", counted(data.methods.size(), "method"),
+                                   counted(data.plan.budgets.size(), "budget"), counted(data.request.repeats, "repeat"));
+    if (data.request.interval) text += fmt::format(" (for ± {:g}% of the sum's RMSE)", 100.0 * *data.request.interval);
+    text += " take about " + duration(static_cast<double>(data.request.repeats) * data.plan.repeat_seconds);
+    if (makes_reference) text += fmt::format(", the reference at most {} more", duration(data.plan.reference_seconds));
+    return text;
 }
 
 // Shows on a terminal what is being done.
@@ -117,18 +168,24 @@ private:
 StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
                    const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const Json&)>& found) {
     expect_sense(request);
-    const std::vector<StudyMethod> methods = study_methods(request);
+    std::vector<StudyMethod> methods = study_methods(request);
+    std::vector<Crop> crops;
+    for (const std::string& text : request.crops) crops.push_back(read_crop(text, scene.film));
     OutputFolder folder(request.output, "study");
     StudyJournal journal(folder.path(), request.resume);
     const Json study = identity(request, scene);
-    if (request.resume)
+    if (request.resume) {
         journal.expect_same(study);
-    else
+        journal.plan.at("methods").get_to(request.methods);
+        journal.plan.at("repeats").get_to(request.repeats);
+        methods = study_methods(request);
+    } else {
         folder.forget();  // of another study, whose journal was removed
+    }
 
     const Stopwatch pilot_watch;
     const Pilot pilot(scene, {}, request.seed);
-    StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, false};
+    StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, {}, {}, false};
     data.pilot_seconds = pilot_watch.seconds();
     data.bounces = request.resume    ? journal.plan.at("bounces").get<int>()
                    : request.bounces ? *request.bounces
@@ -141,12 +198,28 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     };
     if (request.resume) {
         data.plan = study_plan(journal.plan, !request.samples.empty());
+        journal.plan.at("left_out").get_to(data.left_out);
     } else {
+        const Watch watch{.stop = interrupted, .crew = request.crew};
+        if (methods.empty()) {
+            status("short runs that find which methods can do the scene", 0.0);
+            auto found = methods_for_scene(data.bounces, request.seed, scene, pilot, watch);
+            if (!found) return nothing_done();
+            methods = std::move(found->methods);
+            data.left_out = std::move(found->left_out);
+            for (const StudyMethod& method : methods) request.methods.push_back(method.name);
+        }
         status("short runs that measure how fast the methods are", 0.0);
         auto plan = plan_study({request.budgets, request.samples, request.reference_samples}, methods, data.bounces, request.seed,
-                               scene, pilot, {.stop = interrupted, .crew = request.crew});
+                               scene, pilot, watch);
         if (!plan) return nothing_done();
         data.plan = std::move(*plan);
+        if (request.interval) {
+            status("short runs that measure how many repeats the interval takes", 0.0);
+            const auto deviation = deviation_of_repeats(methods, data.bounces, request.seed, scene, pilot, watch);
+            if (!deviation) return nothing_done();
+            request.repeats = repeats_for(*deviation, *request.interval);
+        }
     }
     std::string choice;
     if (request.resume) {
@@ -162,12 +235,19 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         if (!journal.study.is_null()) return;
         data.plan.reference_samples = of_reference.value("samples", data.plan.reference_samples);
         expect_disk_space(data, folder.path());
-        Json plan = as_json(data.plan, data.bounces);
+        Json plan = as_json(data.plan, data.bounces, request.repeats, request.methods, data.left_out);
         plan["reference"] = of_reference;
         plan["choice"] = choice;
         journal.begin(study, plan);
     };
-    if (!reference) reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces, folder, begin);
+    const bool makes_reference = !reference;
+    const auto tell = [&] {
+        if (!request.resume && !request.quiet) fmt::print(stderr, "{}\n", what_it_takes(data, makes_reference));
+    };
+    if (makes_reference) {
+        tell();
+        reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces, folder, begin);
+    }
     if (!reference) return {false, 0, data.runs()};
     data.reference = std::move(*reference);
     data.reference.choice = choice;
@@ -176,6 +256,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     if (journal.plan.at("reference") != data.reference.identity)
         throw InputError("--resume: the reference is another one than that of the study that was cut off");
 
+    if (!makes_reference) tell();
     run_all(data, journal, folder, status);
     const Film& film = scene.film;
     data.points = study_points(journal.runs, data.plan, data.reference.pictures, [&](std::size_t n, std::size_t q) {
@@ -183,10 +264,14 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     });
     const auto pictures = summarise(data.points, data.plan, data.reference.pictures, request.error);
     if (!pictures.empty()) {
+        data.crops = compare_crops(
+            journal.runs, data.points, data.plan, data.reference.pictures.back(), crops, found_crops, [&](std::size_t n) {
+                return journal.picture(n, data.pictures() - 1, film.crop_width, film.crop_height, data.pictures());
+            });
         const Json json = study_json(data, pictures);
         folder.write("study.csv", study_csv(data));
         folder.write("study.json", json.dump(2) + "\n");
-        folder.write("index.html", study_page(json));
+        folder.write("index.html", study_page(data, json));
         folder.commit();
         found(data, pictures, json);
     }

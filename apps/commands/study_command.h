@@ -17,12 +17,14 @@ struct StudyRequest {
     bool lenient = false;
     std::map<std::string, std::string> definitions;
     std::string output;
-    std::vector<std::string> methods;  // as read_method() reads them
+    std::vector<std::string> methods;  // as read_method() reads them; empty: all that can do the scene
     std::string reference;             // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
     std::optional<std::uint64_t> reference_samples;
     std::vector<double> budgets;         // seconds per run; empty: chosen
     std::vector<std::uint64_t> samples;  // budgets in samples per pixel, in place of seconds
     std::size_t repeats = 16;
+    std::optional<double> interval;  // relative half width of the 95% interval of the sum's RMSE, for which repeats are chosen
+    std::vector<std::string> crops;  // X,Y,WIDTH,HEIGHT
     std::optional<int> bounces;
     std::optional<double> error;  // relative RMSE, for the time to a given error
     std::uint64_t seed = 0;

@@ -16,6 +16,7 @@ std::string StudyData::picture_name(std::size_t picture) const {
 std::vector<std::string> StudyData::warnings() const {
     std::vector<std::string> all;
     for (const auto& [text, count] : scene.warnings.counts()) all.push_back(text);
+    for (const std::string& why : left_out) all.push_back("left out: " + why);
     all.insert(all.end(), reference.warnings.begin(), reference.warnings.end());
     for (const StudyPoint& point : points)
         for (const StudyRun& run : point.runs)
@@ -43,6 +44,12 @@ std::vector<std::string> StudyData::warnings() const {
                             methods[m].name, bounces));
     }
     return all;
+}
+
+std::size_t StudyData::fewest_repeats() const {
+    std::size_t fewest = request.repeats;
+    for (const StudyPoint& point : points) fewest = std::min(fewest, point.runs.size());
+    return fewest;
 }
 
 std::string study_csv(const StudyData& data) {

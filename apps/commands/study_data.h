@@ -2,7 +2,8 @@
 #pragma once
 
 #include "apps/commands/study_reference.h"
-#include "operators/study/study_points.h"
+#include "operators/study/compared_crops.h"
+#include "operators/study/verdict.h"
 
 #include <functional>
 #include <memory>
@@ -21,14 +22,18 @@ struct StudyData {
     StudyPlan plan;
     StudyReference reference;
     double scene_seconds = 0.0, pilot_seconds = 0.0;
-    bool peak_is_of_run = true;      // the peak memory is of each run; otherwise of all runs so far
-    std::vector<StudyPoint> points;  // those with at least two repeats
+    bool peak_is_of_run = true;         // the peak memory is of each run; otherwise of all runs so far
+    std::vector<StudyPoint> points;     // those with at least two repeats
+    std::vector<std::string> left_out;  // methods that refuse the scene, and why, where none were named
+    std::vector<ComparedCrop> crops;
     bool complete = false;
 
     std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }               // the last is the sum
     std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
-    std::string picture_name(std::size_t picture) const;
+    std::string picture_name(std::size_t picture) const;                                         // "0" … "sum"
+    std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4"
     std::vector<std::string> warnings() const;
+    std::size_t fewest_repeats() const;  // of any point; fewer than were asked for where the study was cut off
 };
 
 struct StudyEnd {
@@ -43,7 +48,9 @@ StudyEnd run_study(
 std::string study_csv(const StudyData& data);
 nlohmann::ordered_json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictures);
 void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictures);
-std::string study_page(const nlohmann::ordered_json& study);
+std::string study_page(const StudyData& data, const nlohmann::ordered_json& study);
+// "In bounce 1 matrix is 160 times as fast as walk (140 to 180)."
+std::string verdict_text(const StudyData& data, std::size_t picture, const Verdict& verdict);
 
 // The command line that renders the pictures of a run again.
 std::string repeating_command(const StudyData& data, const StudyRun& run);

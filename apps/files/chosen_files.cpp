@@ -25,8 +25,8 @@ const std::vector<std::string>& file_groups() {
     return all;
 }
 
-ChosenFiles choose_files(const std::vector<std::string>& names) {
-    ChosenFiles files{false, false, false, false, false};
+ChosenFiles choose_files(const std::vector<std::string>& names, bool white) {
+    ChosenFiles files{false, false, false, false, false, white};
     for (const std::string& wanted : names) {
         const auto found = std::ranges::find(groups, wanted, [](const auto& group) { return std::string(group.first); });
         if (found == groups.end())

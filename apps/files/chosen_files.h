@@ -12,13 +12,14 @@ struct ChosenFiles {
     bool sheets = true;    // contact-sheet.png, bounces.gif, ways.png
     bool strips = true;    // strip-terms.png …
     bool page = true;      // index.html
+    bool white = false;    // sheets and strips are on white, and not on black
 };
 
 // "pictures", "tables", "sheets", "strips", "page".
 const std::vector<std::string>& file_groups();
 
 // Throws InputError for a name that is not one of them.
-ChosenFiles choose_files(const std::vector<std::string>& names);
+ChosenFiles choose_files(const std::vector<std::string>& names, bool white = false);
 std::vector<std::string> names_of(const ChosenFiles& files);
 
 }  // namespace neumann

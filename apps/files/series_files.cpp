@@ -60,7 +60,7 @@ std::string rest_exr(const BounceSeries& series, const Scene& scene) {
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files) {
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height, pictures = 2.0 * bounces + 3.0;
     const double exr = pictures * pixels * sizeof(float) * (has_discretisation ? 9.0 : 6.0);
-    // index.html holds half floats in base 64; the size of the slides and of the page's code does not depend on the film.
+    // index.html holds half floats; the size of the slides and of the page's code does not depend on the film.
     return ((files.pictures ? 1.0 : 0.0) + (files.page ? 0.25 : 0.0)) * exr + 0x1p20;
 }
 

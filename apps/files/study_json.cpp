@@ -50,6 +50,30 @@ Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, cons
     return json;
 }
 
+Json as_json(const StudyData& data, std::size_t q, const Verdict& verdict) {
+    Json json = {{"text", verdict_text(data, q, verdict)},
+                 {"best", data.methods[verdict.best].name},
+                 {"known", verdict.is_known},
+                 {"own_error", verdict.own_error ? Json(*verdict.own_error) : Json(nullptr)},
+                 {"others", Json::array()}};
+    for (const SpeedRatio& other : verdict.others)
+        json["others"].push_back({{"method", data.methods[other.method].name},
+                                  {"times_as_fast", json_number(other.times.ratio)},
+                                  {"low", json_number(other.times.low)},
+                                  {"high", json_number(other.times.high)},
+                                  {"known", other.is_known},
+                                  {"seen", other.is_seen()}});
+    return json;
+}
+
+Json as_json(const StudyData& data, const ComparedCrop& crop) {
+    Json json = {{"x", crop.place.x},           {"y", crop.place.y},      {"width", crop.place.width},
+                 {"height", crop.place.height}, {"given", crop.is_given}, {"methods", Json::array()}};
+    for (const MethodCrop& m : crop.methods)
+        json["methods"].push_back({{"method", data.methods[m.method].name}, {"rmse", as_json(m.rmse)}});
+    return json;
+}
+
 Json as_json(const StudyData& data, std::size_t q, const StudiedMethod& method) {
     const PictureSummary& s = method.summary;
     Json json = {{"rank", s.rank}, {"method", data.methods[method.method].name}, {"infinite_variance", s.infinite_variance}};
@@ -88,10 +112,12 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = request.command_line;
     json["complete"] = data.complete;
+    json["verdict"] = verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.fewest_repeats()));
     json["scene"] = scene_json(data.scene, request.scene, request.definitions);
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
     json["repeats"] = request.repeats;
+    if (request.interval) json["interval"] = *request.interval;
     json["seed"] = request.seed;
     json["threads"] = oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
     json["budgets"] = {{"unit", data.plan.budgets_are_samples ? "samples a pixel" : "seconds of a run"},
@@ -122,6 +148,9 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
          "medians over the repeats, of a whole run with all its bounces, as measured; setup is what comes before the first sample"},
         {"efficiency",
          "1 / (variance * seconds); with bias 1 / (mse * seconds), by which methods are ranked at their largest budget"},
+        {"times_as_fast",
+         "1 / (mse * seconds) of the best method over that of another, at their largest budgets; the intervals of all pairs of "
+         "methods hold together at 95% (Fieller, Bonferroni); seen: the interval does not hold 1"},
         {"slope", "of log RMSE against log seconds, by weighted least squares"}};
     json["methods"] = Json::array();
     for (std::size_t m = 0; m < data.methods.size(); ++m) {
@@ -137,10 +166,13 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
                         {"reference_rms", p.reference_size},
                         {"reference_noise_subtracted", p.reference_noise},
                         {"given_error", p.error},
+                        {"verdict", as_json(data, q, verdict_on(p, data.fewest_repeats()))},
                         {"methods", Json::array()}};
         for (const StudiedMethod& m : p.methods) picture["methods"].push_back(as_json(data, q, m));
         json["pictures"].push_back(picture);
     }
+    json["crops"] = Json::array();
+    for (const ComparedCrop& crop : data.crops) json["crops"].push_back(as_json(data, crop));
     json["warnings"] = Json::array();
     for (const std::string& warning : data.warnings()) json["warnings"].push_back(warning);
     return json;

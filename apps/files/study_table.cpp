@@ -3,9 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace neumann {
 
 namespace {
+
+// Lines of at most 120 characters.
+std::string folded(const std::string& text) {
+    constexpr std::size_t most = 120;
+    std::string out;
+    std::size_t width = 0;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const auto length = static_cast<std::size_t>(std::ranges::count_if(word, [](char c) { return (c & 0xc0) != 0x80; }));
+        if (width > 0) out += width + 1 + length > most ? "\n" : " ";
+        width = width > 0 && width + 1 + length <= most ? width + 1 + length : length;
+        out += word;
+    }
+    return out;
+}
 
 std::string slope_text(const PictureSummary& s) {
     if (!s.slope) return "-";
@@ -48,6 +66,7 @@ void print_method(const StudyData& data, const StudiedMethod& method) {
 }  // namespace
 
 void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictures) {
+    fmt::print("{}\n\n", folded(verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.fewest_repeats()))));
     for (std::size_t q = 0; q < pictures.size(); ++q) {
         const StudiedPicture& p = pictures[q];
         const std::string title =

@@ -4,6 +4,7 @@
 #include "apps/files/series_files.h"
 #include "apps/sheets/contact_sheet.h"
 #include "apps/sheets/flip_book.h"
+#include "apps/sheets/strip_svg.h"
 #include "apps/sheets/strips.h"
 #include "core/image/image_io.h"
 
@@ -51,17 +52,15 @@ Means write_estimates(OutputFolder& folder, const BounceSeries& series, const Ch
                 if (files.page) packed.add_sum(i, sum);
                 means.sums[i] = std::move(sum.mean);
             }
-            if (files.page) packed.pack(i);
         });
     if (series.rest)
         jobs.emplace_back([&] {
             if (files.pictures) folder.write("rest.exr", rest_exr(series, scene));
             means.terms.back() = series.rest->mean;
-            if (!files.page) return;
-            packed.add_term(bounces, *series.rest);
-            packed.pack(bounces);
+            if (files.page) packed.add_term(bounces, *series.rest);
         });
     run_jobs(jobs, pictures_at_once(scene.film));
+    if (files.page) packed.pack();
     return means;
 }
 
@@ -76,15 +75,20 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
 
     const std::string lenient = lenient_label(scene), note = lenient_note(scene);
     const std::string kind = (report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths") + lenient;
+    std::vector<std::string> term_names;
     std::vector<LabelledPicture> term_pictures, sum_pictures;
     for (std::size_t i = 0; i < terms.size(); ++i)
-        term_pictures.push_back({(i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind, &terms[i]});
+        term_names.push_back((i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind);
     for (std::size_t i = 0; i < sums.size(); ++i)
         sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + kind, &sums[i]});
     // For importance all visible surfaces are "emitters", so the sum is used.
     const Image& emission = report.importance ? sums.back() : terms.front();
     const double exposure = exposure_for(sums.back(), emission);
     if (!files.sheets && !files.strips) return {"", exposure};
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+        const double factor = brightening(terms[i], emission, exposure);
+        term_pictures.push_back({term_names[i] + (factor == 1.0 ? "" : fmt::format(" ×{:.6g}", factor)), &terms[i], factor});
+    }
 
     Image limit = sums.back();
     for (std::size_t p = 0; series.rest && p < limit.pixels.size(); ++p) limit.pixels[p] += series.rest->mean.pixels[p];
@@ -97,36 +101,42 @@ WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series,
                                   (series.paths == Paths::all ? "" : ", some paths") + lenient};
     const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
                 doubling = strip_of_doubling(pictures);
-    const auto font = find_label_font();
+    const SheetStyle style(find_label_font(), files.white ? white_theme : dark_theme);
     Jobs jobs;
     const auto add = [&](const std::string& name, const std::function<std::string()>& make) {
         jobs.emplace_back([&folder, name, make] { folder.write(name, make()); });
     };
     jobs.emplace_back([&] {
-        const FlipBook book(pictures.all(), exposure, font);
+        const FlipBook book(pictures.all(), exposure, style);
         if (files.sheets) folder.write("bounces.gif", book.gif());
         if (!files.strips) return;
         folder.write("strip-sums.gif", book.gif(of_sums.front()));
         if (!doubling.empty()) folder.write("strip-doubling.gif", book.gif(doubling.front()));
     });
     if (files.sheets)
-        add("contact-sheet.png", [&] { return contact_sheet(term_pictures, sum_pictures, exposure, font, {.comment = note}); });
+        add("contact-sheet.png", [&] { return contact_sheet(term_pictures, sum_pictures, exposure, style, {.comment = note}); });
     if (files.strips) {
-        add("strip-terms.gif", [&] { return strip_gif(of_terms, exposure, font); });
-        add("strip-terms.png", [&] { return strip_png(of_terms, exposure, font, note); });
-        add("strip-sums.png", [&] { return strip_png(of_sums, exposure, font, note); });
-        if (!doubling.empty()) add("strip-doubling.png", [&] { return strip_png(doubling, exposure, font, note); });
+        add("strip-terms.gif", [&] { return strip_gif(of_terms, exposure, style); });
+        add("strip-terms.png", [&] { return strip_png(of_terms, exposure, style, note); });
+        add("strip-sums.png", [&] { return strip_png(of_sums, exposure, style, note); });
+        add("strip-terms.svg", [&] { return strip_svg(of_terms, exposure, style.theme, note); });
+        add("strip-sums.svg", [&] { return strip_svg(of_sums, exposure, style.theme, note); });
+        if (!doubling.empty()) {
+            add("strip-doubling.png", [&] { return strip_png(doubling, exposure, style, note); });
+            add("strip-doubling.svg", [&] { return strip_svg(doubling, exposure, style.theme, note); });
+        }
     }
     std::vector<Image> maps;
     Strip of_mixture;
     if (const auto* paths = std::get_if<PathRecord>(&series.record); files.strips && paths && paths->mixture) {
         of_mixture = strip_of_mixture(*paths->mixture, maps);
-        add("strip-mixture.png", [&] { return strip_png(of_mixture, 1.0, font, note); });
+        add("strip-mixture.png", [&] { return strip_png(of_mixture, 1.0, style, note); });
     }
     run_jobs(jobs, jobs.size());
-    return {font ? ""
-                 : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
-                   "bounces.gif are unlabelled",
+    return {style.font
+                ? ""
+                : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
+                  "bounces.gif are unlabelled",
             exposure};
 }
 

@@ -30,13 +30,7 @@ $("pictures-note").textContent = "Differences are theirs less ours, in luminance
   (packed.factor > 1 ? ` Each pixel here is the mean of ${packed.factor} × ${packed.factor}.` : "");
 
 // Pictures.
-const draw = (canvas, at) => {
-  canvas.width = packed.width;
-  canvas.height = packed.height;
-  const image = new ImageData(packed.width, packed.height);
-  new Uint32Array(image.data.buffer).set(Uint32Array.from({ length: pixels }, (_, p) => at(p)));
-  canvas.getContext("2d").putImageData(image, 0, 0);
-};
+const draw = (canvas, at) => fill(canvas, packed.width, packed.height, at);
 const of = (planes, p) => luminance(planes[p], planes[p + pixels], planes[p + 2 * pixels]);
 const whitest = planes => {
   const lit = Float32Array.from({ length: pixels }, (_, p) => of(planes, p)).filter(v => v > 0 && v < Infinity).sort();

@@ -16,8 +16,8 @@ PackedSeries packed_pictures(const Blame& found) {
         packed.add_term(3 * i, Estimate{terms[i].theirs.mean, {}});
         packed.add_term(3 * i + 1, Estimate{terms[i].ours.mean, {}});
         packed.add_term(3 * i + 2, terms[i].difference);
-        for (std::size_t p = 3 * i; p < 3 * i + 3; ++p) packed.pack(p);
     });
+    packed.pack();
     return packed;
 }
 

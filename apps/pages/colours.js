@@ -20,6 +20,13 @@ const toneTable = (() => {
     return kept.table;
   };
 })();
+// Fills a canvas: at(p) is pixel p as ImageData has it.
+const fill = (canvas, width, height, at) => {
+  Object.assign(canvas, { width, height });
+  const pixels = new ImageData(width, height), words = new Uint32Array(pixels.data.buffer);
+  for (let p = 0; p < words.length; ++p) words[p] = at(p);
+  canvas.getContext("2d", { willReadFrequently: true }).putImageData(pixels, 0, 0);
+};
 const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
 // A colour map by its stops (red, green, blue in hexadecimal), linear between them: 256 pixels in the order of ImageData.

@@ -84,7 +84,7 @@ ExploredRun explored(const RenderedFolder& folder, std::size_t pictures) {
         if (i + 1 == folder.bounces()) out.exposure = exposure_for(sum.mean, importance ? sum.mean : emission);
     }
     if (out.has_rest) out.pictures.add_term(folder.bounces(), read_picture(folder.path / "rest.exr", folder.size));
-    oneapi::tbb::parallel_for(std::size_t{0}, folder.pictures(), [&](std::size_t i) { out.pictures.pack(i); });
+    out.pictures.pack();
     return out;
 }
 

@@ -3,13 +3,9 @@
 let image = null;  // what A shows
 // With `o` the difference to it.
 const paint = (canvas, s, ref, o) => {
-  canvas.width = s.width;
-  canvas.height = s.height;
   const view = comparing() && !o ? "colour" : state.view;
   const shown = shownAs[view](s, ref, { exposure: exposure(s, ref), curve: state.curve, decades: state.decades, other: o });
-  const pixels = new ImageData(s.width, s.height), words = new Uint32Array(pixels.data.buffer);
-  for (let p = 0; p < words.length; ++p) words[p] = shown.at(p);
-  canvas.getContext("2d", { willReadFrequently: true }).putImageData(pixels, 0, 0);
+  fill(canvas, s.width, s.height, shown.at);
   return shown;
 };
 const missing = ({ series: s, ref }) =>

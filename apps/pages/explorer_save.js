@@ -1,13 +1,6 @@
 "use strict";
 // What can be taken out of the page: the picture, the plots, the values of a pixel.
 
-const save = (name, blob) => {
-  const link = element("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-};
 const fileName = () => `${sceneOf(series()).replace(/\.[^.]*$/, "")}-${state.i > series().last ? "rest" : `${state.sum ? "sum" : "bounce"}-${state.i}`}`;
 
 // The canvas as it is, a pixel for a pixel, with what the wipe shows.
@@ -48,16 +41,9 @@ const copyPixel = async () => {
   }
 };
 
-const button = (text, name, onclick) => {
-  const b = element("button", text);
-  b.setAttribute("aria-label", name);
-  b.onclick = onclick;
-  return b;
-};
 for (const [id, chart, what] of [["energy", energyPlot, "energy of each bounce"], ["pixel", pixelPlot, "the chosen pixel"], ["error", errorPlot, "error against time"]]) {
   const row = element("div", undefined, "line saves"), name = `${id}-plot`;
-  row.append(button("SVG", `Save the plot: ${what}, SVG`, () => save(name + ".svg", new Blob([svgPlot(chart)], { type: "image/svg+xml" }))),
-             button("CSV", `Save the figures: ${what}, CSV`, () => save(name + ".csv", new Blob([csvPlot(chart)], { type: "text/csv" }))));
+  row.append(...savingPlot(name, what, () => svgPlot(chart), () => csvPlot(chart)));
   $(id).parentElement.after(row);
   if (id === "pixel") {
     const copied = element("output");

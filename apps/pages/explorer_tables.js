@@ -62,8 +62,9 @@ const bouncesTable = s => {
     [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", { ...rest, ratio_estimate: undefined })])], []));
 };
 if (data.comparison) {
-  section("A against B, the reference", wide(table(["", "RMSE", "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],
-    data.comparison.pictures.map(p => [p.name, ...["rmse", "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
+  const flip = data.comparison.pictures.some(p => p.flip !== undefined);
+  section("A against B, the reference", wide(table(["", "RMSE", ...(flip ? ["FLIP"] : []), "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],
+    data.comparison.pictures.map(p => [p.name, ...["rmse", ...(flip ? ["flip"] : []), "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
       p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
     element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
       (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where pixels err together and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));

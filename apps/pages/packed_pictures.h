@@ -10,15 +10,19 @@
 namespace neumann {
 
 // A picture's means are half floats (11 bits, about three digits) times a power of two of its own, so that the darkest bounce keeps
-// as many as the brightest. Its errors are a byte each: 0 for no error, 255 for an unknown one, otherwise c for
-// 2^(low + (c − 1) step), a step of 1/12, so that errors are 3% off at most, or as wide as the picture's errors need. All of it is
-// deflated and then base64.
+// as many as the brightest. Where a mean has an error, it is a multiple of the largest power of two that is at most 1/16 of that,
+// so that it is off by at most 1/32 of its error: what is left out is noise, which no compression makes smaller. Its errors are a
+// byte each: 0 for no error, 255 for an unknown one, otherwise c for 2^(low + (c − 1) step), a step of 1/12, so that errors are 3%
+// off at most, or as wide as the picture's errors, or those of all sums, need.
+//
+// The channels are much alike, and so are the errors of neighbouring sums: halves (as numbers of 16 bits) and codes of green and
+// blue are kept less those of red, and before that the codes of a sum less those of the sum before it. All of it is deflated, and
+// then written in 91 characters.
 struct PackedPicture {
     // "exponent" of the scale, and "errors": kind ("term", "sum", "term_discretisation", "sum_discretisation"), low, step, in the
     // order of `bytes`
     nlohmann::ordered_json head;
-    // The high bytes of the halves, red, green, blue, a row after another, their low bytes, then the errors of each kind; in
-    // base64.
+    // The high bytes of the halves, red, green, blue, a row after another, their low bytes, then the errors of each kind.
     std::string bytes;
 };
 
@@ -29,11 +33,11 @@ public:
     PackedSeries(int width, int height, std::size_t pictures, std::size_t on_page);
     PackedSeries(int width, int height, std::size_t pictures) : PackedSeries(width, height, pictures, pictures) {}
 
-    // Picture i is a bounce's term, with the errors of its sum; or the rest, which has no sum. What is added is packed at the end.
-    // May be called for several i at once.
+    // Picture i is a bounce's term, with the errors of its sum; or the rest, which has no sum. May be called for several i at once.
     void add_term(std::size_t i, const PixelEstimate& term);
     void add_sum(std::size_t i, const PixelEstimate& sum);
-    void pack(std::size_t i);
+    // At the end, once.
+    void pack();
 
     // Metadata for the page: "width", "height", "factor", "full_width", "full_height", "interval_factor" (half of a pixel's 95%
     // interval divided by its standard error; null: unknown), "independent" (pixels).
@@ -50,9 +54,10 @@ private:
     double degrees_of_freedom_ = 0.0;  // of picture 0, and of all
     bool independent_ = true;
     std::vector<PackedPicture> pictures_;
+    std::vector<std::vector<float>> sum_errors_;  // logarithms
 };
 
-// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make 13 MB, so a page has at most about 100 MB.
+// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make 12 MB, so a page has at most about 100 MB.
 constexpr std::size_t page_pixels = std::size_t{8} << 20;
 
 }  // namespace neumann

@@ -9,6 +9,7 @@ class Series {
     this.pixels = this.width * this.height;
     this.last = pictures.heads.length - 1 - (pictures.has_rest ? 1 : 0);
     this.planes = [];
+    this.whole = 0;  // so many sums have the codes of their errors
     this.sums = new Map();
     const [head, ...rows] = convergence.trim().split("\n").map(line => line.split(","));
     this.convergence = rows.map(row => Object.fromEntries(row.map((cell, c) => [head[c], Number(cell.replace("inf", "Infinity"))])));
@@ -19,7 +20,12 @@ class Series {
   async load(i) {
     this.planes[i] = await decoded($(`picture-${this.index}-${i}`).textContent, this.heads[i], this.pixels);
     this.sums.clear();
+    for (; this.planes[this.whole]; ++this.whole) {
+      const codes = this.codesOfSum(this.whole), before = this.codesOfSum(this.whole - 1);
+      if (codes && before) for (let p = 0; p < codes.length; ++p) codes[p] += before[p];
+    }
   }
+  codesOfSum(i) { return this.planes[i] && this.planes[i].errors.sum && this.planes[i].errors.sum.codes; }
 
   isRest({ i, absent }) { return i === this.last + 1 && !absent; }
   has(ref) { return ref.i >= 0 && (ref.i <= this.last || (this.isRest(ref) && this.hasRest && !ref.sum)); }

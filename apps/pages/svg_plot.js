@@ -7,7 +7,9 @@ const ink = of => {
 };
 const escaped = text => String(text).replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
 const shapes = {  // of marks, around 0, 0
-  triangle: "M0-4.5 4 3H-4Z", rect: "M-3.5-3.5H3.5V3.5H-3.5Z", rectRot: "M0-4.5 4.5 0 0 4.5-4.5 0Z", circle: "M-4 0A4 4 0 1 0 4 0 4 4 0 1 0-4 0Z"
+  triangle: "M0-4.5 4 3H-4Z", rect: "M-3.5-3.5H3.5V3.5H-3.5Z", rectRot: "M0-4.5 4.5 0 0 4.5-4.5 0Z",
+  crossRot: "M-3.5-3.5 3.5 3.5M-3.5 3.5 3.5-3.5", cross: "M-4.5 0H4.5M0-4.5V4.5", star: "M-4.5 0H4.5M0-4.5V4.5M-3.2-3.2 3.2 3.2M-3.2 3.2 3.2-3.2",
+  rectRounded: "M-2-4H2A2 2 0 0 1 4-2V2A2 2 0 0 1 2 4H-2A2 2 0 0 1-4 2V-2A2 2 0 0 1-2-4Z", circle: "M-4 0A4 4 0 1 0 4 0 4 4 0 1 0-4 0Z"
 };
 const svgPlot = chart => {
   const { scales: { x, y }, chartArea: area, width, height, legend } = chart, out = [], round = v => +v.toFixed(2);
@@ -22,6 +24,8 @@ const svgPlot = chart => {
     isX ? text(label, at, area.bottom + 18, 'text-anchor="middle" class="x"') : text(label, area.left - 6, at + 4, 'text-anchor="end" class="y"');
   }
   path(`M${area.left} ${area.top}V${area.bottom}H${area.right}`, "#8a8a8a");
+  const { title } = chart.options.plugins;
+  if (title && title.display) text(title.text, middleX, chart.titleBlock.bottom - 8, 'text-anchor="middle" font-weight="bold"');
   text(x.options.title.text, middleX, area.bottom + 38, 'text-anchor="middle"');
   text(y.options.title.text, 12, middleY, `text-anchor="middle" transform="rotate(-90 12 ${round(middleY)})"`);
   out.push(`<clipPath id="area"><rect x="${area.left}" y="${area.top}" width="${area.right - area.left}" height="${area.bottom - area.top}"/></clipPath><g clip-path="url(#area)">`);
@@ -48,7 +52,6 @@ const svgPlot = chart => {
 
 // All points, also those that have no place on a logarithmic axis.
 const csvPlot = chart => {
-  const cell = v => /[",\n]/.test(v) ? `"${String(v).replaceAll('"', '""')}"` : v ?? "";
-  const { x, y } = chart.scales, rows = chart.data.datasets.flatMap(set => set.all.map(p => [set.label || p.label, p.bounce ?? p.x, p.y, p.half]));
-  return [["series", x.options.title.text, y.options.title.text, "half of the 95% interval"], ...rows].map(row => row.map(cell).join(",") + "\n").join("");
+  const { x, y } = chart.scales, rows = chart.data.datasets.flatMap(set => (set.all ?? []).map(p => [set.label || p.label, p.bounce ?? p.x, p.y, p.half]));
+  return csvOf([["series", x.options.title.text, y.options.title.text, "half of the 95% interval"], ...rows]);
 };

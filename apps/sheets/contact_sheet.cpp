@@ -38,14 +38,14 @@ int block_height(const SheetLayout& layout, int rows) {
 }
 
 void paste_block(DisplayImage& sheet, int top, const SheetLayout& layout, const std::string& heading,
-                 std::span<const LabelledPicture> pictures, double exposure, const std::optional<std::string>& font) {
+                 std::span<const LabelledPicture> pictures, double exposure, const SheetStyle& style) {
     if (pictures.empty()) return;
-    sheet.paste(caption(heading, sheet.width - 2 * sheet_margin, heading_height, heading_size, font, false), sheet_margin, top);
+    sheet.paste(caption(heading, sheet.width - 2 * sheet_margin, heading_height, heading_size, style, false), sheet_margin, top);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const int column = static_cast<int>(i) % layout.columns, row = static_cast<int>(i) / layout.columns;
         const int x = sheet_margin + column * (layout.thumbnail_width + sheet_gap);
         const int y = top + heading_height + row * (layout.thumbnail_height + label_height(sheet_label_size) + sheet_gap);
-        sheet.paste(with_label(pictures[i], layout.thumbnail_width, layout.thumbnail_height, exposure, sheet_label_size, font), x,
+        sheet.paste(with_label(pictures[i], layout.thumbnail_width, layout.thumbnail_height, exposure, sheet_label_size, style), x,
                     y);
     }
 }
@@ -66,18 +66,20 @@ SheetLayout layout_sheet(int terms, int sums, int width, int height) {
 }
 
 std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<const LabelledPicture> sums, double exposure,
-                          const std::optional<std::string>& font, const SheetHeadings& headings) {
+                          const SheetStyle& style, const SheetHeadings& headings) {
     if (terms.empty()) throw std::invalid_argument("contact_sheet: no pictures");
     const Image& first = *terms.front().picture;
+    const bool any = std::ranges::any_of(terms, [](const LabelledPicture& p) { return p.factor != 1.0; });
+    const char* brightened = any ? "; ×8: eight times as bright" : "";
     const SheetLayout layout =
         layout_sheet(static_cast<int>(terms.size()), static_cast<int>(sums.size()), first.width, first.height);
     const int terms_height = block_height(layout, layout.term_rows);
     DisplayImage sheet(sheet_width(layout), 2 * sheet_margin + terms_height + block_height(layout, layout.sum_rows),
-                       sheet_background);
-    paste_block(sheet, sheet_margin, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.terms, exposure), terms, exposure,
-                font);
-    paste_block(sheet, sheet_margin + terms_height, layout, fmt::format("{}, exposure x{:.3g}, sRGB", headings.sums, exposure),
-                sums, exposure, font);
+                       style.theme.background);
+    paste_block(sheet, sheet_margin, layout, fmt::format("{}, exposure ×{:.3g}, sRGB{}", headings.terms, exposure, brightened),
+                terms, exposure, style);
+    paste_block(sheet, sheet_margin + terms_height, layout, fmt::format("{}, exposure ×{:.3g}, sRGB", headings.sums, exposure),
+                sums, exposure, style);
     return encode_png(sheet, headings.comment);
 }
 

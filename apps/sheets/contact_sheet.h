@@ -27,6 +27,6 @@ SheetLayout layout_sheet(int terms, int sums, int width, int height);
 // A PNG file of the sheet: `terms` (at least one; "bounce 0", …, "rest"), then `sums` ("sum 0", "sum 0..1", …), all of one size and
 // multiplied by `exposure`, which is printed on the sheet. Without a font (find_label_font) the sheet has no labels.
 std::string contact_sheet(std::span<const LabelledPicture> terms, std::span<const LabelledPicture> sums, double exposure,
-                          const std::optional<std::string>& font, const SheetHeadings& headings = {});
+                          const SheetStyle& style, const SheetHeadings& headings = {});
 
 }  // namespace neumann

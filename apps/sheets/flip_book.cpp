@@ -28,7 +28,7 @@ double affordable_scale(int width, int height, std::size_t pictures, double seco
     return std::sqrt(seconds * pixels_a_second / (static_cast<double>(width) * height * static_cast<double>(pictures)));
 }
 
-FlipBook::FlipBook(std::vector<LabelledPicture> pictures, double exposure, const std::optional<std::string>& font)
+FlipBook::FlipBook(std::vector<LabelledPicture> pictures, double exposure, const SheetStyle& style)
     : pictures_(std::move(pictures)) {
     if (pictures_.empty()) throw std::invalid_argument("FlipBook: no pictures");
     const Image& first = *pictures_.front().picture;
@@ -41,7 +41,7 @@ FlipBook::FlipBook(std::vector<LabelledPicture> pictures, double exposure, const
               height = std::max(1, static_cast<int>(first.height * scale));
     std::vector<DisplayImage> frames;
     for (const LabelledPicture& picture : pictures_)
-        frames.push_back(with_label(picture, width, height, exposure, flip_label_size, font));
+        frames.push_back(with_label(picture, width, height, exposure, flip_label_size, style));
     pages_ = compressed(frames);
 }
 

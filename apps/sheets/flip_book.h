@@ -16,7 +16,7 @@ public:
     // Takes at least one picture, all of one size and at one exposure. They are shown at most 512 pixels long, or smaller if there
     // are so many that compression would take long; small ones are enlarged by whole factors. Without a font (find_label_font)
     // there are no labels.
-    FlipBook(std::vector<LabelledPicture> pictures, double exposure, const std::optional<std::string>& font);
+    FlipBook(std::vector<LabelledPicture> pictures, double exposure, const SheetStyle& style);
 
     // A GIF file of all pictures, or of the chosen ones: an endless loop with three pictures in two seconds.
     std::string gif(std::span<const LabelledPicture> chosen) const;

@@ -5,13 +5,26 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace neumann {
 
 // Margin around all pictures of a sheet, and gap between two of them, in pixels.
 inline constexpr int sheet_margin = 24, sheet_gap = 12;
 
-constexpr std::uint8_t sheet_background = 34;
+// Grey levels.
+struct SheetTheme {
+    std::uint8_t background, text;
+};
+constexpr SheetTheme dark_theme{34, 230}, white_theme{255, 20};
+
+struct SheetStyle {
+    std::optional<std::string> font;  // find_label_font(); without one there are no labels
+    SheetTheme theme = dark_theme;
+
+    SheetStyle(std::optional<std::string> label_font, SheetTheme of = dark_theme) : font(std::move(label_font)), theme(of) {}
+    SheetStyle(std::nullopt_t) {}
+};
 
 // `picture` is in scene-linear radiance and must outlive this object.
 struct LabelledPicture {
@@ -20,15 +33,18 @@ struct LabelledPicture {
     double factor = 1.0;  // extra brightness factor, relative to the other pictures
 };
 
+// The largest power of two, at least 1, for which the 99th percentile of a term's luminance is at most white at this exposure.
+// Pixels where `emission` is not black are ignored (exposure_for).
+double brightening(const Image& term, const Image& emission, double exposure);
+
 // An image of `width` × `height` pixels with a text, centred or at the left; without a font it is blank. A text that is too wide is
 // set in a smaller size.
-DisplayImage caption(const std::string& text, int width, int height, int font_size, const std::optional<std::string>& font,
-                     bool centred, std::uint8_t background = sheet_background);
+DisplayImage caption(const std::string& text, int width, int height, int font_size, const SheetStyle& style, bool centred);
 
 // The picture, multiplied by `exposure` and its factor and scaled to `width` × `height` pixels (smaller, or larger by a whole
 // factor), with its label below, label_height(label_size) high.
 DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
-                        const std::optional<std::string>& font);
+                        const SheetStyle& style);
 constexpr int label_height(int label_size) { return 5 * label_size / 3; }
 
 // The scale for pictures of this size if the scale `fitting` fits. Small pictures are enlarged up to eight times or to 128 pixels,

@@ -12,16 +12,8 @@ namespace neumann {
 namespace {
 
 constexpr std::size_t last_in_strip = 6;
-constexpr int slide_width = 1920, largest_picture = 480, strip_label_size = 20;
+constexpr int slide_width = 1920;
 constexpr double gif_seconds = 0.06;
-
-// The power of two by which to brighten a term.
-double brightening(const Image& term, const Image& emission, double exposure) {
-    // Rounded down to a power of two, so that the term is not too bright; 1e-3 allows for the rounding of pixel values.
-    const double factor = std::exp2(std::floor(std::log2(exposure_for(term, emission) / exposure) + 1e-3));
-    const bool black = std::all_of(term.pixels.begin(), term.pixels.end(), [](const Rgb& p) { return is_black(p); });
-    return black ? 1.0 : std::max(1.0, factor);
-}
 
 // "", "K ", "K² ", …
 std::string power_of(const std::string& K, std::size_t i) { return i == 0 ? "" : i == 1 ? K + " " : K + superscript(i) + " "; }
@@ -38,27 +30,31 @@ LabelledPicture sum_to(const SeriesPictures& series, std::size_t i) {
 
 LabelledPicture limit_of(const SeriesPictures& series) { return {"all bounces" + series.kind, series.limit}; }
 
-DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const std::optional<std::string>& font) {
-    const Image& first = *strip.front().front().picture;
-    const auto columns = static_cast<int>(strip.front().size()), rows = static_cast<int>(strip.size());
-    const double fitting = (slide_width - 2 * border - (columns - 1) * sheet_gap) / (static_cast<double>(columns) * first.width);
-    const double scale =
-        scale_shown(first.width, first.height,
-                    std::min({fitting, largest_scale, static_cast<double>(largest_picture) / std::max(first.width, first.height)}));
-    const int width = std::max(1, static_cast<int>(first.width * scale)),
-              height = std::max(1, static_cast<int>(first.height * scale));
-    const int row_height = height + label_height(strip_label_size);
-    DisplayImage out(2 * border + columns * (width + sheet_gap) - sheet_gap, 2 * border + rows * row_height, sheet_background);
-    for (int r = 0; r < rows; ++r)
-        for (int c = 0; c < columns; ++c) {
+DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const SheetStyle& style) {
+    const StripLayout at = layout_strip(strip, border, largest_scale);
+    DisplayImage out(at.whole_width(), at.whole_height(), style.theme.background);
+    for (int r = 0; r < at.rows; ++r)
+        for (int c = 0; c < at.columns; ++c) {
             const LabelledPicture& picture = strip[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-            out.paste(with_label(picture, width, height, exposure, strip_label_size, font), border + c * (width + sheet_gap),
-                      border + r * row_height);
+            out.paste(with_label(picture, at.width, at.height, exposure, strip_label_size, style), at.left(c), at.top(r));
         }
     return out;
 }
 
 }  // namespace
+
+StripLayout layout_strip(const Strip& strip, int border, double largest_scale) {
+    const Image& first = *strip.front().front().picture;
+    StripLayout layout{border, static_cast<int>(strip.size()), static_cast<int>(strip.front().size()), 0, 0};
+    const double fitting =
+        (slide_width - 2 * border - (layout.columns - 1) * sheet_gap) / (static_cast<double>(layout.columns) * first.width);
+    const double scale =
+        scale_shown(first.width, first.height,
+                    std::min({fitting, largest_scale, static_cast<double>(largest_picture) / std::max(first.width, first.height)}));
+    layout.width = std::max(1, static_cast<int>(first.width * scale));
+    layout.height = std::max(1, static_cast<int>(first.height * scale));
+    return layout;
+}
 
 Pictures SeriesPictures::all() const {
     Pictures pictures;
@@ -109,18 +105,18 @@ Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps) {
     return strip;
 }
 
-std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font, const std::string& comment) {
-    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, font), comment);
+std::string strip_png(const Strip& strip, double exposure, const SheetStyle& style, const std::string& comment) {
+    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, style), comment);
 }
 
-std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font) {
+std::string strip_gif(const Strip& strip, double exposure, const SheetStyle& style) {
     const Image& first = *strip.front().front().picture;
     const double scale = affordable_scale(first.width, first.height, strip.size() * strip.front().size(), gif_seconds);
     std::vector<DisplayImage> frames;
     for (std::size_t c = 0; c < strip.front().size(); ++c) {
         Strip frame(1);
         for (const Pictures& row : strip) frame[0].push_back(row[c]);
-        frames.push_back(drawn(frame, 0, scale, exposure, font));
+        frames.push_back(drawn(frame, 0, scale, exposure, style));
     }
     return flip_book(frames);
 }

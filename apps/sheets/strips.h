@@ -28,9 +28,7 @@ struct SeriesPictures {
 // Rows with the same number of pictures, one below the other.
 using Strip = std::vector<Pictures>;
 
-// Bounces 0 to 6, as far as they exist. The row below shows each multiplied by the largest power of two, at least 1, for which the
-// 99th percentile of its luminance is at most white at this exposure: "16 K³ Le". Pixels where `emission` is not black are ignored
-// (exposure_for).
+// Bounces 0 to 6, as far as they exist. The row below shows each multiplied by its brightening(): "16 K³ Le".
 Strip strip_of_terms(const SeriesPictures& series, const Image& emission, double exposure);
 // The sums up to bounce 0, …, 6, as far as they exist.
 Strip strip_of_sums(const SeriesPictures& series);
@@ -41,10 +39,23 @@ Strip strip_of_doubling(const SeriesPictures& series);
 // block of the picture. The pictures are kept in `maps`.
 Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps);
 
+constexpr int largest_picture = 480, strip_label_size = 20;
+
+// Where pictures of `width` × `height` stand, each with its label below.
+struct StripLayout {
+    int border, rows, columns, width, height;
+
+    int left(int column) const { return border + column * (width + sheet_gap); }
+    int top(int row) const { return border + row * (height + label_height(strip_label_size)); }
+    int whole_width() const { return left(columns) - sheet_gap + border; }
+    int whole_height() const { return top(rows) + border; }
+};
+StripLayout layout_strip(const Strip& strip, int border = sheet_margin, double largest_scale = largest_picture);
+
 // A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. The strip must not be empty.
 // The file carries the comment, unless that is empty.
-std::string strip_png(const Strip& strip, double exposure, const std::optional<std::string>& font, const std::string& comment = "");
+std::string strip_png(const Strip& strip, double exposure, const SheetStyle& style, const std::string& comment = "");
 // A GIF file: each frame is a column of the strip, with its pictures side by side.
-std::string strip_gif(const Strip& strip, double exposure, const std::optional<std::string>& font);
+std::string strip_gif(const Strip& strip, double exposure, const SheetStyle& style);
 
 }  // namespace neumann

@@ -47,6 +47,12 @@ double affordable_level(std::span<const double> measured, double growth, double 
                     static_cast<double>(largest_effort));
 }
 
+double seconds_of_level(std::span<const double> measured, double growth, double level) {
+    const std::size_t k = std::min(static_cast<std::size_t>(std::max(level, 0.0)), measured.size() - 1);
+    const double factor = k + 1 < measured.size() ? measured[k + 1] / measured[k] : growth;
+    return measured[k] * std::pow(factor, level - static_cast<double>(k));
+}
+
 double field_growth(std::span<const double> measured) {
     const std::size_t n = measured.size();
     return n > 2 ? std::clamp(std::sqrt(measured[n - 1] / measured[n - 3]), 1.5, 4.0) : 2.0;

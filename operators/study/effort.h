@@ -40,6 +40,9 @@ std::uint64_t whole_nets(double samples);
 // logarithm is interpolated; beyond them each level is assumed to take `growth` > 1 times as long as the previous one.
 double affordable_level(std::span<const double> measured, double growth, double seconds);
 
+// The seconds of a level, by the same rule.
+double seconds_of_level(std::span<const double> measured, double growth, double level);
+
 // The growth factor per level of the times of fields, from the measured ones; their rays double with every second level.
 double field_growth(std::span<const double> measured);
 

@@ -17,11 +17,6 @@ double median(std::vector<double>& values) {
     return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-WithError root(double mse, double error) {
-    const double rmse = std::sqrt(std::max(mse, 0.0));
-    return {rmse, rmse > 0.0 ? 0.5 * error / rmse : std::sqrt(error)};
-}
-
 PointSummary summarise(const StudiedPoint& point, double reference_size) {
     const ErrorStatistics& errors = point.errors;
     const double shared = errors.reference_error;
@@ -34,7 +29,8 @@ PointSummary summarise(const StudiedPoint& point, double reference_size) {
     result.seconds = median_with_error(point.costs.seconds);
 
     const WithError mse{errors.mean_mse.value, std::hypot(errors.mean_mse.standard_error, shared)};
-    result.rmse = root(mse.value, mse.standard_error);
+    result.mse = mse;
+    result.rmse = rmse_of(mse);
     result.rel_mse = errors.mean_rel_mse;
     result.resolved = mse.value > 2.0 * mse.standard_error;
     result.variance = errors.variance;
@@ -75,6 +71,11 @@ WithError median_with_error(std::vector<double> values) {
     for (double& x : values) x = std::abs(x - middle);
     // For normal values, σ = 1.4826 times the median absolute deviation, and the median's standard error is √(π/2) σ / √n.
     return {middle, 1.2533 * 1.4826 * median(values) / std::sqrt(n)};
+}
+
+WithError rmse_of(const WithError& mse) {
+    const double rmse = std::sqrt(std::max(mse.value, 0.0));
+    return {rmse, rmse > 0.0 ? 0.5 * mse.standard_error / rmse : std::sqrt(mse.standard_error)};
 }
 
 PictureSummary summarise(std::span<const StudiedPoint> points, double reference_size) {

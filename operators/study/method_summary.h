@@ -19,10 +19,13 @@ struct RepeatCosts {
 // Times are summarised by medians, because other work on the machine makes some of them longer.
 WithError median_with_error(std::vector<double> values);
 
+// The RMSE of an MSE, by propagation; 0 for one that is negative because of the reference's noise.
+WithError rmse_of(const WithError& mse);
+
 struct PointSummary {
     double samples = 0.0;
     WithError setup_seconds, sampling_seconds, seconds;  // medians; `seconds` is both together
-    WithError rmse, rel_mse;                             // their errors include those of repeats and of the reference
+    WithError mse, rmse, rel_mse;                        // errors of mse and rmse include those of repeats and of the reference
     bool resolved = false;                               // the MSE is larger than the noise in it
     WithError variance, bias_squared;
     double bias_half_width = 0.0;  // of the 95% interval of bias², Student's t; it holds the truth in 93.5% to 98.5%

@@ -28,8 +28,11 @@ struct Measurement {
     double setup = 0.0;
     bool fields = false;
 
-    double level(double budget) const {
-        return affordable_level(seconds, fields ? field_growth(seconds) : 2.0, std::max(budget - setup, seconds.front()));
+    double growth() const { return fields ? field_growth(seconds) : 2.0; }
+    double level(double budget) const { return affordable_level(seconds, growth(), std::max(budget - setup, seconds.front())); }
+    double seconds_of(const Effort& effort) const {
+        const double level = std::log2(static_cast<double>(effort.samples) / (fields ? 8.0 : 1.0));
+        return setup + seconds_of_level(seconds, growth(), level);
     }
 };
 
@@ -61,7 +64,9 @@ std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vecto
             std::vector<Effort>& efforts = plan.efforts.emplace_back();
             for (const std::uint64_t n : wanted.samples)
                 efforts.push_back(has_fields(method.method) ? field_effort_of_samples(n) : Effort{n});
-            if (!run_method(method, effort_of(method, 0), bounces, seed, scene, pilot, watch)) return std::nullopt;
+            const auto run = measure(method, shortest_measurement, bounces, seed, scene, pilot, watch);
+            if (!run) return std::nullopt;
+            for (const Effort& effort : efforts) plan.repeat_seconds += run->seconds_of(effort);
         }
         most_samples = wanted.samples.back();
     } else {
@@ -94,13 +99,16 @@ std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vecto
             }
             plan.efforts.push_back(measured[m].fields ? field_efforts(levels, patches_given) : sampling_efforts(levels));
         }
-        const StudyMethod walk{"walk", method::Walk{}};
-        const auto measured_walk = measure(walk, shortest_measurement, bounces, seed, scene, pilot, watch);
-        if (!measured_walk) return std::nullopt;
-        most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;
+        for (const double budget : plan.budgets) plan.repeat_seconds += static_cast<double>(methods.size()) * budget;
     }
+    const StudyMethod walk{"walk", method::Walk{}};
+    const auto measured_walk = measure(walk, shortest_measurement, bounces, seed, scene, pilot, watch);
+    if (!measured_walk) return std::nullopt;
+    if (!plan.budgets_are_samples)
+        most_samples = sampling_effort(static_cast<int>(std::lround(measured_walk->level(plan.budgets.back())))).samples;
     plan.reference_samples =
         wanted.reference_samples.value_or(std::max(std::bit_ceil(reference_factor * most_samples), least_reference_samples));
+    plan.reference_seconds = measured_walk->seconds_of({plan.reference_samples});
     return plan;
 }
 

@@ -20,6 +20,8 @@ struct StudyPlan {
     bool budgets_are_samples = false;
     std::vector<std::vector<Effort>> efforts;  // method by method, budget by budget
     std::uint64_t reference_samples = 0;
+    // What is expected, in seconds: all methods and budgets once, and a reference by walk.
+    double repeat_seconds = 0.0, reference_seconds = 0.0;
 };
 
 // Measures by short runs how fast each method is; these also find what a method refuses. Returns nothing if it was stopped.

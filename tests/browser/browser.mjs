@@ -22,6 +22,14 @@ export const openBrowser = async () => {
   return {
     complaints,
     close: () => browser.close(),
+    // What printing a page into a PDF file gives, a byte a character.
+    async pdf(html) {
+      const page = await browser.newPage();
+      await page.setContent(html);
+      const file = await page.pdf({ preferCSSPageSize: true, printBackground: true });
+      await page.close();
+      return file.toString("latin1");
+    },
     async open(file, { width = 1280, height = 900, scheme = "light", hash = "" } = {}) {
       const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
       const url = pathToFileURL(file).href;

@@ -3,6 +3,7 @@
 #include "apps/files/rendered_picture.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
+#include "operators/statistics/flip.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -34,9 +35,9 @@ protected:
         return path.string();
     }
 
-    static std::string printed(const std::string& a, const std::string& b, bool json = false) {
+    static std::string printed(const std::string& a, const std::string& b, bool json = false, bool flip = false) {
         testing::internal::CaptureStdout();
-        const int code = compare_command({a, b, "", json});
+        const int code = compare_command({a, b, "", json, {}, flip});
         std::fflush(stdout);
         std::string text = testing::internal::GetCapturedStdout();
         EXPECT_EQ(code, 0);
@@ -151,6 +152,20 @@ TEST_F(CompareCommand, JsonHoldsTheNumbersOfEachChannel) {
     EXPECT_EQ(picture.at("red").at("mean"), 3.0);
     EXPECT_EQ(picture.at("blue").at("reference_mean"), 2.0);
     EXPECT_EQ(picture.at("standard_error"), 0.625 / 4.0);
+}
+
+// FLIP where it is asked for: 0 of a picture and itself, and what mean_hdr_flip() says of two.
+TEST_F(CompareCommand, FlipIfAskedFor) {
+    const std::string a = put("a.exr", constant(4, 3.0, 0.375)), b = put("b.exr", constant(4, 2.0, 0.5));
+    const auto flip = [](const std::string& first, const std::string& second) {
+        return nlohmann::json::parse(printed(first, second, true, true)).at("pictures").at(0).at("flip").get<double>();
+    };
+    EXPECT_EQ(flip(a, a), 0.0);
+    EXPECT_EQ(flip(a, b), mean_hdr_flip(constant(4, 3.0, 0.0).mean, constant(4, 2.0, 0.0).mean));
+    EXPECT_GT(flip(a, b), 0.01);
+    EXPECT_FALSE(numbers(a, b).at("pictures").at(0).contains("flip"));
+    const std::string table = printed(a, b, false, true);
+    EXPECT_NE(table.find("    max |A-B|     FLIP\nA against B"), std::string::npos) << table;
 }
 
 TEST_F(CompareCommand, FoldersAreComparedInOrderAndTheRestIsNamed) {

@@ -1,6 +1,7 @@
 // The contact sheet, the flip-book and the strips: what is on them, and what fits where.
 #include "apps/sheets/contact_sheet.h"
 #include "apps/sheets/flip_book.h"
+#include "apps/sheets/strip_svg.h"
 #include "apps/sheets/strips.h"
 #include "core/image/image_io.h"
 
@@ -24,6 +25,18 @@ std::vector<LabelledPicture> pages(int count, const std::string& name, const Ima
     std::vector<LabelledPicture> out;
     for (int i = 0; i < count; ++i) out.push_back({fmt::format("{} {}", name, i), &picture});
     return out;
+}
+
+std::string from_base64(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text.substr(0, text.find('='))) {
+        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+        if ((count += 6) >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255u);
+    }
+    return bytes;
 }
 
 TEST(ContactSheet, LayoutsFitAndLeaveNothingOut) {
@@ -72,10 +85,66 @@ TEST(ContactSheet, LabelsAreDrawn) {
     EXPECT_NE(contact_sheet(pages(2, "bounce", picture), {}, 1.0, font), contact_sheet(pages(2, "sum", picture), {}, 1.0, font));
 }
 
+// A dark bounce times its power of two is shown as a bright one, and the heading tells of it.
+TEST(ContactSheet, DarkBouncesAreBrightened) {
+    Image dim(64, 64), bright(64, 64), black(64, 64);
+    for (Rgb& p : dim.pixels) p = Rgb(0.05);
+    for (Rgb& p : bright.pixels) p = Rgb(0.8);
+    EXPECT_EQ(brightening(dim, black, 1.0), 16.0);
+    EXPECT_EQ(brightening(bright, black, 1.0), 1.0);
+    EXPECT_EQ(brightening(black, black, 1.0), 1.0);
+    EXPECT_EQ(with_label({"", &dim, 16.0}, 64, 64, 1.0, 16, std::nullopt).bytes,
+              with_label({"", &bright}, 64, 64, 1.0, 16, std::nullopt).bytes);
+    const auto sheet = [](double factor, const Image& picture, const std::optional<std::string>& font) {
+        const std::vector<LabelledPicture> one{{"bounce 2", &picture, factor}};
+        return contact_sheet(one, {}, 1.0, font);
+    };
+    EXPECT_EQ(sheet(16.0, dim, std::nullopt), sheet(1.0, bright, std::nullopt));
+    EXPECT_NE(sheet(16.0, dim, find_label_font()), sheet(1.0, bright, find_label_font()));
+}
+
+TEST(Themes, TheCornerOfASheetIsWhiteOrDark) {
+    const Image picture(64, 64);
+    const auto corner = [](const std::string& png) { return int{decode_texels(png, "png").bytes.at(0)}; };
+    for (const auto& [theme, grey] : {std::pair(white_theme, 255), std::pair(dark_theme, 34)}) {
+        const SheetStyle style(find_label_font(), theme);
+        EXPECT_EQ(corner(contact_sheet(pages(2, "bounce", picture), {}, 1.0, style)), grey);
+        EXPECT_EQ(corner(strip_png({pages(2, "bounce", picture)}, 1.0, style)), grey);
+    }
+    EXPECT_NE(FlipBook(pages(2, "bounce", picture), 1.0, SheetStyle(std::nullopt, white_theme)).gif(),
+              FlipBook(pages(2, "bounce", picture), 1.0, std::nullopt).gif());
+}
+
+// Labels are text, and pictures are whole PNG files (which begin with iVBORw0KGgo in base 64) of their own pixels.
+TEST(StripSvg, HasPicturesAndWords) {
+    Image picture(3, 2);
+    picture.pixels[4] = Rgb(0.5, 0.25, 1.0);
+    const Strip strip{{{"K² Le", &picture}, {"a < b & c", &picture, 2.0}}};
+    const std::string svg = strip_svg(strip, 1.0, white_theme, "of <test>");
+    for (const char* part :
+         {">K² Le</text>", ">a &lt; b &amp; c</text>", "<desc>of &lt;test></desc>", "fill=\"#ffffff\"", "fill=\"#141414\""})
+        EXPECT_NE(svg.find(part), std::string::npos) << part << svg;
+    const DisplayImage shown = to_display(picture, 2.0);
+    std::size_t at = 0, pictures = 0;
+    const std::string begin = "href=\"data:image/png;base64,";
+    for (; (at = svg.find(begin, at)) != std::string::npos; ++pictures) {
+        at += begin.size();
+        EXPECT_EQ(svg.compare(at, 11, "iVBORw0KGgo"), 0);
+        if (pictures == 0) continue;
+        const Texels texels = decode_texels(from_base64(svg.substr(at, svg.find('"', at) - at)), "png");
+        EXPECT_EQ(texels.width, 3);
+        EXPECT_EQ(texels.height, 2);
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(texels.bytes.at(texels.index(1, 1) + c), shown.bytes.at(12 + c));
+    }
+    EXPECT_EQ(pictures, 2u);
+    // As wide as the PNG file.
+    EXPECT_NE(svg.find("width=\"" + std::to_string(png_width(strip_png(strip, 1.0, std::nullopt))) + "\""), std::string::npos);
+}
+
 TEST(ContactSheet, ALongLabelOnASmallPictureIsSetSmaller) {
     const std::optional<std::string> font = find_label_font();
     ASSERT_TRUE(font) << "the tests need fonts-dejavu-core";
-    const DisplayImage strip = caption("sum 0..1000000000", 60, 26, 16, font, true, 0);
+    const DisplayImage strip = caption("sum 0..1000000000", 60, 26, 16, {font, {0, 230}}, true);
     EXPECT_EQ(strip.width, 60);
     EXPECT_EQ(strip.height, 26);
 }

@@ -24,7 +24,8 @@ TEST_F(RenderChosen, EachGroupByItself) {
         {"tables", {"series.csv", "convergence.csv"}},
         {"sheets", {"contact-sheet.png", "bounces.gif"}},
         {"strips",
-         {"strip-terms.png", "strip-terms.gif", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif"}},
+         {"strip-terms.png", "strip-terms.gif", "strip-sums.png", "strip-sums.gif", "strip-doubling.png", "strip-doubling.gif",
+          "strip-terms.svg", "strip-sums.svg", "strip-doubling.svg"}},
         {"page", {"index.html"}}};
     for (const auto& [group, files] : groups) {
         Names expected = files;

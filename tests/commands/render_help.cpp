@@ -29,13 +29,13 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help),
-              (std::set<std::string>{
-                  "-h,--help",    "-o",       "-n",         "--tail",   "--spp",        "--time",    "--error",   "--method",
-                  "--direct",     "--lights", "--roulette", "--split",  "--ways",       "--sampler", "--patches", "--directions",
-                  "--reference",  "--seed",   "-t",         "-D",       "--lenient",    "--quiet",   "--json",    "--files",
-                  "--importance", "--plan",   "--memory",   "--resume", "--checkpoint", "--part",    "--photons", "--radius",
-                  "--gather",     "--chain",  "--adaptive", "--tree",   "--records",    "--accuracy"}));
+    EXPECT_EQ(options(help), (std::set<std::string>{
+                                 "-h,--help",  "-o",           "-n",          "--tail",     "--spp",        "--time",   "--error",
+                                 "--method",   "--direct",     "--lights",    "--roulette", "--split",      "--ways",   "--sampler",
+                                 "--patches",  "--directions", "--reference", "--seed",     "-t",           "-D",       "--lenient",
+                                 "--quiet",    "--json",       "--files",     "--theme",    "--importance", "--plan",   "--memory",
+                                 "--resume",   "--checkpoint", "--part",      "--photons",  "--radius",     "--gather", "--chain",
+                                 "--adaptive", "--tree",       "--records",   "--accuracy"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
@@ -44,7 +44,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
 }
 
 TEST_F(RenderHelp, OptionsOfCompare) {
-    EXPECT_EQ(options(printed({"help", "compare"})), (std::set<std::string>{"-h,--help", "-o", "--json"}));
+    EXPECT_EQ(options(printed({"help", "compare"})), (std::set<std::string>{"-h,--help", "-o", "--flip", "--json"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSpectrum) {
@@ -68,10 +68,11 @@ TEST_F(RenderHelp, OptionsOfExport) {
 }
 
 TEST_F(RenderHelp, OptionsOfStudy) {
-    EXPECT_EQ(options(printed({"help", "study"})),
-              (std::set<std::string>{"-h,--help", "--methods", "-o", "--reference", "--reference-spp", "--budgets", "--samples",
-                                     "--repeats", "-n", "--error", "--resume", "--checkpoint", "--seed", "-t", "-D", "--lenient",
-                                     "--quiet", "--json"}));
+    EXPECT_EQ(
+        options(printed({"help", "study"})),
+        (std::set<std::string>{"-h,--help", "--methods",  "-o",     "--reference", "--reference-spp", "--budgets", "--samples",
+                               "--repeats", "--interval", "--crop", "-n",          "--error",         "--resume",  "--checkpoint",
+                               "--seed",    "-t",         "-D",     "--lenient",   "--quiet",         "--json"}));
 }
 
 TEST_F(RenderHelp, OptionsOfStress) {

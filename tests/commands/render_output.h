@@ -133,10 +133,11 @@ protected:
     static std::string numbered(const std::string& name, int i) { return fmt::format("{}_{:03}.exr", name, i); }
 
     static Names output_names(int bounces, bool rest = true) {
-        Names names{"bounces.gif", "contact-sheet.png", "convergence.csv", "index.html",     "run.json",
-                    "series.csv",  "strip-terms.png",   "strip-terms.gif", "strip-sums.png", "strip-sums.gif"};
+        Names names{"bounces.gif",    "contact-sheet.png", "convergence.csv", "index.html",
+                    "run.json",       "series.csv",        "strip-terms.png", "strip-terms.gif",
+                    "strip-sums.png", "strip-sums.gif",    "strip-terms.svg", "strip-sums.svg"};
         if (rest) names.insert("rest.exr");
-        if (rest || bounces > 0) names.insert({"strip-doubling.png", "strip-doubling.gif"});
+        if (rest || bounces > 0) names.insert({"strip-doubling.png", "strip-doubling.gif", "strip-doubling.svg"});
         for (int i = 0; i <= bounces; ++i) names.insert({numbered("bounce", i), numbered("sum", i)});
         return names;
     }

@@ -1,5 +1,10 @@
 // neumann study: what it writes, and what it refuses.
+#include "operators/statistics/student_t.h"
 #include "tests/commands/study_output.h"
+
+#include <fmt/format.h>
+
+#include <array>
 
 namespace neumann::study_command_test {
 
@@ -48,6 +53,7 @@ TEST_F(StudyCommand, Files) {
     }
     EXPECT_EQ(json.at("reference").at("exact"), false);
     EXPECT_EQ(json.at("reference").at("from_cache"), false);
+    EXPECT_EQ(json.at("verdict"), picture(json, "sum").at("verdict").at("text"));
     EXPECT_GT(json.at("truncation").at("rest_mean"), 0.0);
 
     // One file: nothing is fetched.
@@ -131,6 +137,76 @@ TEST_F(StudyCommand, ChosenReference) {
               (Choice{"bidirectional", "walk does not find what mirrors and glass throw on from a light without extent"}));
 }
 
+// The same method twice, under two names, is no different: nothing but chance, 5% by what the interval promises, says otherwise.
+TEST_F(StudyCommand, NoDifferenceIsSeenWhereThereIsNone) {
+    study("a", {"--methods", "walk,walk:direct=mis", "--samples", "8", "--repeats", "8", "-n", "2"});
+    const nlohmann::json json = study_json("a");
+    const std::string text = json.at("verdict");
+    EXPECT_TRUE(text.starts_with("In the sum of bounces 0 to 2 no difference is seen between walk")) << text;
+    const nlohmann::json other = picture(json, "sum").at("verdict").at("others").at(0);
+    EXPECT_LT(other.at("low"), 1.0);
+    EXPECT_GT(other.at("high"), 1.0);
+}
+
+// Three samples or five are samples like any other.
+TEST_F(StudyCommand, SamplesAreAnyNumbers) {
+    study("a", {"--methods", "walk", "--samples", "3,5,100", "--repeats", "2", "-n", "1", "--reference-spp", "300"});
+    const nlohmann::json points = method(study_json("a"), "1", "walk").at("points");
+    ASSERT_EQ(points.size(), 3u);
+    for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(points[b].at("samples"), (std::array{3, 5, 100})[b]);
+    EXPECT_EQ(study_json("a").at("reference").at("identity").at("samples"), 300);
+}
+
+// Without --methods: all that do not refuse the scene, and why the others do.
+TEST_F(StudyCommand, AllMethods) {
+    std::string text = plates("width=\"8\" height=\"3\"");
+    text.insert(text.find("<sensor"), "<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>");
+    write("scene.xml", text);
+    study("a", {"--samples", "4", "--repeats", "2", "-n", "1"});
+    const nlohmann::json json = study_json("a");
+    std::set<std::string> names;
+    for (const nlohmann::json& m : json.at("methods")) names.insert(m.at("name"));
+    EXPECT_TRUE(names.contains("walk") && names.contains("matrix")) << json.at("methods");
+    for (const char* absent : {"auto", "classic", "pointwise", "bidirectional"}) EXPECT_FALSE(names.contains(absent)) << absent;
+    EXPECT_NE(json.at("warnings").dump().find("left out: bidirectional: "), std::string::npos) << json.at("warnings");
+}
+
+// As many repeats as it takes: the interval that comes out is as wide as was asked for, within the third by which eight short runs
+// know the spread.
+TEST_F(StudyCommand, Interval) {
+    const Finished done = run({"study", "scene.xml", "-o", "a", "--methods", "walk:sampler=independent", "--samples", "16", "-n",
+                               "1", "--interval", "0.04", "--reference-spp", "65536"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    const nlohmann::json json = study_json("a");
+    const double repeats = json.at("repeats");
+    EXPECT_TRUE(
+        done.err.starts_with(fmt::format("1 method, 1 budget and {} repeats (for ± 4% of the sum's RMSE) take about ", repeats)))
+        << done.err;
+    const nlohmann::json rmse = method(json, "sum", "walk:sampler=independent").at("points").at(0).at("rmse");
+    const double half = student_t_quantile(0.95, repeats - 1.0) * rmse.at("standard_error").get<double>();
+    EXPECT_NEAR(half / rmse.at("value").get<double>(), 0.04, 0.04 / 2.0);
+    EXPECT_EQ(refused({"study", "scene.xml", "-o", "new", "--methods", "walk", "--interval", "0.1", "--repeats", "4"}),
+              "--repeats excludes --interval\nRun with --help for more information.\n");
+}
+
+// A part that is asked for comes first. Its error is that of its pixels: of all of them where it is the whole picture.
+TEST_F(StudyCommand, Crops) {
+    study("a", joined(small, {"--crop", "0,0,41,3", "--crop", "40,2,1,1"}));
+    const nlohmann::json json = study_json("a"), crops = json.at("crops");
+    ASSERT_GT(crops.size(), 2u);
+    EXPECT_EQ(crops[0].at("given"), true);
+    EXPECT_EQ(crops[1].at("x"), 40);
+    EXPECT_EQ(crops[2].at("given"), false);
+    for (const nlohmann::json& m : crops[0].at("methods")) {
+        const nlohmann::json whole = method(json, "sum", m.at("method")).at("points").at(1).at("rmse");
+        EXPECT_NEAR(m.at("rmse").at("value").get<double>(), whole.at("value").get<double>(), 1e-9) << m;
+    }
+    for (const char* wrong : {"1,2,3", "0,0,42,3", "-1,0,4,2", "1,1,0,1", "a,b,c,d", "1,1,2,2,2"})
+        EXPECT_EQ(
+            refused(joined({"study", "scene.xml", "-o", "new", "--methods", "walk"}, {std::string("--crop=") + wrong})),
+            std::string("--crop ") + wrong + ": expected X,Y,WIDTH,HEIGHT within the picture's 41×3 pixels, as in 0,0,41,3\n");
+}
+
 TEST_F(StudyCommand, ExactAnswers) {
     write("scene.xml", closed_room("0.5"));
     study("a", {"--methods", "walk:direct=bsdf,walk:direct=light", "--samples", "2,4", "--repeats", "4", "-n", "2", "--reference",
@@ -143,6 +219,7 @@ TEST_F(StudyCommand, ExactAnswers) {
     const nlohmann::json exact = method(json, "2", "walk:direct=bsdf");
     for (const nlohmann::json& p : exact.at("points")) EXPECT_LE(p.at("rmse").at("value"), 1e-7);
     EXPECT_EQ(exact.at("rank"), 1);
+    EXPECT_EQ(picture(json, "2").at("verdict").at("best"), "walk:direct=bsdf");
     EXPECT_GT(method(json, "2", "walk:direct=light").at("points").at(1).at("rmse").at("value"), 1e-3);
 }
 
@@ -155,6 +232,9 @@ TEST_F(StudyCommand, Table) {
         for (const char c : line) width += (c & 0xc0) != 0x80;
         EXPECT_LE(width, 130u) << line;
     }
+    EXPECT_EQ(done.out.find("In the sum of bounces 0 to 2 "), 0u) << done.out;
+    EXPECT_TRUE(done.err.starts_with("3 methods, 2 budgets and 4 repeats take about ")) << done.err;
+    EXPECT_NE(done.err.find(", the reference at most "), std::string::npos) << done.err;
     for (const char* text : {"bounce 0 ", "bounce 2 ", "sum of bounces 0 to 2 ", "\n  1 ", "\n  3 ", "Tables and plots are in a\n"})
         EXPECT_NE(done.out.find(text), std::string::npos) << done.out;
     std::filesystem::remove_all(path("a"));

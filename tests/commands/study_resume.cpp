@@ -52,6 +52,22 @@ TEST_F(StudyResume, AfterAKillAndASignal) {
     EXPECT_EQ(figures("a"), figures("whole"));
 }
 
+// The number of repeats that the interval took is kept.
+TEST_F(StudyResume, ByAnInterval) {
+    const Strings options{"--methods", "walk", "--samples", "512,1024", "--interval", "0.2", "-n", "1", "--reference-spp", "256"};
+    const Strings arguments = joined({"study", "scene.xml", "-o", "a", "--quiet"}, options);
+    {
+        RunningCommand command = start(arguments);
+        for (int i = 0; i < 3000 && text_of(path("a/study.journal")).find("\"run\"") == std::string::npos; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        command.signal(SIGKILL);
+        ASSERT_EQ(command.wait().exit_code, 128 + SIGKILL);
+    }
+    EXPECT_EQ(run(joined(arguments, {"--resume"})).exit_code, 0);
+    study("whole", options);
+    EXPECT_EQ(figures("a"), figures("whole"));
+}
+
 // Killed or interrupted while its reference is made, it goes on with that.
 TEST_F(StudyResume, InItsReference) {
     const Strings options = joined({"--methods", "walk,light", "--samples", "16,64", "--repeats", "2", "-n", "1"},

@@ -32,6 +32,16 @@ class Study(Case):
         with self.assertRaises(KeyError):
             study.curve("light", 7)
 
+    def test_verdict_and_interval(self):
+        study = furnace().study(["walk:direct=bsdf", "light"], samples=[4], interval=0.5, bounces=1, reference=BOUNCES, crop=[1, 2, 3, 4], output=self.folder / "v")
+        self.assertGreaterEqual(study.data.repeats, 2)
+        self.assertEqual(study.data.interval, 0.5)
+        self.assertEqual(study.data.pictures[-1].verdict.best, "walk:direct=bsdf")  # by directions of the material a furnace has no variance
+        self.assertTrue(study.data.verdict.startswith("In the sum of bounces 0 to 1 "))
+        self.assertEqual(study.data.verdict, study.data.pictures[-1].verdict.text)
+        first = study.data.crops[0]
+        self.assertEqual([first.x, first.y, first.width, first.height, first.given], [1, 2, 3, 4, True])
+
     def test_errors(self):
         with self.assertRaisesRegex(neumann.InputError, "^--budgets: 1 after 2; budgets have to grow$"):
             furnace().study(["walk"], budgets=[2, 1])

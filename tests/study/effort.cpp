@@ -55,6 +55,14 @@ TEST(Effort, EqualTimesAreEqual) {
         }
 }
 
+// Within, between and beyond the measured levels: the seconds of the level that fits them.
+TEST(Effort, SecondsOfLevelsAreTheInverse) {
+    const std::vector<double> measured{0.01, 0.02, 0.05};
+    for (const double seconds : {0.01, 0.013, 0.02, 0.03, 0.05, 0.4})
+        EXPECT_NEAR(seconds_of_level(measured, 2.0, affordable_level(measured, 2.0, seconds)), seconds, 1e-12) << seconds;
+    EXPECT_NEAR(seconds_of_level(measured, 2.0, 4.0), 0.2, 1e-12);
+}
+
 TEST(Effort, LevelsOfTimes) {
     const std::vector<double> measured{0.01, 0.02, 0.05};
     EXPECT_NEAR(affordable_level(measured, 2.0, 0.02), 1.0, 1e-12);

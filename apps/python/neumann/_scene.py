@@ -249,13 +249,15 @@ class Scene:
 
     def study(
         self,
-        methods: Sequence[str],
+        methods: Optional[Sequence[str]] = None,
         *,
         budgets: Optional[Sequence[float]] = None,
         samples: Optional[Sequence[int]] = None,
         repeats: Optional[int] = None,
+        interval: Optional[float] = None,
         bounces: Optional[int] = None,
         error: Optional[float] = None,
+        crop: Optional[Sequence[int]] = None,
         reference: Optional[Path] = None,
         reference_spp: Optional[int] = None,
         seed: Optional[int] = None,
@@ -265,9 +267,10 @@ class Scene:
     ) -> Study:
         """Methods side by side, error against time, bounce by bounce: as ``neumann study``.
 
-        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"]. budgets: seconds of a run, or samples: samples a pixel of
-        one, growing. repeats: runs of each method at each budget, 16 without it. bounces: the last one that is looked at. error:
-        relative RMSE, for the time to it. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, of
+        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"]; without them all that can do the scene. budgets: seconds of a run, or samples: samples a pixel of
+        one, growing. repeats: runs of each method at each budget, 16 without it, or as many as an interval of
+        the sum's RMSE of ± this part of itself takes. bounces: the last one that is looked at. error: relative RMSE, for the time to it.
+        crop: x, y, width and height of a part that the page shows of every method. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, of
         reference_spp samples a pixel. output: the folder for tables and page; without it nothing is kept.
         """
         arguments = options(locals())
