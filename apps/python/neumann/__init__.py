@@ -22,6 +22,7 @@ from ._chain import Chain
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
+from ._operators import Operators, Symmetrised
 from ._photons import Photons
 from ._records import Records
 from ._report import HealthWarning, NeumannWarning, Report
@@ -38,6 +39,7 @@ __all__ = [
     "LightPictures",
     "Matrices",
     "NeumannWarning",
+    "Operators",
     "Photons",
     "Plan",
     "Records",
@@ -47,6 +49,7 @@ __all__ = [
     "Scene",
     "Solutions",
     "Study",
+    "Symmetrised",
     "Unbounced",
     "Way",
     "blame",

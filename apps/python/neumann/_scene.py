@@ -13,6 +13,7 @@ from ._chain import Chain
 from ._display import as_table
 from ._matrices import STEPS, Matrices, Solutions
 from ._method_options import MethodOptions
+from ._operators import Operators
 from ._photons import Photons
 from ._progress import run
 from ._records import Records
@@ -141,6 +142,7 @@ class Scene:
         given = {"records": records, "accuracy": accuracy, "directions": directions}
         options = [(name, str(value)) for name, value in given.items() if value is not None]
         return Records(run(_neumann.records(self._scene, bounces, options, seed)))
+
     def under_lights(
         self,
         lights: Tuple[int, int] = (8, 8),
@@ -177,13 +179,26 @@ class Scene:
         """T, R and Le on patches: ``T, R, Le = scene.matrices()``; then ``K = R @ T``, and ``L = Le + K @ Le + K @ K @ Le + …``.
 
         patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
-        or b; without it the one with the largest spectral radius. memory: GiB that may be taken. Raises InputError. Where the spectral
-        radius was not found it is nan, and a warning says why.
+        or b; without it the one that reflects most, of the largest ⟨K 1, 1⟩ / ⟨1, 1⟩. memory: GiB that may be taken. Raises InputError.
         """
-        made = Matrices(run(_neumann.matrices(self._scene, options(locals())), quiet))
-        if made.no_radius and not quiet:
-            warn([f"the spectral radius was {made.no_radius}"])
-        return made
+        return Matrices(run(_neumann.patched(self._scene, options(locals())), quiet))
+
+    def operators(
+        self,
+        *,
+        patches: Optional[int] = None,
+        directions: Optional[int] = None,
+        seed: Optional[int] = None,
+        channel: Optional[str] = None,
+        memory: Optional[float] = None,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> Operators:
+        """T, R, K and I − K as SciPy's LinearOperators, with the same rays as ``matrices()`` and without making a matrix.
+
+        Keywords as of ``matrices()``.
+        """
+        return Operators(run(_neumann.patched(self._scene, options(locals())), quiet))
 
     def spectrum(
         self,
