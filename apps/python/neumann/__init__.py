@@ -5,6 +5,7 @@
     series = scene.render(bounces=5, spp=64)
     series.terms[1]                      # direct light: (height, width, 3), row 0 on top, W·m⁻²·sr⁻¹
     series.sums[5], series.sums_stderr[5]
+    series[2], series[1:4]               # bounces, as a notebook shows them
     series.save("out/cornell-box")       # what ./run render writes
 
     T, R, Le = scene.matrices()          # scipy.sparse, scipy.sparse, numpy
@@ -17,7 +18,7 @@ surface, R scatters it there; operators/NOTATION.md is the dictionary.
 """
 
 from ._blame import Blame, blame
-from ._bounces import BounceSeries, Way, compare, read
+from ._bounces import Bounce, Bounces, BounceSeries, Way, compare, read
 from ._chain import Chain
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._neumann import InputError, RunError
@@ -32,7 +33,9 @@ from ._unbounce import LightPictures, Unbounced, unbounce
 
 __all__ = [
     "Blame",
+    "Bounce",
     "BounceSeries",
+    "Bounces",
     "Chain",
     "HealthWarning",
     "InputError",

@@ -144,6 +144,10 @@ class Solutions(dict):
         self.about = about
         """What was solved: the scene, the channel, its spectral radius."""
 
+    def __repr__(self) -> str:
+        converged = sum(found.verdict == "converged" for found in self.values())
+        return f"<Solutions by {len(self)} solvers, of which {converged} converged>"
+
     def _repr_html_(self) -> str:
         names = ["solver", "applications", "seconds", "estimate", "error", "verdict", "why"]
         rows = []

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse.linalg import LinearOperator, aslinearoperator
 
 from . import _neumann
+from ._display import Described
 from ._patched import Patched, Vector
 
 Product = Callable[[Vector], Vector]
@@ -60,7 +61,7 @@ def _diagonal(d: Vector) -> LinearOperator:
     return aslinearoperator(scipy.sparse.diags(d))
 
 
-class Symmetrised:
+class Symmetrised(Described):
     """K with a reciprocal T as a symmetric matrix, for ``eigsh``, ``cg`` and ``minres``; all surfaces are diffuse.
 
     T is its own adjoint, but rays from one side sample it so that this holds only in the mean. T̄ = (T + T*)/2 has it exactly, with the
@@ -95,6 +96,9 @@ class Symmetrised:
     def mode(self, z: ArrayLike) -> NDArray[Any]:
         """The eigenvector (ρ/M)^½ z of K̄ that belongs to z of S."""
         return self._right * np.asarray(z)
+
+    def __repr__(self) -> str:
+        return f"<Symmetrised K, {len(self.b)} × {len(self.b)}>"
 
     def series(self, terms: int = 4) -> LinearOperator:
         """Σ_{k<terms} S^k, a preconditioner for ``cg``: positive definite where the spectral radius of S is below 1."""

@@ -9,13 +9,14 @@ import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 
 from . import _neumann, _report
+from ._display import Described
 from ._progress import run
 from ._vtk import write_quadrilaterals
 
 Vector = NDArray[np.float64]
 
 
-class Patched:
+class Patched(Described):
     """Fields on patches are vectors of one value an unknown, basic radiance in W·m⁻²·sr⁻¹: a diffuse side of a patch is one unknown,
     others have one for each cell of their directions."""
 

@@ -10,7 +10,7 @@ from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
 from ._bounces import BounceSeries, Memory
 from ._chain import Chain
-from ._display import as_table
+from ._display import as_facts, as_table
 from ._matrices import STEPS, Matrices, Solutions
 from ._method_options import MethodOptions
 from ._operators import Operators
@@ -26,6 +26,10 @@ Path = Union[str, "PathLike[str]"]
 
 class Plan(List[Report]):
     """The parts of the machinery, each a Report of part, kept, reason, and saves where it is left out."""
+
+    def __repr__(self) -> str:
+        kept = sum(part.kept for part in self)
+        return f"<Plan: {kept} parts kept, {len(self) - kept} left out>"
 
     def _repr_html_(self) -> str:
         return as_table(
@@ -297,6 +301,11 @@ class Scene:
     def __repr__(self) -> str:
         given = "".join(f", {name}={value}" for name, value in self.definitions.items()) + (", lenient" if self.replaced else "")
         return f"<Scene {self.path}{given}: {self._scene.shapes} shapes, {self.width} × {self.height} pixels>"
+
+    def _repr_html_(self) -> str:
+        facts = {"file": self.path, **self.definitions, "shapes": self._scene.shapes, "pixels": f"{self.width} × {self.height}"}
+        facts["largest albedo"] = ", ".join(f"{a:.3g}" for a in self.largest_albedo)
+        return as_facts({**facts, "replaced": len(self.replaced)}, "")
 
 
 def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
