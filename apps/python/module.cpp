@@ -45,6 +45,7 @@ std::string command_line(const std::string& command, const LoadedScene& scene, c
     for (const std::string& argument : arguments) line += " " + argument;
     for (const auto& [name, value] : scene.definitions) line += " -D " + name + "=" + value;
     if (!scene.scene->replaced.empty()) line += " --lenient";
+    for (const reader::Edit& edit : scene.changes.edits) line += ", edited: " + edit.name + " = " + edit.value;
     return line;
 }
 

@@ -5,6 +5,7 @@
 #include "apps/commands/patch_scene.h"
 #include "apps/python/job.h"
 #include "core/image/pixel_estimate.h"
+#include "core/reader/changed_scene.h"
 #include "core/scene/scene.h"
 #include "operators/statistics/picture_statistics.h"
 
@@ -24,7 +25,9 @@ namespace py = pybind11;
 struct LoadedScene {
     std::string path;
     std::map<std::string, std::string> definitions;
-    std::shared_ptr<const Scene> scene;
+    bool lenient = false;
+    SceneChanges changes = {};
+    std::shared_ptr<const Scene> scene = {};
     double seconds = 0.0;  // time to read it
 };
 

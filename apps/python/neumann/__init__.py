@@ -20,6 +20,7 @@ surface, R scatters it there; operators/NOTATION.md is the dictionary.
 from ._blame import Blame, blame
 from ._bounces import Bounce, Bounces, BounceSeries, Way, compare, read
 from ._chain import Chain
+from ._dictionary import look_at
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
@@ -27,7 +28,7 @@ from ._operators import Operators, Symmetrised
 from ._photons import Photons
 from ._records import Records
 from ._report import HealthWarning, NeumannWarning, Report
-from ._scene import Plan, Scene, load
+from ._scene import Plan, Scene, load, load_dict
 from ._study import Study
 from ._unbounce import LightPictures, Unbounced, unbounce
 
@@ -59,6 +60,8 @@ __all__ = [
     "compare",
     "cube",
     "load",
+    "load_dict",
+    "look_at",
     "read",
     "series",
     "solve",

@@ -1,8 +1,9 @@
 """Scenes, and what can be done with them."""
 
 import tempfile
+from hashlib import sha256
 from os import PathLike, fspath
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
 from ._bounces import BounceSeries, Memory
 from ._chain import Chain
+from ._dictionary import edits_of, parse
 from ._display import as_facts, as_table
 from ._matrices import STEPS, Matrices, Solutions
 from ._method_options import MethodOptions
@@ -68,6 +70,26 @@ class Scene:
     def replaced(self) -> List[str]:
         """What load(…, lenient=True) replaced or left out, each with its place; empty otherwise."""
         return self._scene.replaced
+
+    @property
+    def edits(self) -> Dict[str, str]:
+        """What edit() changed, by name, as a file would have it."""
+        return dict(self._scene.edits)
+
+    def edit(self, changes: Mapping[str, Any]) -> "Scene":
+        """A scene with other values of parameters, by names like those of Mitsuba's traverse(); this one stays as it is.
+
+            brighter = scene.edit({"lamp.emitter.radiance.value": [20.0, 20.0, 18.0], "white.reflectance.value": 0.8})
+            moved = scene.edit({"sensor.to_world": neumann.look_at([0, 0, 4], [0, 0, 0])})
+
+        The first part of a name is the id of an object, in a dictionary its key, or "sensor" and the like for the only one without an id;
+        the last is a parameter, and between them are objects inside. "value" at the end may be left out, and a parameter that is missing
+        is added then. Values: numbers, texts, True and False, three numbers for a colour, a point or a vector, {"type": "rgb", …}, and
+        4 × 4 matrices. Raises InputError. Files of the scene are read again.
+        """
+        changed = Scene(self._scene.edited(edits_of(changes)))
+        warn(changed._scene.warnings)
+        return changed
 
     @property
     def width(self) -> int:
@@ -300,12 +322,13 @@ class Scene:
 
     def __repr__(self) -> str:
         given = "".join(f", {name}={value}" for name, value in self.definitions.items()) + (", lenient" if self.replaced else "")
+        given += f", {len(self.edits)} edits" if self.edits else ""
         return f"<Scene {self.path}{given}: {self._scene.shapes} shapes, {self.width} × {self.height} pixels>"
 
     def _repr_html_(self) -> str:
         facts = {"file": self.path, **self.definitions, "shapes": self._scene.shapes, "pixels": f"{self.width} × {self.height}"}
         facts["largest albedo"] = ", ".join(f"{a:.3g}" for a in self.largest_albedo)
-        return as_facts({**facts, "replaced": len(self.replaced)}, "")
+        return as_facts({**facts, **self.edits, "replaced": len(self.replaced)}, "")
 
 
 def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
@@ -316,5 +339,21 @@ def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
     named in a warning and in ``replaced``, and pictures are marked.
     """
     scene = _neumann.load(fspath(path), definitions(overrides), lenient)
+    warn(scene.warnings)
+    return Scene(scene)
+
+
+def load_dict(dictionary: Mapping[str, Any], *, name: str = "dict", lenient: bool = False) -> Scene:
+    """Takes a scene as a dictionary, as Mitsuba's load_dict does: {"type": "scene", "white": {"type": "diffuse", …}, …}.
+
+    Values are numbers, texts, True and False, three numbers, 4 × 4 matrices or Mitsuba's transforms, {"type": "rgb", "value": …},
+    {"type": "spectrum", …}, {"type": "ref", "id": …} and other objects. A shape {"type": "mesh", "vertices": (n, 3), "faces": (m, 3)},
+    with "normals" (n, 3), "uv" (n, 2) and what a ply may have, is made of arrays. Files are named from the current folder.
+
+    name: of the scene, in messages and in run.json. Raises InputError, "dict#/path/of/keys: what is wrong, what was expected".
+    """
+    parsed = parse(dictionary, name)
+    text = repr(parsed.root) + "".join(file + sha256(b"".join(a.tobytes() for a in arrays)).hexdigest() for file, arrays in parsed.meshes.items())
+    scene = _neumann.load_elements(name, parsed.root, parsed.meshes, text, lenient)
     warn(scene.warnings)
     return Scene(scene)
