@@ -22,6 +22,24 @@ from ._bounces import Bounce, Bounces, BounceSeries, Way, compare, read
 from ._chain import Chain
 from ._dictionary import look_at
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
+from ._method import Method
+from ._method_options import (
+    Auto,
+    Bidirectional,
+    Cache,
+    Classic,
+    Corrected,
+    Gather,
+    Guided,
+    Light,
+    Matrix,
+    Metropolis,
+    Patches,
+    Photon,
+    Pointwise,
+    Surface,
+    Walk,
+)
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
 from ._operators import Operators, Symmetrised
@@ -33,19 +51,33 @@ from ._study import Study
 from ._unbounce import LightPictures, Unbounced, unbounce
 
 __all__ = [
+    "Auto",
+    "Bidirectional",
     "Blame",
     "Bounce",
     "BounceSeries",
     "Bounces",
+    "Cache",
     "Chain",
+    "Classic",
+    "Corrected",
+    "Gather",
+    "Guided",
     "HealthWarning",
     "InputError",
+    "Light",
     "LightPictures",
     "Matrices",
+    "Matrix",
+    "Method",
+    "Metropolis",
     "NeumannWarning",
     "Operators",
+    "Patches",
+    "Photon",
     "Photons",
     "Plan",
+    "Pointwise",
     "Records",
     "Report",
     "RunError",
@@ -53,8 +85,10 @@ __all__ = [
     "Scene",
     "Solutions",
     "Study",
+    "Surface",
     "Symmetrised",
     "Unbounced",
+    "Walk",
     "Way",
     "blame",
     "compare",

@@ -13,7 +13,9 @@ from ._bounces import BounceSeries, Memory
 from ._chain import Chain
 from ._dictionary import edits_of, parse
 from ._display import as_facts, as_table
+from ._estimator import Estimator, from_rays, name_of
 from ._matrices import STEPS, Matrices, Solutions
+from ._method import Method
 from ._method_options import MethodOptions
 from ._operators import Operators
 from ._photons import Photons
@@ -290,7 +292,7 @@ class Scene:
 
     def study(
         self,
-        methods: Sequence[str],
+        methods: Sequence[Union[str, Method, Estimator]],
         *,
         budgets: Optional[Sequence[float]] = None,
         samples: Optional[Sequence[int]] = None,
@@ -306,16 +308,21 @@ class Scene:
     ) -> Study:
         """Methods side by side, error against time, bounce by bounce: as ``neumann study``.
 
-        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"]. budgets: seconds of a run, or samples: samples a pixel of
+        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"], or neumann.Walk(direct="light") and the like. An estimator of
+        your own stands beside them as "its_name()": a function of rays, with ``origin`` (n, 3), ``direction`` (n, 3) and ``pixel`` (n, 2) of
+        n camera rays, the last bounce N, and a numpy.random.Generator, which returns samples of K^i Le along each ray, (n, N + 1, 3) in
+        W·m⁻²·sr⁻¹. It must not start other work of this package. budgets: seconds of a run, or samples: samples a pixel of
         one, growing. repeats: runs of each method at each budget, 16 without it. bounces: the last one that is looked at. error:
         relative RMSE, for the time to it. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, of
         reference_spp samples a pixel. output: the folder for tables and page; without it nothing is kept.
         """
-        arguments = options(locals())
+        own = {name_of(method): from_rays(method) for method in methods if callable(method)}
+        methods = [name_of(method) if callable(method) else method for method in methods]
+        arguments = options({name: value for name, value in locals().items() if name != "own"})
         with tempfile.TemporaryDirectory() as folder:
             if output is None:
                 arguments += options({"output": folder})
-            study: Study = run(_neumann.study(self._scene, arguments), quiet, lambda made: Study(*made))
+            study: Study = run(_neumann.study(self._scene, arguments, own), quiet, lambda made: Study(*made))
         if not quiet:
             warn(study.warnings)
         return study
