@@ -45,14 +45,15 @@ def method_options(given: MethodOptions) -> Dict[str, Any]:
     for name in given:
         if name not in HELP:
             raise TypeError(f"render() got an unexpected keyword argument '{name}'")
-    chosen = given.get("method")
+    all_given: Dict[str, Any] = {**given}
+    chosen = all_given.get("method")
     if isinstance(chosen, Method):
         own = chosen.given()
-        twice = [name for name in own if given.get(name) is not None]
+        twice = [name for name in own if all_given.get(name) is not None]
         if twice:
             raise TypeError(f"render() got '{twice[0]}' as a keyword and in method={chosen!r}")
-        given = {**given, "method": chosen.name, **own}  # type: ignore[typeddict-item]
-    return {name: given[name] for name in HELP if name in given}  # type: ignore[literal-required]
+        all_given.update(own, method=chosen.name)
+    return {name: all_given[name] for name in HELP if name in all_given}
 
 
 def definitions(overrides: Dict[str, Any]) -> Dict[str, str]:

@@ -356,10 +356,12 @@ class BounceSeries:
         """The render of all samples of both, as ``neumann merge`` puts them together. Raises InputError where they do not fit."""
         if not isinstance(other, BounceSeries):
             return NotImplemented
+        renderings = []
         for series in (self, other):
             if not isinstance(series._source, Memory):
                 raise _neumann.InputError(f"{series.title}: was read from there; neumann merge puts folders together")
-        return BounceSeries(Memory(run_job(_neumann.merge(self._source.rendering, other._source.rendering))), self.title)
+            renderings.append(series._source.rendering)
+        return BounceSeries(Memory(run_job(_neumann.merge(*renderings))), self.title)
 
     def __repr__(self) -> str:
         samples = self.run.samples
