@@ -33,6 +33,10 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request) {
     for (const std::string& name : request.methods) {
         if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
             throw InputError(fmt::format("--methods: '{}' is given twice", name));
+        if (const auto own = request.own.find(name); own != request.own.end()) {
+            methods.push_back({name, method::Walk{}, own->second});
+            continue;
+        }
         try {
             methods.push_back({name, studied_method(name)});
         } catch (const InputError& e) {

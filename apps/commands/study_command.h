@@ -1,6 +1,8 @@
 // `neumann study`: methods side by side, error against time, bounce by bounce.
 #pragma once
 
+#include "operators/study/own_estimator.h"
+
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -17,8 +19,9 @@ struct StudyRequest {
     bool lenient = false;
     std::map<std::string, std::string> definitions;
     std::string output;
-    std::vector<std::string> methods;  // as read_method() reads them; empty: all that can do the scene
-    std::string reference;             // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
+    std::vector<std::string> methods;  // as read_method() reads them, or of `own`; empty: all that can do the scene
+    std::map<std::string, OwnEstimator> own = {};
+    std::string reference;  // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
     std::optional<std::uint64_t> reference_samples;
     std::vector<double> budgets;         // seconds per run; empty: chosen
     std::vector<std::uint64_t> samples;  // budgets in samples per pixel, in place of seconds

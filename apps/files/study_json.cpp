@@ -156,7 +156,8 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     for (std::size_t m = 0; m < data.methods.size(); ++m) {
         Json method = {{"name", data.methods[m].name}, {"fields", has_fields(data.methods[m].method)}};
         const auto points = points_of_method(data.points, m);
-        if (!points.empty()) method["repeat_the_first_run"] = repeating_command(data, points.front()->runs.front());
+        if (!points.empty() && !data.methods[m].own)
+            method["repeat_the_first_run"] = repeating_command(data, points.front()->runs.front());
         json["methods"].push_back(method);
     }
     json["pictures"] = Json::array();

@@ -57,6 +57,7 @@ const lookAt = ([zoom, x, y]) => {
 // Browsers refuse more than some changes of the address a second.
 let addressKept = null;
 const keepAddress = () => {
+  if (location.href === "about:srcdoc") return;  // in a frame of a notebook the page has no address
   clearTimeout(addressKept);
   addressKept = setTimeout(() => {
     const parts = Object.entries(addressed).filter(([, [key]]) => state[key] !== beginning[key] && state[key] !== null && state[key] !== "").map(([name, [key, write]]) => `${name}=${write(state[key])}`);

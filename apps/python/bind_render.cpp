@@ -6,7 +6,12 @@
 #include "apps/files/run_json.h"
 #include "apps/files/series_files.h"
 #include "apps/python/module.h"
+#include "core/base/error.h"
+#include "core/base/stopwatch.h"
+#include "operators/methods/merge.h"
+#include "operators/methods/render.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -14,6 +19,22 @@
 namespace neumann {
 
 namespace {
+
+// A render whose samples can be merged with those of others.
+struct Mergeable : Rendering {
+    std::optional<RenderState> state = {};  // none of a method with fields
+};
+using Kept = std::shared_ptr<Mergeable>;
+
+// Keeps what is known of the samples when the last one is done.
+Saving keeping(std::optional<RenderState>& state) {
+    Saving saving;
+    saving.keep = [&state](const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series,
+                           bool is_last) {
+        if (is_last) state = RenderState{render, choice, series};
+    };
+    return saving;
+}
 
 std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
     RenderRequest request = parse<RenderRequest>("render", add_render, *loaded, arguments);
@@ -26,13 +47,40 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
         watch.progress = [&](const RenderProgress& p) {
             job.tell(progress_text(p), p.seconds_left ? std::optional(p.fraction) : std::nullopt);
         };
-        const std::shared_ptr<Rendering> rendering = render(request, loaded->scene, watch);
-        return [rendering] { return py::cast(rendering); };
+        std::optional<RenderState> state;
+        const auto rendering = render(request, loaded->scene, watch, keeping(state));
+        const auto kept = std::make_shared<Mergeable>(Mergeable{std::move(*rendering), std::move(state)});
+        return [kept] { return py::cast(kept); };
     });
 }
 
-std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std::string& path,
-                          const std::vector<std::string>& files) {
+std::unique_ptr<Job> start_merge(const Kept& a, const Kept& b) {
+    const std::string names[] = {"the first series", "the second series"};
+    for (const Kept& series : {a, b})
+        if (!series->state)
+            throw InputError(names[series == a ? 0 : 1] +
+                             " was rendered from fields on patches, and has no samples that could be put together");
+    if (a->scene->hash != b->scene->hash)
+        throw InputError(fmt::format("{} and {} cannot be merged: their scenes are not the same", names[0], names[1]));
+    RenderState merged = merge({{names[0], *a->state}, {names[1], *b->state}});
+    return std::make_unique<Job>(0, [a, b, merged = std::move(merged)](Job& job) -> Job::Finish {
+        job.tell("merging");
+        const Stopwatch clock;
+        Goal goal;
+        goal.samples = merged.series.samples;
+        std::optional<RenderState> state;
+        Saving saving = keeping(state);
+        saving.from = merged;
+        BounceSeries series = render(*a->scene, merged.render.method, goal, {}, std::move(saving));
+        auto kept = std::make_shared<Mergeable>(Mergeable{*a, std::move(state)});
+        kept->series = std::move(series);
+        kept->command_line = a->command_line + " merged with " + b->command_line;
+        kept->seconds = clock.seconds();
+        return [kept] { return py::cast(kept); };
+    });
+}
+
+std::unique_ptr<Job> save(const Kept& rendering, const std::string& path, const std::vector<std::string>& files) {
     return std::make_unique<Job>(0, [rendering, path, chosen = choose_files(files)](Job& job) -> Job::Finish {
         job.tell("writing " + path);
         OutputFolder folder(path, "render");
@@ -43,7 +91,7 @@ std::unique_ptr<Job> save(const std::shared_ptr<Rendering>& rendering, const std
     });
 }
 
-py::object ways(const Rendering& rendering) {
+py::object ways(const Mergeable& rendering) {
     if (!rendering.series.ways) return py::none();
     py::list list;
     for (const Way& way : rendering.series.ways->ways)
@@ -54,16 +102,16 @@ py::object ways(const Rendering& rendering) {
 }  // namespace
 
 void bind_render(py::module_& m) {
-    py::class_<Rendering, std::shared_ptr<Rendering>>(m, "Rendering", "A finished render.")
-        .def_property_readonly("bounces", [](const Rendering& r) { return r.series.bounces(); })
+    py::class_<Mergeable, Kept>(m, "Rendering", "A finished render.")
+        .def_property_readonly("bounces", [](const Mergeable& r) { return r.series.bounces(); })
         .def("term",
-             [](const Rendering& r, std::size_t i) {
+             [](const Mergeable& r, std::size_t i) {
                  const BounceSeries& s = r.series;
                  return as_tuple(s.term(i),
                                  s.report.bounces.at(i).infinite_variance ? std::nullopt : std::optional(s.means_of_term(i)));
              })
         .def("sum",
-             [](const Rendering& r, std::size_t i) {
+             [](const Mergeable& r, std::size_t i) {
                  const BounceSeries& s = r.series;
                  const auto end = s.report.bounces.begin() + static_cast<std::ptrdiff_t>(i) + 1;
                  const bool infinite =
@@ -71,20 +119,22 @@ void bind_render(py::module_& m) {
                  return as_tuple(s.sum(i), infinite ? std::nullopt : std::optional(s.means_of_sum(i)));
              })
         .def("rest",
-             [](const Rendering& r) {
+             [](const Mergeable& r) {
                  const BounceSeries& s = r.series;
                  if (!s.rest) return py::object(py::none());
                  return py::object(as_tuple(*s.rest, s.report.rest_infinite_variance ? std::nullopt : s.means_of_rest));
              })
         .def("ways", &ways)
-        .def("table", [](const Rendering& r) { return series_table(r.series.report); })
-        .def("convergence", [](const Rendering& r) { return convergence_table(r.series.convergence); })
+        .def("table", [](const Mergeable& r) { return series_table(r.series.report); })
+        .def("convergence", [](const Mergeable& r) { return convergence_table(r.series.convergence); })
         .def("run",
-             [](const Rendering& r, const std::string& folder) { return run_json(r, r.warnings(), folder, r.seconds).dump(); })
-        .def_property_readonly("warnings", [](const Rendering& r) { return texts(r.series.warnings); })
-        .def("complaints", &Rendering::complaints)
+             [](const Mergeable& r, const std::string& folder) { return run_json(r, r.warnings(), folder, r.seconds).dump(); })
+        .def_property_readonly("warnings", [](const Mergeable& r) { return texts(r.series.warnings); })
+        .def(
+            "complaints", [](const Mergeable& r, const std::string& folder) { return r.complaints(folder); }, py::arg("folder"))
         .def("save", &save, py::arg("folder"), py::arg("files") = file_groups());
     m.def("render", &start, py::arg("scene"), py::arg("arguments"));
+    m.def("merge", &start_merge, py::arg("a"), py::arg("b"));
 }
 
 }  // namespace neumann

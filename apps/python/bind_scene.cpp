@@ -4,7 +4,6 @@
 #include "apps/python/module.h"
 #include "core/base/stopwatch.h"
 #include "core/geometry/ray_caster.h"
-#include "core/reader/read_scene.h"
 #include "operators/methods/method_plan.h"
 
 #include <pybind11/stl.h>
@@ -13,18 +12,70 @@ namespace neumann {
 
 namespace {
 
-std::shared_ptr<LoadedScene> load(const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
+using Loaded = std::shared_ptr<LoadedScene>;
+
+Loaded load(LoadedScene scene) {
     const Stopwatch watch;
-    auto loaded = std::make_shared<LoadedScene>();
-    loaded->path = path;
-    loaded->definitions = definitions;
+    auto loaded = std::make_shared<LoadedScene>(std::move(scene));
     try {
-        loaded->scene = std::make_shared<const Scene>(read_scene(path, definitions, {.lenient = lenient}));
+        loaded->scene = std::make_shared<const Scene>(
+            make_scene(read_scene_parts(loaded->path, loaded->definitions, {.lenient = loaded->lenient}, loaded->changes)));
     } catch (const UnknownError& e) {
         throw InputError(std::string(e.what()) + "\nlenient=True takes the scene without what is not known");
     }
     loaded->seconds = watch.seconds();
     return loaded;
+}
+
+// (tag, [(attribute, value)], [children], its place in the dictionary, RFC 6901).
+reader::Element element_of(const py::tuple& given, const std::string& name) {
+    const Location place{name, 0, 0, given[3].cast<std::string>()};
+    reader::Element e{given[0].cast<std::string>(), {}, {}, place};
+    for (const auto& [key, value] : given[1].cast<std::vector<std::pair<std::string, std::string>>>())
+        e.attributes.push_back({key, value, place});
+    for (const py::handle child : given[2]) e.children.push_back(element_of(child.cast<py::tuple>(), name));
+    return e;
+}
+
+using Rows = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// Vertices (n, 3), triangles (m, 3), and normals (n, 3) and texture coordinates (n, 2), which may have no rows.
+std::shared_ptr<const MeshFile> mesh_of(const Rows& vertices, const py::array_t<std::uint32_t, py::array::c_style>& triangles,
+                                        const Rows& normals, const Rows& uv) {
+    auto file = std::make_shared<MeshFile>();
+    for (py::ssize_t i = 0; i < vertices.shape(0); ++i)
+        file->mesh.vertices.emplace_back(vertices.at(i, 0), vertices.at(i, 1), vertices.at(i, 2));
+    for (py::ssize_t i = 0; i < triangles.shape(0); ++i)
+        file->mesh.triangles.push_back({triangles.at(i, 0), triangles.at(i, 1), triangles.at(i, 2)});
+    for (py::ssize_t i = 0; i < normals.shape(0); ++i)
+        file->normals.emplace_back(normals.at(i, 0), normals.at(i, 1), normals.at(i, 2));
+    for (py::ssize_t i = 0; i < uv.shape(0); ++i) file->mesh.uv.emplace_back(uv.at(i, 0), uv.at(i, 1));
+    return file;
+}
+
+// `text`: what the scene's hash is of. `meshes`: by the filename of a shape 'ply', the arguments of mesh_of().
+Loaded load_elements(const std::string& name, const py::tuple& root, const std::map<std::string, py::tuple>& meshes,
+                     const std::string& text, bool lenient) {
+    auto raw = std::make_shared<reader::RawScene>();
+    raw->root = element_of(root, name);
+    raw->files = {name};
+    raw->text = text;
+    for (const auto& [filename, arrays] : meshes)
+        raw->in_memory.meshes[filename] =
+            mesh_of(arrays[0].cast<Rows>(), arrays[1].cast<py::array_t<std::uint32_t, py::array::c_style>>(),
+                    arrays[2].cast<Rows>(), arrays[3].cast<Rows>());
+    const py::gil_scoped_release without_lock;
+    return load({name, {}, lenient, {raw, {}}});
+}
+
+// `edits`: (name, tag, value), as reader::Edit; one of the same name is replaced.
+Loaded edited(const LoadedScene& scene, const std::vector<std::tuple<std::string, std::string, std::string>>& edits) {
+    LoadedScene changed{scene.path, scene.definitions, scene.lenient, scene.changes};
+    for (const auto& [name, tag, value] : edits) {
+        std::erase_if(changed.changes.edits, [&](const reader::Edit& e) { return e.name == name; });
+        changed.changes.edits.push_back({name, tag, value});
+    }
+    return load(std::move(changed));
 }
 
 }  // namespace
@@ -34,6 +85,13 @@ void bind_scene(py::module_& m) {
     py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m, "Scene", "A scene as its files were when it was read.")
         .def_readonly("path", &LoadedScene::path)
         .def_readonly("definitions", &LoadedScene::definitions)
+        .def_property_readonly("edits",
+                               [](const LoadedScene& s) {
+                                   std::vector<std::pair<std::string, std::string>> edits;
+                                   for (const reader::Edit& e : s.changes.edits) edits.emplace_back(e.name, e.value);
+                                   return edits;
+                               })
+        .def("edited", &edited, py::arg("edits"), py::call_guard<py::gil_scoped_release>())
         .def_property_readonly("hash", [](const LoadedScene& s) { return s.scene->hash; })
         .def_property_readonly("width", [](const LoadedScene& s) { return s.scene->film.crop_width; })
         .def_property_readonly("height", [](const LoadedScene& s) { return s.scene->film.crop_height; })
@@ -52,7 +110,14 @@ void bind_scene(py::module_& m) {
                 return [json] { return py::str(json); };
             });
         });
-    m.def("load", &load, py::arg("path"), py::arg("definitions"), py::arg("lenient"), py::call_guard<py::gil_scoped_release>());
+    m.def(
+        "load",
+        [](const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
+            return load({path, definitions, lenient});
+        },
+        py::arg("path"), py::arg("definitions"), py::arg("lenient"), py::call_guard<py::gil_scoped_release>());
+    m.def("load_elements", &load_elements, py::arg("name"), py::arg("root"), py::arg("meshes"), py::arg("text"),
+          py::arg("lenient"));
 }
 
 }  // namespace neumann

@@ -19,16 +19,24 @@ namespace neumann {
 
 namespace {
 
-// Ctrl-C ends whatever uses one of these.
 using Operator = std::shared_ptr<ChannelOperator>;
 using Dense = DenseChannel::Matrix;
 using Sparse = SparseChannel::Matrix;
 
-Operator dense(const Eigen::Ref<const Dense>& K, const Vector& measure) {
-    return std::make_shared<StoppableChannel>(std::make_shared<const DenseChannel>(K, measure), Watch{.stop = interrupted});
+Operator dense(const Eigen::Ref<const Dense>& K, const Vector& measure) { return std::make_shared<DenseChannel>(K, measure); }
+Operator sparse(const Sparse& K, const Vector& measure) { return std::make_shared<SparseChannel>(K, measure); }
+
+// Ctrl-C ends whatever uses it.
+StoppableChannel stoppable(const Operator& K) { return {K, {.stop = interrupted}}; }
+
+Vector applied(const ChannelOperator& K, void (ChannelOperator::*product)(const Vector&, Vector&) const, const Vector& x) {
+    if (x.size() != K.size()) throw InputError(fmt::format("x has {} values, expected {}", x.size(), K.size()));
+    Vector y(x.size());
+    (K.*product)(x, y);
+    return y;
 }
-Operator sparse(const Sparse& K, const Vector& measure) {
-    return std::make_shared<StoppableChannel>(std::make_shared<const SparseChannel>(K, measure), Watch{.stop = interrupted});
+Vector diagonal(const ChannelOperator& K) {
+    return Vector::NullaryExpr(K.size(), [&](Eigen::Index u) { return K.diagonal(u); });
 }
 
 // A row for each bounce: bounce, power, l2, sup, ratio, a_priori, a_posteriori, estimate, enclosure_width.
@@ -73,7 +81,7 @@ std::unique_ptr<Job> start_series(const Operator& K, const Vector& Le, double to
         options.observer = [&](const SeriesRow& row) {
             job.tell(fmt::format("bounce {}   ‖K^n Le‖∞ {:.3g}", row.bounce, row.term.sup));
         };
-        const auto run = std::make_shared<const SeriesRun>(run_series(*K, Le, options));
+        const auto run = std::make_shared<const SeriesRun>(run_series(stoppable(K), Le, options));
         return [run] { return as_dict(*run); };
     });
 }
@@ -114,8 +122,9 @@ std::unique_ptr<Job> start_solver(const std::string& name, const Operator& K, co
     if (reflectance) check_size("reflectance", *reflectance, K);
     if (exact) check_size("exact", *exact, K);
     return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
+        const StoppableChannel stopping = stoppable(K);
         Problem problem;
-        problem.K = K.get();
+        problem.K = &stopping;
         problem.Le = Le;
         problem.tolerance = tolerance;
         problem.most = most;
@@ -137,14 +146,15 @@ std::unique_ptr<Job> start_solver(const std::string& name, const Operator& K, co
 std::unique_ptr<Job> start_spectrum_of(const Operator& K, int count, bool adjoint, double most) {
     return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
         job.tell("looking for eigenvalues");
+        const StoppableChannel stopping = stoppable(K);
         EigenLimits limits;
         limits.most = most;
         limits.look = [&](const EigenStep& step) {
             job.tell(fmt::format("looking for eigenvalues   {:.0f} applications of K   largest residual {:.1e}", step.applications,
                                  step.residual));
         };
-        const auto norms = operator_norms(*K, limits);
-        const auto leading = std::make_shared<const Eigenpairs>(leading_eigenpairs(*K, count, adjoint, limits));
+        const auto norms = operator_norms(stopping, limits);
+        const auto leading = std::make_shared<const Eigenpairs>(leading_eigenpairs(stopping, count, adjoint, limits));
         return [norms, leading]() -> py::object {
             const auto n = static_cast<Eigen::Index>(leading->pairs.size());
             Eigen::VectorXcd values(n);
@@ -193,7 +203,16 @@ std::unique_ptr<Job> start_cube(int n) {
 
 void bind_solvers(py::module_& m) {
     py::class_<ChannelOperator, std::shared_ptr<ChannelOperator>>(m, "Operator", "K on finitely many unknowns.")
-        .def_property_readonly("size", &ChannelOperator::size);
+        .def_property_readonly("size", &ChannelOperator::size)
+        .def_property_readonly("measure", [](const ChannelOperator& K) { return Vector(K.measure()); })
+        .def(
+            "apply", [](const ChannelOperator& K, const Vector& x) { return applied(K, &ChannelOperator::apply, x); }, py::arg("x"),
+            py::call_guard<py::gil_scoped_release>())
+        .def(
+            "apply_adjoint",
+            [](const ChannelOperator& K, const Vector& x) { return applied(K, &ChannelOperator::apply_adjoint, x); }, py::arg("x"),
+            py::call_guard<py::gil_scoped_release>())
+        .def("diagonal", &diagonal, py::call_guard<py::gil_scoped_release>());
     m.def("dense", &dense, py::arg("K"), py::arg("measure"));
     m.def("sparse", &sparse, py::arg("K"), py::arg("measure"));
     m.def("series", &start_series, py::arg("K"), py::arg("Le"), py::arg("tolerance"), py::arg("most"), py::arg("norm"));

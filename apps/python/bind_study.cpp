@@ -3,17 +3,57 @@
 #include "apps/python/module.h"
 #include "core/base/error.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 namespace neumann {
 
 namespace {
 
-std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
+// function(origin (n, 3), direction (n, 3), pixel (n, 2), bounces, seed) as an estimator. The study calls it in the job's thread.
+OwnEstimator estimator_of(const py::object& function) {
+    const std::shared_ptr<py::object> kept(new py::object(function), [](py::object* f) {
+        const py::gil_scoped_acquire lock;
+        delete f;
+    });
+    return [kept](std::span<const CameraRay> rays, std::span<const Pixel> pixels, int bounces, std::uint64_t seed) {
+        const py::gil_scoped_acquire lock;
+        const auto n = static_cast<py::ssize_t>(rays.size());
+        const py::ssize_t terms = bounces + 1;
+        py::array_t<double> origin({n, py::ssize_t{3}}), direction({n, py::ssize_t{3}});
+        py::array_t<int> pixel({n, py::ssize_t{2}});
+        for (py::ssize_t i = 0; i < n; ++i) {
+            const CameraRay& ray = rays[static_cast<std::size_t>(i)];
+            for (int axis = 0; axis < 3; ++axis) {
+                origin.mutable_at(i, axis) = ray.origin[axis];
+                direction.mutable_at(i, axis) = ray.direction[axis];
+            }
+            pixel.mutable_at(i, 0) = pixels[static_cast<std::size_t>(i)].x;
+            pixel.mutable_at(i, 1) = pixels[static_cast<std::size_t>(i)].y;
+        }
+        const py::object made = (*kept)(origin, direction, pixel, bounces, seed);
+        const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(made);
+        if (!array || array.ndim() != 3 || array.shape(0) != n || array.shape(1) != terms || array.shape(2) != 3)
+            throw InputError(fmt::format("returned {}, expected an array ({}, {}, 3): rays, bounces 0 to {}, channels",
+                                         array ? py::str(array.attr("shape")).cast<std::string>() : "no array", n, terms, bounces));
+        const double* from = array.data();
+        std::vector<Rgb> samples(static_cast<std::size_t>(n * terms));
+        for (Rgb& x : samples) {
+            x = Rgb(from[0], from[1], from[2]);
+            from += 3;
+        }
+        return samples;
+    };
+}
+
+// `own`: the functions of estimator_of() by names that the arguments have among the methods.
+std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments,
+                           const std::map<std::string, py::object>& own) {
     StudyRequest request = parse<StudyRequest>("study", add_study, *loaded, arguments);
     request.definitions = loaded->definitions;
     request.command_line = command_line("study", *loaded, arguments);
     request.quiet = true;
+    for (const auto& [name, function] : own) request.own[name] = estimator_of(function);
     return std::make_unique<Job>(request.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("measuring how fast the methods are, and making a reference");
         std::string csv, json;
@@ -32,6 +72,6 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
 
 }  // namespace
 
-void bind_study(py::module_& m) { m.def("study", &start, py::arg("scene"), py::arg("arguments")); }
+void bind_study(py::module_& m) { m.def("study", &start, py::arg("scene"), py::arg("arguments"), py::arg("own")); }
 
 }  // namespace neumann

@@ -1,6 +1,7 @@
 // Work in a thread of its own, while Python waits, shows progress and handles Ctrl-C.
 //
-// The thread never takes the interpreter's lock. Only one job runs at a time, because each uses all processors; others wait.
+// The thread takes the interpreter's lock only to call a function that the work was given. Only one job runs at a time, because
+// each uses all processors; others wait.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -27,6 +27,7 @@ PYBIND11_MODULE(_neumann, m) {
     bind_scene(m);
     bind_render(m);
     bind_pictures(m);
+    bind_patched(m);
     bind_matrices(m);
     bind_solvers(m);
     bind_study(m);
@@ -44,7 +45,13 @@ std::string command_line(const std::string& command, const LoadedScene& scene, c
     for (const std::string& argument : arguments) line += " " + argument;
     for (const auto& [name, value] : scene.definitions) line += " -D " + name + "=" + value;
     if (!scene.scene->replaced.empty()) line += " --lenient";
+    for (const reader::Edit& edit : scene.changes.edits) line += ", edited: " + edit.name + " = " + edit.value;
     return line;
+}
+
+std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOptions options) {
+    options.threads = 0;  // the job limits them
+    return std::make_shared<const PatchScene>(options, loaded.scene, loaded.definitions);
 }
 
 }  // namespace neumann

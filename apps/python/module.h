@@ -2,8 +2,10 @@
 #pragma once
 
 #include "apps/command_line/commands.h"
+#include "apps/commands/patch_scene.h"
 #include "apps/python/job.h"
 #include "core/image/pixel_estimate.h"
+#include "core/reader/changed_scene.h"
 #include "core/scene/scene.h"
 #include "operators/statistics/picture_statistics.h"
 
@@ -23,13 +25,16 @@ namespace py = pybind11;
 struct LoadedScene {
     std::string path;
     std::map<std::string, std::string> definitions;
-    std::shared_ptr<const Scene> scene;
+    bool lenient = false;
+    SceneChanges changes = {};
+    std::shared_ptr<const Scene> scene = {};
     double seconds = 0.0;  // time to read it
 };
 
 void bind_scene(py::module_& m);
 void bind_render(py::module_& m);
 void bind_pictures(py::module_& m);
+void bind_patched(py::module_& m);
 void bind_matrices(py::module_& m);
 void bind_solvers(py::module_& m);
 void bind_study(py::module_& m);
@@ -38,6 +43,9 @@ void bind_records(py::module_& m);
 void bind_chains(py::module_& m);
 void bind_blame(py::module_& m);
 void bind_unbounce(py::module_& m);
+
+// The scene on patches, traced. Throws as PatchScene's constructor does.
+std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOptions options);
 
 // (height, width, 3), row 0 at the top; float32, as in files.
 py::array_t<float> as_array(const Image& image);

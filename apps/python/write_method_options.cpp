@@ -1,14 +1,20 @@
-// Prints neumann/_method_options.py: the keywords of a method's options with their types and their help.
+// Prints neumann/_method_options.py: a class for each method with its options, and the keywords of all options, with their types
+// and their help.
 #include "operators/methods/method_options.h"
+#include "operators/methods/method_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
 
 namespace neumann {
 
 namespace {
 
-const char* type_of(MethodOption::Kind kind) {
-    switch (kind) {
+std::string type_of(const MethodOption& o) {
+    if (!o.words.empty()) return fmt::format("Literal[\"{}\"]", fmt::join(o.words, "\", \""));
+    switch (o.kind) {
         case MethodOption::Kind::text:
             return "Text";
         case MethodOption::Kind::number:
@@ -19,10 +25,30 @@ const char* type_of(MethodOption::Kind kind) {
     return "";
 }
 
+std::string class_of(std::string name) {
+    name[0] = static_cast<char>(std::toupper(name[0]));
+    return name;
+}
+
+void print_option(const MethodOption& o, const char* value) {
+    fmt::print("    {}: Optional[{}]{}\n    \"\"\"{}\"\"\"\n", o.name, type_of(o), value, o.help);
+}
+
+void print_class(const Method& method) {
+    fmt::print("\n\n@dataclass(frozen=True, repr=False)\nclass {}(Method):\n    \"\"\"{}\"\"\"\n\n", class_of(name_of(method)),
+               method_help(name_of(method)));
+    fmt::print("    name: ClassVar[str] = \"{}\"\n", name_of(method));
+    for (const MethodOption& o : method_options())
+        if (o.belongs_to(method)) print_option(o, " = None");
+}
+
 void print() {
     fmt::print(R"("""The options of the methods. Made from operators/methods/method_options.cpp when neumann is built."""
 
-from typing import Optional, Sequence, TypedDict, Union
+from dataclasses import dataclass
+from typing import ClassVar, Literal, Optional, Sequence, TypedDict, Union
+
+from ._method import Method
 
 Text = Union[str, float, Sequence[int]]  # "none", 0.9, (8, 8)
 
@@ -30,12 +56,12 @@ Text = Union[str, float, Sequence[int]]  # "none", 0.9, (8, 8)
 class MethodOptions(TypedDict, total=False):
     """What belongs to a method, and is checked against it."""
 
-    method: Optional[str]
+    method: Optional[Union[str, Method]]
     """{}"""
 )",
                method_help());
-    for (const MethodOption& o : method_options())
-        fmt::print("    {}: Optional[{}]\n    \"\"\"{}\"\"\"\n", o.name, type_of(o.kind), o.help);
+    for (const MethodOption& o : method_options()) print_option(o, "");
+    for (const Method& method : all_methods()) print_class(method);
     fmt::print("\n\nHELP = {{\n    \"method\": \"{}\",\n", method_help());
     for (const MethodOption& o : method_options()) fmt::print("    \"{}\": \"{}\",\n", o.name, o.help);
     fmt::print("}}\n");

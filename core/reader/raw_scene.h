@@ -27,6 +27,8 @@ struct RawScene {
     Element root;                         // <scene>
     std::vector<std::string> files = {};  // that were read for it, the main one first; for the scene's hash
     FilesInMemory in_memory = {};
+    // What is hashed in place of the main file, where that is none and the first of `files` is just its name.
+    std::string text = {};
 };
 
 }  // namespace neumann::reader

@@ -1,3 +1,4 @@
+#include "core/reader/changed_scene.h"
 #include "core/reader/file_hash.h"
 #include "core/reader/import/read_raw_scene.h"
 #include "core/reader/plugins/area_lights.h"
@@ -110,11 +111,21 @@ private:
 
 SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions,
                             const Reading& reading) {
+    return read_scene_parts(path, definitions, reading, {});
+}
+
+SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, const Reading& reading,
+                            const SceneChanges& changes) {
     using namespace reader;
     SceneParts parts;
     Problems problems(reading.lenient);
-    const Document document = read_document(read_raw_scene(path, definitions, parts.warnings, problems), definitions,
-                                            parts.warnings, problems, reading.optional_definitions);
+    RawScene raw = changes.in_memory ? *changes.in_memory : read_raw_scene(path, definitions, parts.warnings, problems);
+    std::string in_memory = std::move(raw.text);
+    Document document = read_document(std::move(raw), definitions, parts.warnings, problems, reading.optional_definitions);
+    for (const Edit& edit : changes.edits) {
+        problems.attempt(document.root.place, [&] { apply(edit, document.root); });
+        in_memory += "\n" + edit.name + " " + edit.tag + " " + edit.value;
+    }
     const Objects objects(document.root, problems, document.lost);
     std::vector<std::string> mesh_files;
     TextureStore textures;
@@ -155,9 +166,9 @@ SceneParts read_scene_parts(const std::string& path, const std::map<std::string,
     parts.lights.area = lights.take();
     parts.lights.environment = scene_lights.take_environment();
     parts.lights.delta = scene_lights.take_delta();
-    std::vector<std::string> files = document.files;
+    std::vector<std::string> files(document.files.begin() + (changes.in_memory ? 1 : 0), document.files.end());
     files.insert(files.end(), mesh_files.begin(), mesh_files.end());
-    parts.hash = hash_files(files);
+    parts.hash = hash_files(files, in_memory);
     return parts;
 }
 

@@ -51,4 +51,19 @@ ChosenChannel choose_channel(const MatrixSystem& system, std::optional<int> give
     return chosen;
 }
 
+int most_reflecting_channel(const TracedSystem& system) {
+    int best = 0;
+    double most = -1.0;
+    for (int c = 0; c < system.channels(); ++c) {
+        const TracedChannel K = system.channel(c);
+        Vector left(K.size());
+        K.apply(Vector::Ones(K.size()), left);
+        if (const double power = K.measure().dot(left); power > most) {
+            most = power;
+            best = c;
+        }
+    }
+    return best;
+}
+
 }  // namespace neumann

@@ -1,7 +1,7 @@
 // Chooses a colour channel for work on a single one.
 #pragma once
 
-#include "operators/matrix/matrix_system.h"
+#include "operators/matrix/traced_system.h"
 
 #include <optional>
 #include <string>
@@ -19,5 +19,8 @@ struct ChosenChannel {
 
 // The given channel, or else the one with the largest spectral radius. If the scene is grey, its only channel.
 ChosenChannel choose_channel(const MatrixSystem& system, std::optional<int> given, const Watch& watch = {});
+
+// The channel whose K leaves most of uniform light, without a search: of the largest ⟨K 1, 1⟩ / ⟨1, 1⟩, a Rayleigh quotient.
+int most_reflecting_channel(const TracedSystem& system);
 
 }  // namespace neumann

@@ -144,6 +144,7 @@ MethodOption choice(std::string option_name, std::string type, std::string help,
         [&all](const std::string& text) { return value(all, text); },
         [&all](const std::optional<Value>& v) { return v ? name(all, *v) : ""; }, "");
     o.wrong = [&all](const std::string& text) { return value(all, text) ? "" : not_in(text, names(all)); };
+    o.words = names(all);
     return o;
 }
 

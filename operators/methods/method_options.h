@@ -23,6 +23,7 @@ struct MethodOption {
     std::function<void(Method&, const std::string&)> read;
     // The value in the form that read() accepts; empty if the method does not have the option or leaves it open.
     std::function<std::string(const Method&)> text;
+    std::vector<std::string> words = {};  // all that read() accepts, where it accepts nothing but some words
 };
 
 // All options, in the order of the help.
@@ -30,7 +31,8 @@ std::span<const MethodOption> method_options();
 std::vector<std::string> method_names();
 // What is wrong with the name of a method, and what may be meant; "" if it is one.
 std::string wrong_method(const std::string& name);
-// Help text: all methods, in a few words each.
+// Help text: a method in a few words, and all of them.
+std::string method_help(const std::string& name);
 const std::string& method_help();
 
 // A method as text: its name, and the options that are given.

@@ -233,6 +233,30 @@ Patches::Neighbours Patches::neighbours(const Axis& axis, double x) {
     return {low, low + 1, (x - axis.middles[low]) / (axis.middles[low + 1] - axis.middles[low])};
 }
 
+std::vector<std::array<Vec3, 4>> Patches::quadrilaterals(std::uint32_t number) const {
+    constexpr std::uint32_t round_along = 4;
+    const Patch& patch = patches_[number];
+    const Chart& chart = charts()[patch.chart];
+    const Part* const part = patch.part == whole ? nullptr : &parts_[patch.part];
+    const std::uint32_t along = part ? part->along : chart.is_plane() ? 1 : round_along;
+    const auto coordinates = [&](double x, double y) { return chart.uniform(patch.cell, Vec2(x, y) / double(along)); };
+    const auto position = [&](double x, double y) { return chart.point(*geometry_, coordinates(x, y)).position; };
+    std::vector<std::array<Vec3, 4>> found;
+    const auto add = [&](double x, double y) {
+        found.push_back({position(x, y), position(x + 1.0, y), position(x + 1.0, y + 1.0), position(x, y + 1.0)});
+    };
+    if (!part) {
+        for (std::uint32_t i = 0; i < along * along; ++i) add(i % along, i / along);
+        return found;
+    }
+    for (const std::uint16_t square : part->squares) {
+        const double x = square % along, y = square / along;
+        const Vec2 middle = coordinates(x + 0.5, y + 0.5);
+        if (footprints_[patch.chart].region(middle, chart.point(*geometry_, middle).position) == patch.region) add(x, y);
+    }
+    return found;
+}
+
 Patches::Reading Patches::interpolate(const Place& p) const {
     const Grid& grid = grids_[p.chart];
     const Neighbours s = neighbours(grid.s, p.st.x), t = neighbours(grid.t, p.st.y);

@@ -62,6 +62,10 @@ public:
         return parts_[patch.part].point(*geometry_, chart, footprints_[patch.chart], patch.cell, patch.region, u);
     }
 
+    // Quadrilaterals that look like the patch; on a plane they cover it. A piece on an outline that divides a cell belongs to the
+    // patch that holds its middle. Not on coarser() ones.
+    std::vector<std::array<Vec3, 4>> quadrilaterals(std::uint32_t number) const;
+
     // Linear interpolation between the values at the patches' centres, extrapolated to the chart's edge: the value at a point is
     // the sum of values times weights. There is no interpolation across charts.
     struct Reading {

@@ -27,8 +27,9 @@ std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& 
         goal.samples = effort.samples;
         goal.seed = seed;
         goal.only_pictures = true;
-        BounceSeries series = render(scene, with_effort(method.method, effort), goal, {.stop = watch.stop, .crew = watch.crew}, pilot,
-                                     std::move(saving));
+        BounceSeries series = method.own ? render_by_own(method.own, scene, effort.samples, bounces, seed, watch)
+                                         : render(scene, with_effort(method.method, effort), goal,
+                                                  {.stop = watch.stop, .crew = watch.crew}, pilot, std::move(saving));
         if (series.outcome == Outcome::interrupted) return std::nullopt;
         return series;
     } catch (const InputError& e) {

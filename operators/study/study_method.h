@@ -3,6 +3,7 @@
 
 #include "operators/methods/render.h"
 #include "operators/study/effort.h"
+#include "operators/study/own_estimator.h"
 
 #include <string>
 
@@ -11,6 +12,7 @@ namespace neumann {
 struct StudyMethod {
     std::string name;  // as given
     Method method;
+    OwnEstimator own = {};  // takes the place of the method, if there is one
 };
 
 // Reads a method like read_method(). Throws InputError if it is unknown or has no place in a study.

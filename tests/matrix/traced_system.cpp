@@ -2,6 +2,7 @@
 #include "operators/matrix/traced_system.h"
 
 #include "core/base/error.h"
+#include "operators/matrix/channel_choice.h"
 #include "operators/matrix/refinement.h"
 #include "operators/spectrum/convergence.h"
 #include "operators/spectrum/remaining.h"
@@ -37,6 +38,7 @@ TEST(TracedSystem, FurnaceChannels) {
         EXPECT_EQ(system.emitted(c), Vector::Ones(system.space().size()));
         EXPECT_EQ(system.largest_albedo(c), 0.25 * (c + 1));
     }
+    EXPECT_EQ(most_reflecting_channel(system), 2);  // ⟨K 1, 1⟩ / ⟨1, 1⟩ is the albedo
     EXPECT_EQ(TracedSystem(furnace(Rgb(0.5)), {200, 16, 0}).channels(), 1);
 }
 

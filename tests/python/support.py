@@ -25,6 +25,18 @@ def furnace(albedo=0.5, res=8):
     return neumann.load(scene_file("furnace"), albedo=albedo, res=res)
 
 
+def ball(folder, albedo):
+    """A sphere of radius 2 that shines inwards: every point sees all others, and a patch itself."""
+    path = folder / "ball.xml"
+    path.write_text(
+        '<scene version="3.0.0"><shape type="sphere"><float name="radius" value="2"/><boolean name="flip_normals" value="true"/>'
+        f'<bsdf type="diffuse"><rgb name="reflectance" value="{albedo}"/></bsdf>'
+        '<emitter type="area"><rgb name="radiance" value="1"/></emitter></shape><sensor type="perspective"><film type="hdrfilm">'
+        '<integer name="width" value="8"/><integer name="height" value="8"/></film></sensor></scene>'
+    )
+    return neumann.load(path)
+
+
 def command(*arguments, folder):
     return subprocess.run([os.environ["NEUMANN"], *map(str, arguments)], cwd=folder, capture_output=True, text=True)
 

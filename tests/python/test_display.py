@@ -77,6 +77,33 @@ class Display(Case):
         self.assertRegex(repr(cornell()), r"^<Scene .*cornell-box\.xml, res=16: \d+ shapes, 16 × 16 pixels>$")
         self.assertRegex(repr(furnace().render(bounces=1, spp=2)), "bounces 0 to 1, 8 × 8 pixels, 2 samples a pixel, samples reached")
 
+    def test_every_result_is_brief(self):
+        # A line in a shell, a table or pictures in a notebook.
+        scene, size = cornell(), {"patches": 60, "directions": 16}
+        series = scene.render(method="bidirectional", bounces=2, ways=1, spp=8, quiet=True)
+        operators = scene.operators(**size)
+        lights = scene.under_lights((2, 2), spp=8, bounces=2, quiet=True)
+        results = [
+            scene, scene.plan(), series, series[1], series[1:], series.ways[0], series.run, neumann.compare(series[0], series[1]),
+            scene.chain(1, states=50), scene.photons(500), scene.records(bounces=1, directions=16), lights, lights.unbounce(quiet=True),
+            scene.matrices(**size), operators, operators.symmetrised(), scene.solve(**size), scene.spectrum(**size),
+            neumann.series([[0.5]], [1.0]), neumann.solve([[0.5]], [1.0]), neumann.cube(2),
+            scene.study(["walk", "light"], samples=[1, 2], repeats=2, bounces=1, reference_spp=16, quiet=True),
+            neumann.blame(scene, {1: series.terms[0], 2: series.sums[1]}, spp=16, quiet=True),
+        ]
+        kinds = {type(result) for result in results}
+        for name in neumann.__all__:
+            thing = getattr(neumann, name)
+            if isinstance(thing, type) and not issubclass(thing, (Exception, neumann.Method)):
+                self.assertIn(thing, kinds, name)
+        for result in results:
+            with self.subTest(result=type(result).__name__):
+                self.assertRegex(repr(result), f"^<{type(result).__name__}\\b[^\n]*>$")
+                self.assertLessEqual(len(repr(result)), 250)
+                tags = Tags(result._repr_html_())
+                self.assertEqual(tags.open, [])
+                self.assertTrue(tags.texts)
+
     def test_progress_in_a_terminal(self):
         for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
             with contextlib.redirect_stderr(stream), mock.patch.dict(os.environ, COLUMNS="200"):

@@ -5,6 +5,7 @@
     series = scene.render(bounces=5, spp=64)
     series.terms[1]                      # direct light: (height, width, 3), row 0 on top, W·m⁻²·sr⁻¹
     series.sums[5], series.sums_stderr[5]
+    series[2], series[1:4]               # bounces, as a notebook shows them
     series.save("out/cornell-box")       # what ./run render writes
 
     T, R, Le = scene.matrices()          # scipy.sparse, scipy.sparse, numpy
@@ -17,29 +18,66 @@ surface, R scatters it there; operators/NOTATION.md is the dictionary.
 """
 
 from ._blame import Blame, blame
-from ._bounces import BounceSeries, Way, compare, read
+from ._bounces import Bounce, Bounces, BounceSeries, Way, compare, read
 from ._chain import Chain
+from ._dictionary import look_at
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
+from ._method import Method
+from ._method_options import (
+    Auto,
+    Bidirectional,
+    Cache,
+    Classic,
+    Corrected,
+    Gather,
+    Guided,
+    Light,
+    Matrix,
+    Metropolis,
+    Patches,
+    Photon,
+    Pointwise,
+    Surface,
+    Walk,
+)
 from ._neumann import InputError, RunError
 from ._neumann import version as __version__
+from ._operators import Operators, Symmetrised
 from ._photons import Photons
 from ._records import Records
 from ._report import HealthWarning, NeumannWarning, Report
-from ._scene import Plan, Scene, load
+from ._scene import Plan, Scene, load, load_dict
 from ._study import Study
 from ._unbounce import LightPictures, Unbounced, unbounce
 
 __all__ = [
+    "Auto",
+    "Bidirectional",
     "Blame",
+    "Bounce",
     "BounceSeries",
+    "Bounces",
+    "Cache",
     "Chain",
+    "Classic",
+    "Corrected",
+    "Gather",
+    "Guided",
     "HealthWarning",
     "InputError",
+    "Light",
     "LightPictures",
     "Matrices",
+    "Matrix",
+    "Method",
+    "Metropolis",
     "NeumannWarning",
+    "Operators",
+    "Patches",
+    "Photon",
     "Photons",
     "Plan",
+    "Pointwise",
     "Records",
     "Report",
     "RunError",
@@ -47,12 +85,17 @@ __all__ = [
     "Scene",
     "Solutions",
     "Study",
+    "Surface",
+    "Symmetrised",
     "Unbounced",
+    "Walk",
     "Way",
     "blame",
     "compare",
     "cube",
     "load",
+    "load_dict",
+    "look_at",
     "read",
     "series",
     "solve",

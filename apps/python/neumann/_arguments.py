@@ -1,24 +1,13 @@
 """Keywords as the options of the command, which checks them and says what is wrong."""
 
 import inspect
-from os import PathLike, fspath
 from typing import Any, Callable, Dict, List, TypeVar
 
+from ._method import Method
 from ._method_options import HELP, MethodOptions
+from ._texts import text
 
 _short = {"bounces": "-n", "threads": "-t", "output": "-o"}
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, PathLike):
-        return str(fspath(value))
-    if isinstance(value, (list, tuple)) or (hasattr(value, "ndim") and value.ndim > 0):
-        return ",".join(_text(v) for v in value)
-    if hasattr(value, "item"):  # NumPy's numbers
-        return _text(value.item())
-    return str(value)
 
 
 def options(keywords: Dict[str, Any]) -> List[str]:
@@ -31,9 +20,9 @@ def options(keywords: Dict[str, Any]) -> List[str]:
         if value is True:
             result.append(option)
         elif name in _short:
-            result.append(_short[name] + _text(value))
+            result.append(_short[name] + text(value))
         else:
-            result.append(f"{option}={_text(value)}")
+            result.append(f"{option}={text(value)}")
     return result
 
 
@@ -47,7 +36,7 @@ def with_method_options(function: _Function) -> _Function:
     for name, annotation in MethodOptions.__annotations__.items():
         keywords.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation))
     function.__signature__ = own.replace(parameters=keywords)  # type: ignore[attr-defined]
-    function.__doc__ = (function.__doc__ or "") + "\n".join(f"        {name}: {text}" for name, text in HELP.items())
+    function.__doc__ = (function.__doc__ or "") + "\n".join(f"        {name}: {said}" for name, said in HELP.items())
     return function
 
 
@@ -56,9 +45,17 @@ def method_options(given: MethodOptions) -> Dict[str, Any]:
     for name in given:
         if name not in HELP:
             raise TypeError(f"render() got an unexpected keyword argument '{name}'")
-    return {name: given[name] for name in HELP if name in given}  # type: ignore[literal-required]
+    all_given: Dict[str, Any] = {**given}
+    chosen = all_given.get("method")
+    if isinstance(chosen, Method):
+        own = chosen.given()
+        twice = [name for name in own if all_given.get(name) is not None]
+        if twice:
+            raise TypeError(f"render() got '{twice[0]}' as a keyword and in method={chosen!r}")
+        all_given.update(own, method=chosen.name)
+    return {name: all_given[name] for name in HELP if name in all_given}
 
 
 def definitions(overrides: Dict[str, Any]) -> Dict[str, str]:
     """Values for the names that a scene file defines, as texts."""
-    return {name: _text(value) for name, value in overrides.items()}
+    return {name: text(value) for name, value in overrides.items()}

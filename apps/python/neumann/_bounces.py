@@ -3,15 +3,20 @@
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, List, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Protocol, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _neumann, _report
-from ._display import strip
+from ._display import as_facts, exposure_of, frame, large, of_bounces, show, small, strip
 from ._progress import run as run_job
 from ._report import Report
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 Picture = NDArray[np.float32]
 _Means = Optional[Tuple[Tuple[float, float, float], ...]]
@@ -30,28 +35,34 @@ class _Source(Protocol):
     def warnings(self) -> List[str]: ...
     def ways(self) -> Any: ...
     def save(self, folder: str, files: Optional[Sequence[str]]) -> None: ...
+    def page(self) -> str: ...
 
 
 class Memory:
     def __init__(self, rendering: "_neumann.Rendering") -> None:
-        self._rendering = rendering
+        self.rendering = rendering
         self.bounces = rendering.bounces
         self.rest, self.table, self.convergence = rendering.rest, rendering.table, rendering.convergence
 
     def picture(self, kind: str, bounce: int) -> _Pictures:
-        return self._rendering.term(bounce) if kind == "bounce" else self._rendering.sum(bounce)
+        return self.rendering.term(bounce) if kind == "bounce" else self.rendering.sum(bounce)
 
     def run(self) -> str:
-        return self._rendering.run("DIR")
+        return self.rendering.run("DIR")
 
     def warnings(self) -> List[str]:
-        return self._rendering.warnings
+        return self.rendering.warnings
 
     def ways(self) -> Any:
-        return self._rendering.ways()
+        return self.rendering.ways()
 
     def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
-        run_job(self._rendering.save(folder) if files is None else self._rendering.save(folder, list(files)))
+        run_job(self.rendering.save(folder) if files is None else self.rendering.save(folder, list(files)))
+
+    def page(self) -> str:
+        with TemporaryDirectory() as folder:
+            self.save(folder, ["page"])
+            return (Path(folder) / "index.html").read_text(encoding="utf-8")
 
 
 class Folder:
@@ -94,6 +105,11 @@ class Folder:
     def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
         raise _neumann.InputError(f"{self._folder}: was read from there; copy the folder")
 
+    def page(self) -> str:
+        if not (self._folder / "index.html").is_file():
+            raise _neumann.InputError(f"{self._folder}: was written without its page, which --files page adds")
+        return self._text("index.html")
+
 
 class Way(NamedTuple):
     """One way (s, t) to make a bounce: s vertices from the light, t from the camera."""
@@ -105,6 +121,51 @@ class Way(NamedTuple):
     unweighted: Picture
     """What it would make by itself; (height, width, 3)."""
 
+    def __repr__(self) -> str:
+        return f"<Way s={self.s}, t={self.t}: mean {self.weighted.mean():.4g}, {self.unweighted.mean():.4g} by itself>"
+
+    def _repr_html_(self) -> str:
+        return as_facts(self._asdict(), "")
+
+
+class Bounce:
+    """K^i Le as the camera sees it: ``series[i]``. NumPy takes it as its value.
+
+    bounce: i. value: (height, width, 3), with stderr, spread and discretisation of the same shape, as of the series; None where they are
+    not known. mean: over pixels and channels.
+    """
+
+    def __init__(self, bounce: int, pictures: _Pictures, series: "BounceSeries") -> None:
+        self.bounce = bounce
+        self.value, self.stderr, self.discretisation, self.spread, _ = self._pictures = pictures
+        self.mean = float(self.value.mean(dtype=np.float64))
+        self._series = series
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> NDArray[Any]:
+        return np.array(self.value, dtype=dtype) if copy else np.asarray(self.value, dtype=dtype)
+
+    def show(self) -> None:
+        """Shows it, in a notebook or in the browser."""
+        picture = of_bounces([self], exposure_of(self._series), large)
+        show(picture, picture)
+
+    def __repr__(self) -> str:
+        height, width, _ = self.value.shape
+        return f"<Bounce {self.bounce} of {self._series.title}: {width} × {height} pixels, mean {self.mean:.4g}>"
+
+    def _repr_html_(self) -> str:
+        return of_bounces([self], exposure_of(self._series), small)
+
+
+class Bounces(List[Bounce]):
+    """Some bounces of a series: ``series[1:4]``."""
+
+    def __repr__(self) -> str:
+        return f"<Bounces {', '.join(str(b.bounce) for b in self)}>"
+
+    def _repr_html_(self) -> str:
+        return of_bounces(self, exposure_of(self[0]._series), small) if self else ""
+
 
 class BounceSeries:
     """The terms K^i Le of a scene as its camera sees them, bounces 0 … N, with their sums and what is left out.
@@ -115,7 +176,8 @@ class BounceSeries:
     sample met anything, and t · stderr is an upper bound; 0 with 0 is known to be dark. A pixel's standard error is not below what few
     samples leave open, however well they agree; the spread is without that, and is for means over pixels.
 
-    In a notebook it shows its bounces and sums in two rows, at one exposure.
+    ``series[2]`` is a Bounce, ``series[1:4]`` are some of them, and ``a + b`` is the render of the samples of both, which have to be of the
+    same scene, method and bounces, and of different seeds. In a notebook it shows its bounces and sums in two rows, at one exposure.
     """
 
     def __init__(self, source: Any, title: str) -> None:
@@ -239,8 +301,67 @@ class BounceSeries:
         """
         self._source.save(fspath(folder), files)
 
+    def show(self, bounce: Optional[int] = None) -> None:
+        """Shows a bounce, or all of them with their sums: below the cell of a notebook, elsewhere in the browser."""
+        if bounce is not None:
+            self[bounce].show()
+        else:
+            show(strip(self), strip(self))
+
+    def page(self, height: int = 800) -> None:
+        """Shows the explorer, the index.html of ``save()``: below the cell of a notebook, so many pixels high; elsewhere in the browser."""
+        page = self._source.page()
+        show(frame(page, height), page)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """An xarray.Dataset with ``term``, ``sum`` (bounce, y, x, channel) and ``rest`` (y, x, channel), each with its _stderr, _spread and
+        _discretisation where there are any."""
+        import xarray
+
+        axes = ("bounce", "y", "x", "channel")
+        kinds = (("term", self._terms, axes), ("sum", self._sums, axes), ("rest", self._rest, axes[1:]))
+        arrays = {
+            name + suffix: (dimensions, pictures[which])
+            for name, pictures, dimensions in kinds
+            for which, suffix in enumerate(("", "_stderr", "_discretisation", "_spread"))
+            if pictures[which] is not None
+        }
+        coordinates = {"bounce": np.arange(len(self)), "channel": ["r", "g", "b"]}
+        return xarray.Dataset(arrays, coordinates, {"scene": self.title, "quantity": self.run.quantity.name, "units": self.run.quantity.unit})
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """``table`` as a pandas.DataFrame, a row a bounce."""
+        import pandas
+
+        return pandas.DataFrame(self.table).set_index("bounce")
+
     def __len__(self) -> int:
+        """How many bounces have a picture of their own, bounce 0 included."""
         return self.bounces + 1
+
+    @overload
+    def __getitem__(self, which: int) -> Bounce: ...
+    @overload
+    def __getitem__(self, which: slice) -> Bounces: ...
+    def __getitem__(self, which: Union[int, slice]) -> Union[Bounce, Bounces]:
+        """Bounce i, counted from the last where i is negative, or those of a slice."""
+        if isinstance(which, slice):
+            return Bounces(self[i] for i in range(*which.indices(len(self))))
+        i = which + len(self) if which < 0 else which
+        if not 0 <= i < len(self):
+            raise IndexError(f"bounce {which}: there are bounces 0 to {self.bounces}")
+        return Bounce(i, self._source.picture("bounce", i), self)
+
+    def __add__(self, other: "BounceSeries") -> "BounceSeries":
+        """The render of all samples of both, as ``neumann merge`` puts them together. Raises InputError where they do not fit."""
+        if not isinstance(other, BounceSeries):
+            return NotImplemented
+        renderings = []
+        for series in (self, other):
+            if not isinstance(series._source, Memory):
+                raise _neumann.InputError(f"{series.title}: was read from there; neumann merge puts folders together")
+            renderings.append(series._source.rendering)
+        return BounceSeries(Memory(run_job(_neumann.merge(*renderings))), self.title)
 
     def __repr__(self) -> str:
         samples = self.run.samples
@@ -262,16 +383,18 @@ def _picture(x: "Comparable") -> Optional[_Pictures]:
     """A picture with its errors, from memory or a file; None of a series."""
     if isinstance(x, (str, PathLike)):
         return None if Path(x).is_dir() else _neumann.read(fspath(x))
+    if isinstance(x, Bounce):
+        return x._pictures
     return None if isinstance(x, BounceSeries) else (np.asarray(x), None, None, None, None)
 
 
-Comparable = Union[BounceSeries, NDArray[Any], str, "PathLike[str]"]
+Comparable = Union[BounceSeries, Bounce, NDArray[Any], str, "PathLike[str]"]
 
 
 def compare(a: Comparable, b: Comparable) -> Any:
     """How far a is from the reference b, as ``neumann compare``.
 
-    Two pictures, each an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
+    Two pictures, each a bounce, an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
     reference_mean, mean_difference and mean_difference_interval95, half of the latter's interval: None where a file does not hold it, and
     an array counts as exact. Means run over pixels and channels, fractions and not percent, with ε = 0.01:
     RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
@@ -288,7 +411,7 @@ def compare(a: Comparable, b: Comparable) -> Any:
     if all(pictures):
         return Report(errors_of(*pictures))
     if any(pictures):
-        raise _neumann.InputError("a series against a picture; compare a picture with a picture, as series.terms[2] is one")
+        raise _neumann.InputError("a series against a picture; compare a picture with a picture, as series[2] is one")
     a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
     both, rows = range(min(len(a), len(b))), []
 

@@ -5,8 +5,10 @@ from typing import Any, Dict
 import numpy as np
 from numpy.typing import NDArray
 
+from ._display import Described
 
-class Chain:
+
+class Chain(Described):
     """States of a chain, one after the other: ``scene.chain(bounce)``.
 
     A state is a path from both ends: s vertices from the light, bounce + 2 − s from the camera, drawn from random numbers. The chain
@@ -33,4 +35,4 @@ class Chain:
         return len(self.s)
 
     def __repr__(self) -> str:
-        return f"a chain of {len(self)} states of bounce {self.bounce}, {self.accepted[1:].mean() if len(self) > 1 else 1.0:.0%} of steps accepted"
+        return f"<Chain of {len(self)} states of bounce {self.bounce}, {self.accepted[1:].mean() if len(self) > 1 else 1.0:.0%} of steps accepted>"

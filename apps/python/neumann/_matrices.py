@@ -1,18 +1,22 @@
 """K = R T as a matrix: of a scene, or anyone's."""
 
-from typing import Any, Dict, Iterator, Optional, Sequence, Tuple, Union
+from os import PathLike
+from pathlib import Path
+from typing import Any, Dict, Iterator, Optional, Sequence, Union
 
 import numpy as np
 import scipy.sparse
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+from scipy.sparse.linalg import LinearOperator
 
 from . import _neumann, _report
 from ._display import as_table
+from ._patched import Patched, Vector
+from ._petsc import write_matrix, write_vector
 from ._progress import run
 from ._report import Report
 
-Vector = NDArray[np.float64]
-Matrix = Union[scipy.sparse.spmatrix, ArrayLike]
+Matrix = Union[scipy.sparse.spmatrix, LinearOperator, ArrayLike]
 
 SOLVERS: Dict[str, str] = dict(_neumann.solvers)
 """The names that solve() takes, and what they stand for."""
@@ -21,8 +25,8 @@ STEPS = ("applications", "estimate", "error", "seconds")
 _bounds = ("bounce", "power", "l2", "sup", "ratio", "a_priori", "a_posteriori", "estimate", "enclosure_width")
 
 
-class Matrices:
-    """T, R and Le of one channel of a scene on patches: ``T, R, Le = scene.matrices()``, and ``K = R @ T``.
+class Matrices(Patched):
+    """T, R and Le of one channel of a scene on patches: ``T, R, Le = scene.matrices()``.
 
     Fields on patches are vectors of one value an unknown, basic radiance in W·m⁻²·sr⁻¹: a diffuse side of a patch is one unknown,
     others have one for each cell of their directions.
@@ -33,31 +37,20 @@ class Matrices:
     b: K Le, (unknowns,); sampled on the lights where the rays hardly meet them.
     measure: n² times area times projected solid angle of an unknown, (unknowns,), m²·sr: ⟨f, g⟩ = Σ measure · f · g.
     ray_measure: the same of a ray, (rays,).
+    reflectance: of each unknown, (unknowns,); None where a side is not diffuse.
     patches: a row for each side of a patch: its first ``unknown``, how many ``directions``, ``patch``, ``side``, ``shape``, the middle
     ``x, y, z`` and the normal ``nx, ny, nz`` in scene units, ``area``.
     channel: "grey", "red", "green" or "blue".
-    radius: the spectral radius of K; nan, with a warning, where it was not found.
     """
 
     T: scipy.sparse.csr_matrix
     R: scipy.sparse.csr_matrix
-    Le: Vector
-    b: Vector
-    measure: Vector
     ray_measure: Vector
-    patches: NDArray[Any]
-    channel: str
-    radius: float
 
     def __init__(self, patched: "_neumann.Patched") -> None:
-        self._patched = patched
+        super().__init__(patched)
         made = patched.matrices()
-        self.T, self.R, self.Le, self.b = made["T"], made["R"], made["Le"], made["b"]
-        self.measure, self.ray_measure = made["measure"], made["ray_measure"]
-        self.patches = _report.table(made["patches"])
-        self.channel, self.radius, self.title = made["channel"], made["radius"], made["title"]
-        self.no_radius = made["no_radius"]
-        self._cameras: Dict[Tuple[int, int], Any] = {}
+        self.T, self.R, self.ray_measure = made["T"], made["R"], made["ray_measure"]
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.T, self.R, self.Le))
@@ -67,29 +60,40 @@ class Matrices:
         """R @ T, (unknowns, unknowns): one bounce."""
         return (self.R @ self.T).tocsr()
 
-    def camera(self, spp: int = 16, seed: int = 0) -> scipy.sparse.csr_matrix:
-        """The camera as a matrix, (height · width, unknowns): ``(camera @ x).reshape(height, width)`` is the picture of a field x.
+    def save(self, folder: Union[str, "PathLike[str]"], format: str = "npz") -> None:
+        """Writes T, R, K and the vectors into a folder, for other programs.
 
-        Of spp camera rays a pixel, a power of two; rows sum to the part of them that meets an unknown.
+        "npz": T.npz, R.npz and K.npz, which scipy.sparse.load_npz reads, and vectors.npz for np.load, with Le, b, measure, ray_measure and
+        patches. "petsc": T.petsc, R.petsc and K.petsc for PETSc's MatLoad, and Le.petsc, b.petsc, measure.petsc and ray_measure.petsc for
+        VecLoad, in PETSc's binary format with real numbers of 64 and indices of 32 bits. Raises InputError for another format.
         """
-        if spp < 1 or spp & (spp - 1):
-            raise _neumann.InputError(f"spp={spp}: expected a power of two, such as 16")
-        if (spp, seed) not in self._cameras:
-            self._cameras[spp, seed] = run(self._patched.camera(spp, seed))
-        return self._cameras[spp, seed]
-
-    def picture(self, x: ArrayLike, spp: int = 16) -> Vector:
-        """What the camera sees of a field x (unknowns,), as it is on the patches: (height, width), row 0 on top."""
-        x = np.asarray(x)
-        if x.shape != self.Le.shape:
-            raise _neumann.InputError(f"x has the shape {x.shape}, expected one value an unknown, {self.Le.shape}")
-        return (self.camera(spp) @ x).reshape(self._patched.height, self._patched.width)
+        if format not in ("npz", "petsc"):
+            raise _neumann.InputError(f"format={format!r}: expected 'npz' or 'petsc'")
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        matrices = {"T": self.T, "R": self.R, "K": self.K}
+        vectors = {"Le": self.Le, "b": self.b, "measure": self.measure, "ray_measure": self.ray_measure}
+        if format == "npz":
+            for name, matrix in matrices.items():
+                scipy.sparse.save_npz(folder / f"{name}.npz", matrix)
+            np.savez_compressed(folder / "vectors.npz", patches=self.patches, **vectors)
+            return
+        for name, matrix in matrices.items():
+            write_matrix(folder / f"{name}.petsc", matrix)
+        for name, vector in vectors.items():
+            write_vector(folder / f"{name}.petsc", vector)
 
     def __repr__(self) -> str:
-        return f"<Matrices of {self.title}, {self.channel}: T {self.T.shape}, R {self.R.shape}, spectral radius {self.radius:.6f}>"
+        return f"<Matrices of {self.title}, {self.channel}: T {self.T.shape}, R {self.R.shape}>"
 
 
 def _operator(K: Matrix, measure: Optional[ArrayLike]) -> "_neumann.Operator":
+    if isinstance(K, LinearOperator):
+        if getattr(K, "compiled", None) is None:
+            raise _neumann.InputError("K is a LinearOperator, expected the K of scene.operators(), or a matrix")
+        if measure is not None:
+            raise _neumann.InputError("measure: the K of scene.operators() has its own")
+        return K.compiled
     sparse = scipy.sparse.issparse(K)
     K = scipy.sparse.csr_matrix(K, dtype=float) if sparse else np.ascontiguousarray(K, dtype=float)
     m = np.ones(K.shape[0]) if measure is None else np.asarray(measure, dtype=float)
@@ -108,7 +112,7 @@ def series(
 ) -> Report:
     """L = Le + K Le + K² Le + … until it is known to be close enough, or known not to get there.
 
-    K: (n, n), of scipy.sparse or dense. Le: (n,). error: of the sum, relative to its largest value. most: bounces. norm: a ≥ ‖K‖∞, as
+    K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: of the sum, relative to its largest value. most: bounces. norm: a ≥ ‖K‖∞, as
     the largest albedo; it makes the bounds. measure: (n,), of each unknown; 1 without it.
 
     Returns a Report of
@@ -140,6 +144,10 @@ class Solutions(dict):
         self.about = about
         """What was solved: the scene, the channel, its spectral radius."""
 
+    def __repr__(self) -> str:
+        converged = sum(found.verdict == "converged" for found in self.values())
+        return f"<Solutions by {len(self)} solvers, of which {converged} converged>"
+
     def _repr_html_(self) -> str:
         names = ["solver", "applications", "seconds", "estimate", "error", "verdict", "why"]
         rows = []
@@ -166,7 +174,7 @@ def solve(
 ) -> Any:
     """L = Le + K L by one of SOLVERS, or by several of them, or by "all".
 
-    K: (n, n), of scipy.sparse or dense. Le: (n,). error: estimated, relative to ‖L‖∞, that ends a solver. most: applications of K.
+    K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: estimated, relative to ‖L‖∞, that ends a solver. most: applications of K.
     radius: spectral radius of K or a bound on it, which turns residuals into errors, and which chebyshev needs. lowest: the lowest
     eigenvalue where all are real; −radius without it. reflectance: (n,), ρ where K = diag(ρ) F with F reciprocal, for cg. exact: (n,), L
     where it is known, to see true errors. measure: (n,), of each unknown; 1 without it.

@@ -5,8 +5,10 @@ from typing import Any, Dict
 import numpy as np
 from numpy.typing import NDArray
 
+from ._display import Described
 
-class Photons:
+
+class Photons(Described):
     """Photons of a scene: ``scene.photons()``. Rows belong together, path by path.
 
     Photon p lies where light of bounce j − 1 arrives that leaves as K^j Le. Surfaces that are mirrors or glass alone have none.
@@ -36,4 +38,4 @@ class Photons:
         return len(self.bounce)
 
     def __repr__(self) -> str:
-        return f"{len(self)} photons of bounces 1 to {self.bounce.max(initial=0)}"
+        return f"<Photons: {len(self)} of bounces 1 to {self.bounce.max(initial=0)}>"

@@ -68,7 +68,8 @@ class _Notebook(_Nothing):
             self._handle = None
 
 
-def _in_notebook() -> bool:
+def in_notebook() -> bool:
+    """Whether a notebook shows what is printed."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     return type(shell).__name__ == "ZMQInteractiveShell"
@@ -76,7 +77,7 @@ def _in_notebook() -> bool:
 
 def run(job: "_neumann.Job", quiet: bool = False, wrap: Callable[[Any], Any] = lambda made: made) -> Any:
     """What a job makes, wrapped. Ctrl-C ends it early; what it has until then is `result` of the KeyboardInterrupt, if it has something."""
-    line = _Nothing() if quiet else _Notebook() if _in_notebook() else _Terminal()
+    line = _Nothing() if quiet else _Notebook() if in_notebook() else _Terminal()
     try:
         while not job.wait(0.1):
             text, fraction = job.progress()

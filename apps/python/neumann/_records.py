@@ -5,8 +5,10 @@ from typing import Any, Dict
 import numpy as np
 from numpy.typing import NDArray
 
+from ._display import Described
 
-class Records:
+
+class Records(Described):
     """The records of a cache: ``scene.records()``. Rows belong together, in the order in which the records were placed.
 
     position: (n, 3), scene units. normal: (n, 3), on the side that reflects.
@@ -32,4 +34,4 @@ class Records:
         return len(self.radius)
 
     def __repr__(self) -> str:
-        return f"{len(self)} records of bounces 1 to {self.irradiance.shape[1]}, of which the camera reads {self.seen.sum()}"
+        return f"<Records: {len(self)} of bounces 1 to {self.irradiance.shape[1]}, of which the camera reads {self.seen.sum()}>"

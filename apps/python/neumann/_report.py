@@ -9,6 +9,10 @@ from typing import Any, Container, Iterable, List, Optional, Type
 import numpy as np
 from numpy.typing import NDArray
 
+from ._display import as_facts
+
+_most = 8  # names in a repr
+
 
 class NeumannWarning(UserWarning):
     """What the command prints as a warning: accepted, although it is odd."""
@@ -26,6 +30,14 @@ class Report(dict):
             return self[name]
         except KeyError:
             raise AttributeError(f"there is no {name!r} here; there are {', '.join(map(str, self))}") from None
+
+    def __repr__(self) -> str:
+        names = list(map(str, self))
+        more = f", … ({len(names)} in all)" if len(names) > _most else ""
+        return f"<Report of {', '.join(names[:_most])}{more}>"
+
+    def _repr_html_(self) -> str:
+        return as_facts(self, "")
 
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *(key for key in self if isinstance(key, str) and key.isidentifier())]

@@ -1,8 +1,9 @@
 """Scenes, and what can be done with them."""
 
 import tempfile
+from hashlib import sha256
 from os import PathLike, fspath
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union, Unpack
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
 
@@ -10,9 +11,13 @@ from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
 from ._bounces import BounceSeries, Memory
 from ._chain import Chain
-from ._display import as_table
+from ._dictionary import edits_of, parse
+from ._display import as_facts, as_table
+from ._estimator import Estimator, from_rays, name_of
 from ._matrices import STEPS, Matrices, Solutions
+from ._method import Method
 from ._method_options import MethodOptions
+from ._operators import Operators
 from ._photons import Photons
 from ._progress import run
 from ._records import Records
@@ -25,6 +30,10 @@ Path = Union[str, "PathLike[str]"]
 
 class Plan(List[Report]):
     """The parts of the machinery, each a Report of part, kept, reason, and saves where it is left out."""
+
+    def __repr__(self) -> str:
+        kept = sum(part.kept for part in self)
+        return f"<Plan: {kept} parts kept, {len(self) - kept} left out>"
 
     def _repr_html_(self) -> str:
         return as_table(
@@ -63,6 +72,26 @@ class Scene:
     def replaced(self) -> List[str]:
         """What load(…, lenient=True) replaced or left out, each with its place; empty otherwise."""
         return self._scene.replaced
+
+    @property
+    def edits(self) -> Dict[str, str]:
+        """What edit() changed, by name, as a file would have it."""
+        return dict(self._scene.edits)
+
+    def edit(self, changes: Mapping[str, Any]) -> "Scene":
+        """A scene with other values of parameters, by names like those of Mitsuba's traverse(); this one stays as it is.
+
+            brighter = scene.edit({"lamp.emitter.radiance.value": [20.0, 20.0, 18.0], "white.reflectance.value": 0.8})
+            moved = scene.edit({"sensor.to_world": neumann.look_at([0, 0, 4], [0, 0, 0])})
+
+        The first part of a name is the id of an object, in a dictionary its key, or "sensor" and the like for the only one without an id;
+        the last is a parameter, and between them are objects inside. "value" at the end may be left out, and a parameter that is missing
+        is added then. Values: numbers, texts, True and False, three numbers for a colour, a point or a vector, {"type": "rgb", …}, and
+        4 × 4 matrices. Raises InputError. Files of the scene are read again.
+        """
+        changed = Scene(self._scene.edited(edits_of(changes)))
+        warn(changed._scene.warnings)
+        return changed
 
     @property
     def width(self) -> int:
@@ -141,6 +170,7 @@ class Scene:
         given = {"records": records, "accuracy": accuracy, "directions": directions}
         options = [(name, str(value)) for name, value in given.items() if value is not None]
         return Records(run(_neumann.records(self._scene, bounces, options, seed)))
+
     def under_lights(
         self,
         lights: Tuple[int, int] = (8, 8),
@@ -177,13 +207,26 @@ class Scene:
         """T, R and Le on patches: ``T, R, Le = scene.matrices()``; then ``K = R @ T``, and ``L = Le + K @ Le + K @ K @ Le + …``.
 
         patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
-        or b; without it the one with the largest spectral radius. memory: GiB that may be taken. Raises InputError. Where the spectral
-        radius was not found it is nan, and a warning says why.
+        or b; without it the one that reflects most, of the largest ⟨K 1, 1⟩ / ⟨1, 1⟩. memory: GiB that may be taken. Raises InputError.
         """
-        made = Matrices(run(_neumann.matrices(self._scene, options(locals())), quiet))
-        if made.no_radius and not quiet:
-            warn([f"the spectral radius was {made.no_radius}"])
-        return made
+        return Matrices(run(_neumann.patched(self._scene, options(locals())), quiet))
+
+    def operators(
+        self,
+        *,
+        patches: Optional[int] = None,
+        directions: Optional[int] = None,
+        seed: Optional[int] = None,
+        channel: Optional[str] = None,
+        memory: Optional[float] = None,
+        threads: Optional[int] = None,
+        quiet: bool = False,
+    ) -> Operators:
+        """T, R, K and I − K as SciPy's LinearOperators, with the same rays as ``matrices()`` and without making a matrix.
+
+        Keywords as of ``matrices()``.
+        """
+        return Operators(run(_neumann.patched(self._scene, options(locals())), quiet))
 
     def spectrum(
         self,
@@ -249,7 +292,7 @@ class Scene:
 
     def study(
         self,
-        methods: Optional[Sequence[str]] = None,
+        methods: Optional[Sequence[Union[str, Method, Estimator]]] = None,
         *,
         budgets: Optional[Sequence[float]] = None,
         samples: Optional[Sequence[int]] = None,
@@ -267,24 +310,37 @@ class Scene:
     ) -> Study:
         """Methods side by side, error against time, bounce by bounce: as ``neumann study``.
 
-        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"]; without them all that can do the scene. budgets: seconds of a run, or samples: samples a pixel of
-        one, growing. repeats: runs of each method at each budget, 16 without it, or as many as an interval of
-        the sum's RMSE of ± this part of itself takes. bounces: the last one that is looked at. error: relative RMSE, for the time to it.
-        crop: x, y, width and height of a part that the page shows of every method. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, of
-        reference_spp samples a pixel. output: the folder for tables and page; without it nothing is kept.
+        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"], or neumann.Walk(direct="light") and the like; without
+        them all that can do the scene. An estimator of your own stands beside them as "its_name()": a function of rays, with ``origin``
+        (n, 3), ``direction`` (n, 3) and ``pixel`` (n, 2) of n camera rays, the last bounce N, and a numpy.random.Generator, which returns
+        samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It must not start other work of this package. budgets: seconds of a
+        run, or samples: samples a pixel of one, growing. repeats: runs of each method at each budget, 16 without it, or as many as an
+        interval of the sum's RMSE of ± this part of itself takes. bounces: the last one that is looked at. error: relative RMSE, for the
+        time to it. crop: x, y, width and height of a part that the page shows of every method. reference: the folder of a render,
+        "values:1,0.5,…", or a method that makes one, of reference_spp samples a pixel. output: the folder for tables and page; without it
+        nothing is kept.
         """
-        arguments = options(locals())
+        own = {name_of(method): from_rays(method) for method in methods or () if callable(method)}
+        if methods is not None:
+            methods = [name_of(method) if callable(method) else method for method in methods]
+        arguments = options({name: value for name, value in locals().items() if name != "own"})
         with tempfile.TemporaryDirectory() as folder:
             if output is None:
                 arguments += options({"output": folder})
-            study: Study = run(_neumann.study(self._scene, arguments), quiet, lambda made: Study(*made))
+            study: Study = run(_neumann.study(self._scene, arguments, own), quiet, lambda made: Study(*made))
         if not quiet:
             warn(study.warnings)
         return study
 
     def __repr__(self) -> str:
         given = "".join(f", {name}={value}" for name, value in self.definitions.items()) + (", lenient" if self.replaced else "")
+        given += f", {len(self.edits)} edits" if self.edits else ""
         return f"<Scene {self.path}{given}: {self._scene.shapes} shapes, {self.width} × {self.height} pixels>"
+
+    def _repr_html_(self) -> str:
+        facts = {"file": self.path, **self.definitions, "shapes": self._scene.shapes, "pixels": f"{self.width} × {self.height}"}
+        facts["largest albedo"] = ", ".join(f"{a:.3g}" for a in self.largest_albedo)
+        return as_facts({**facts, **self.edits, "replaced": len(self.replaced)}, "")
 
 
 def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
@@ -295,5 +351,21 @@ def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
     named in a warning and in ``replaced``, and pictures are marked.
     """
     scene = _neumann.load(fspath(path), definitions(overrides), lenient)
+    warn(scene.warnings)
+    return Scene(scene)
+
+
+def load_dict(dictionary: Mapping[str, Any], *, name: str = "dict", lenient: bool = False) -> Scene:
+    """Takes a scene as a dictionary, as Mitsuba's load_dict does: {"type": "scene", "white": {"type": "diffuse", …}, …}.
+
+    Values are numbers, texts, True and False, three numbers, 4 × 4 matrices or Mitsuba's transforms, {"type": "rgb", "value": …},
+    {"type": "spectrum", …}, {"type": "ref", "id": …} and other objects. A shape {"type": "mesh", "vertices": (n, 3), "faces": (m, 3)},
+    with "normals" (n, 3), "uv" (n, 2) and what a ply may have, is made of arrays. Files are named from the current folder.
+
+    name: of the scene, in messages and in run.json. Raises InputError, "dict#/path/of/keys: what is wrong, what was expected".
+    """
+    parsed = parse(dictionary, name)
+    text = repr(parsed.root) + "".join(file + sha256(b"".join(a.tobytes() for a in arrays)).hexdigest() for file, arrays in parsed.meshes.items())
+    scene = _neumann.load_elements(name, parsed.root, parsed.meshes, text, lenient)
     warn(scene.warnings)
     return Scene(scene)

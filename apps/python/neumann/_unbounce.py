@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _neumann, _report
-from ._display import as_table
+from ._display import Described, as_table
 from ._progress import run
 from ._report import Report
 
@@ -115,7 +115,7 @@ def unbounce(
     return found
 
 
-class LightPictures:
+class LightPictures(Described):
     """A scene under each of a projector's lights, in the place of the camera: what ``Scene.under_lights()`` renders.
 
     pictures and direct: (lights, height, width, 3), all bounces and bounce 1 alone; forward: (bounces, height, width, 3), K^i Le of all lights
@@ -126,6 +126,10 @@ class LightPictures:
         self.lights = lights
         self.pictures: NDArray[np.float32]
         (self.pictures, self.stderr, self.direct, self.direct_stderr, self.forward, self.forward_stderr, self.warnings) = made
+
+    def __repr__(self) -> str:
+        columns, rows = self.lights
+        return f"<LightPictures under {columns} × {rows} lights, {self.pictures.shape[2]} × {self.pictures.shape[1]} pixels>"
 
     def unbounce(self, *, bounces: Optional[int] = None, use_direct: bool = False, seed: int = 0, quiet: bool = False) -> Unbounced:
         """``neumann.unbounce()`` of them, beside the forward terms."""

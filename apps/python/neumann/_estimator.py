@@ -1,0 +1,25 @@
+"""Estimators written in Python, for a study."""
+
+from typing import Any, Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._report import Report
+
+Estimator = Callable[[Report, int, np.random.Generator], ArrayLike]
+"""Of camera rays, the last bounce and random numbers: samples of K^i Le, (rays, bounces, 3)."""
+
+
+def name_of(estimator: Estimator) -> str:
+    """How a study calls it."""
+    return getattr(estimator, "__name__", type(estimator).__name__) + "()"
+
+
+def from_rays(estimator: Estimator) -> Any:
+    """The function that the compiled part calls."""
+
+    def call(origin: NDArray[Any], direction: NDArray[Any], pixel: NDArray[Any], bounces: int, seed: int) -> ArrayLike:
+        return estimator(Report(origin=origin, direction=direction, pixel=pixel), bounces, np.random.default_rng(seed))
+
+    return call

@@ -1,0 +1,24 @@
+"""A method of rendering with its options as one value; the classes themselves are made from the command's table."""
+
+from dataclasses import fields
+from typing import Any, ClassVar, Dict
+
+from ._texts import text
+
+
+class Method:
+    """A method and its own options: ``neumann.Walk(direct="light")``, for ``render(method=…)`` and ``study([…])``. Its text is that of the
+    command, "walk:direct=light". Options that are None are those of the method by default."""
+
+    name: ClassVar[str]
+
+    def given(self) -> Dict[str, Any]:
+        """The options that are given, by name."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+        return {name: value for name, value in values.items() if value is not None and value is not False}
+
+    def __str__(self) -> str:
+        return ":".join([self.name, *(f"{name}={text(value)}" for name, value in self.given().items())])
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.given().items())})"

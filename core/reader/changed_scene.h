@@ -1,0 +1,22 @@
+// Scenes of which there is no file, or that are a file with changes.
+#pragma once
+
+#include "core/reader/raw_scene.h"
+#include "core/reader/read_scene.h"
+#include "core/reader/xml/edit.h"
+
+#include <memory>
+
+namespace neumann {
+
+struct SceneChanges {
+    std::shared_ptr<const reader::RawScene> in_memory = {};  // the scene, in place of the file
+    std::vector<reader::Edit> edits = {};                    // in this order
+};
+
+// As read_scene_parts(path, …). The hash is that of the scene with its changes. Files that a scene in memory names are searched
+// from the current folder.
+SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, const Reading& reading,
+                            const SceneChanges& changes);
+
+}  // namespace neumann
