@@ -50,7 +50,7 @@ nlohmann::ordered_json study_json(const StudyData& data, const std::vector<Studi
 void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictures);
 std::string study_page(const StudyData& data, const nlohmann::ordered_json& study);
 // "In bounce 1 matrix is 160 times as fast as walk (140 to 180)."
-std::string verdict_text(const StudyData& data, std::size_t picture, const Verdict& verdict);
+std::string verdict_text(const StudyData& data, std::size_t picture, const StudyVerdict& verdict);
 
 // The command line that renders the pictures of a run again.
 std::string repeating_command(const StudyData& data, const StudyRun& run);

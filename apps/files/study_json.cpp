@@ -50,7 +50,7 @@ Json as_json(const StudyData& data, const StudyPoint& point, std::size_t q, cons
     return json;
 }
 
-Json as_json(const StudyData& data, std::size_t q, const Verdict& verdict) {
+Json as_json(const StudyData& data, std::size_t q, const StudyVerdict& verdict) {
     Json json = {{"text", verdict_text(data, q, verdict)},
                  {"best", data.methods[verdict.best].name},
                  {"known", verdict.is_known},

@@ -38,7 +38,7 @@ std::string StudyData::picture_title(std::size_t picture) const {
     return picture + 1 == pictures() ? fmt::format("the sum of bounces 0 to {}", bounces) : "bounce " + picture_name(picture);
 }
 
-std::string verdict_text(const StudyData& data, std::size_t picture, const Verdict& verdict) {
+std::string verdict_text(const StudyData& data, std::size_t picture, const StudyVerdict& verdict) {
     const std::string where = "In " + data.picture_title(picture), &best = data.methods[verdict.best].name;
     if (!verdict.is_known) return where + " no method has a finite variance: there is no verdict.";
     std::vector<std::string> seen, not_seen, unknown;

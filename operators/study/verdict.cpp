@@ -17,10 +17,10 @@ WithError time_to_error(const PointSummary& point) {
 
 }  // namespace
 
-Verdict verdict_on(const StudiedPicture& picture, std::size_t repeats) {
+StudyVerdict verdict_on(const StudiedPicture& picture, std::size_t repeats) {
     const StudiedMethod& best = picture.methods.front();
     const PointSummary& point = best.summary.points.back();
-    Verdict verdict{best.method, !best.summary.infinite_variance, {}, {}};
+    StudyVerdict verdict{best.method, !best.summary.infinite_variance, {}, {}};
     if (point.biased) verdict.own_error = std::sqrt(point.bias_squared.value);
     const auto methods = static_cast<double>(picture.methods.size());
     const double pairs = std::max(methods * (methods - 1.0) / 2.0, 1.0);

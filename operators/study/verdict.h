@@ -22,7 +22,7 @@ struct SpeedRatio {
     bool is_seen() const { return is_known && times.low > 1.0; }
 };
 
-struct Verdict {
+struct StudyVerdict {
     std::size_t best = 0;
     bool is_known = true;             // not so where the variance of the best one is infinite
     std::vector<SpeedRatio> others;   // in order of rank
@@ -30,6 +30,6 @@ struct Verdict {
 };
 
 // `picture` has at least one method.
-Verdict verdict_on(const StudiedPicture& picture, std::size_t repeats);
+StudyVerdict verdict_on(const StudiedPicture& picture, std::size_t repeats);
 
 }  // namespace neumann

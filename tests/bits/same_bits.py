@@ -28,7 +28,7 @@ METHODS = {
     "walk": PATHS,
     "guided": [*PATHS, "--patches", "100", "--directions", "256"],
     "corrected": [*PATHS, "--patches", "100", "--directions", "16"],
-    **{name: PATHS for name in ("surface", "light", "bidirectional", "photon", "cache", "metropolis", "classic", "pointwise")},
+    **{name: PATHS for name in ("surface", "light", "bidirectional", "mixed", "photon", "cache", "metropolis", "classic", "pointwise")},
     **{name: FIELDS for name in ("patches", "matrix", "gather")},
 }
 # Of the Cornell box alone.

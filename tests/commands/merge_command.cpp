@@ -20,7 +20,7 @@ protected:
 };
 
 TEST_F(MergeCommand, PartsAreTheWhole) {
-    for (const std::string method : {"walk", "bidirectional", "corrected", "photon", "cache", "metropolis"}) {
+    for (const std::string method : {"walk", "bidirectional", "corrected", "photon", "cache", "metropolis", "mixed"}) {
         SCOPED_TRACE(method);
         part("whole", {"--spp", "512", "--method", method});
         for (const std::string k : {"1", "2", "3"}) part(k, {"--spp", "512", "--method", method, "--part", k + "/3"});

@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 // Of every kind of method: walks, tables and fields that are made before the first sample, splats, what a pilot chose.
 TEST_F(RenderResume, MoreSamplesAreThoseOfOneRender) {
     for (const std::string method :
-         {"walk", "guided", "corrected", "bidirectional", "photon", "cache", "metropolis", "light", "pointwise", "auto"}) {
+         {"walk", "guided", "corrected", "bidirectional", "photon", "cache", "metropolis", "mixed", "light", "pointwise", "auto"}) {
         SCOPED_TRACE(method);
         expect_done(rendering("a", {"--spp", "256", "--method", method}));
         expect_done(rendering("b", {"--spp", "128", "--method", method, "--checkpoint", "0.001"}));

@@ -16,7 +16,7 @@ protected:
 
 TEST_F(LaunchedRenders, HaveTheBitsOfOneProcess) {
     for (const std::string method :
-         {"walk", "guided", "corrected", "bidirectional", "photon", "cache", "metropolis", "pointwise"}) {
+         {"walk", "guided", "corrected", "bidirectional", "photon", "cache", "metropolis", "mixed", "pointwise"}) {
         SCOPED_TRACE(method);
         const std::vector<std::string> options{"--spp", "256", "--method", method, "--seed", "7"};
         expect_done(run(rendering("a", options)));

@@ -56,7 +56,7 @@ class Render(Case):
         loaded = trees_built()
         self.assertGreater(loaded, before)
         few = {"patches": 100, "directions": 256}
-        for method, more in (("walk", {}), ("light", {}), ("guided", few), ("corrected", few), ("photon", {}), ("cache", {}), ("metropolis", {}), ("matrix", few), ("gather", few)):
+        for method, more in (("walk", {}), ("light", {}), ("guided", few), ("corrected", few), ("photon", {}), ("cache", {}), ("metropolis", {}), ("mixed", {}), ("matrix", few), ("gather", few)):
             scene.render(bounces=1, spp=4, method=method, **more)
             scene.render(bounces=1, spp=4, method=method, **more)
         scene.plan()

@@ -73,10 +73,10 @@ StudiedMethod studied(std::size_t number, double mse, double mse_error, double s
     return method;
 }
 
-TEST(Verdict, IsOnTimesToTheSameError) {
+TEST(StudyVerdict, IsOnTimesToTheSameError) {
     StudiedPicture picture;
     picture.methods = {studied(2, 1e-4, 1e-6, 2.0), studied(0, 1e-2, 1e-4, 4.0), studied(1, 1e-4, 3e-6, 2.02)};
-    const Verdict verdict = verdict_on(picture, 16);
+    const StudyVerdict verdict = verdict_on(picture, 16);
     EXPECT_EQ(verdict.best, 2u);
     EXPECT_FALSE(verdict.own_error.has_value());
     ASSERT_EQ(verdict.others.size(), 2u);
@@ -92,7 +92,7 @@ TEST(Verdict, IsOnTimesToTheSameError) {
     EXPECT_NEAR(verdict.others[0].times.high, expected.high, 1e-9);
 }
 
-TEST(Verdict, SaysNothingOfInfiniteVariances) {
+TEST(StudyVerdict, SaysNothingOfInfiniteVariances) {
     StudiedPicture picture;
     picture.methods = {studied(0, 1e-4, 1e-6, 1.0), studied(1, 1.0, 1e-2, 1.0)};
     picture.methods[1].summary.infinite_variance = true;
@@ -102,7 +102,7 @@ TEST(Verdict, SaysNothingOfInfiniteVariances) {
     EXPECT_FALSE(verdict_on(picture, 8).is_known);
 }
 
-TEST(Verdict, NamesTheErrorThatSamplesDoNotRemove) {
+TEST(StudyVerdict, NamesTheErrorThatSamplesDoNotRemove) {
     StudiedPicture picture;
     picture.methods = {studied(0, 5e-6, 1e-7, 1.0)};
     picture.methods[0].summary.points.back().bias_squared = {4e-6, 1e-7};
