@@ -87,7 +87,8 @@ void expect_sample(std::uint64_t sample, std::uint64_t first, std::uint64_t coun
 
 Chosen choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
     if (!request.number) {
-        if (!adaptive_of(run.render.method)) expect_sample(*request.sample, run.first, run.samples);
+        const bool alike = !adaptive_of(run.render.method) && !std::holds_alternative<method::Mixed>(run.render.method);
+        if (alike) expect_sample(*request.sample, run.first, run.samples);
         return {{pixel_number(film, request.pixel[0], request.pixel[1]), *request.sample}, ""};
     }
     for (const Json& sample : run.named) {
@@ -109,6 +110,10 @@ struct Beginning {
 };
 Beginning where_it_began(const Scene& scene, const RecordedRun& run, SampleName name) {
     const std::uint32_t pixel = name.pixel;
+    const bool is_mixed = std::holds_alternative<method::Mixed>(run.render.method);
+    if (!run.merged.empty() && std::holds_alternative<method::Mixed>(run.render.method))
+        throw InputError(
+            "replay: a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");
     const std::uint64_t asked = name.sample;
     const auto size_in = [&](const RecordedSamples& samples) { return std::uint64_t{samples.sampler().layout().size(pixel)}; };
     for (const SeedRange& range : run.merged) {
@@ -124,6 +129,15 @@ Beginning where_it_began(const Scene& scene, const RecordedRun& run, SampleName 
     }
     if (!run.merged.empty()) expect_sample(asked, 0, asked - name.sample);
     auto samples = std::make_unique<const RecordedSamples>(scene, run.render);
+    if (const MixedSampler* mixed = samples->sampler().mixed()) {
+        const auto& [sampler, name_there, part, method] = mixed->part_of(name);
+        const std::uint64_t of_part = sampler.layout().size(pixel), n = run.samples / run.render.replicate_size * of_part,
+                            begin = run.first / run.render.replicate_size * of_part;
+        if (name_there.sample < begin || name_there.sample - begin >= n)
+            throw InputError(fmt::format("--sample {}: {} has {} samples in this pixel; expected {} j + {} with j from {} on",
+                                         asked, method, n, mixed->parts(), part, begin));
+        return {std::move(samples), name};
+    }
     const std::uint64_t size = size_in(*samples), replicates = run.samples / run.render.replicate_size,
                         first = run.first / run.render.replicate_size * size;
     expect_sample(name.sample, first, replicates * size);
@@ -214,10 +228,12 @@ int replay_command(const ReplayRequest& request) {
     const auto [samples, name] = where_it_began(scene, run, chosen.name);
     const Replay found = samples->replay(name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
+    const MixedSampler* mixed = samples->sampler().mixed();
+    const std::string method = mixed ? fmt::format("mixed ({})", mixed->part_of(name).method) : name_of(run.render.method);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 
     if (request.json) {
-        Json json = {{"pixel", {pixel.x, pixel.y}}, {"sample", chosen.name.sample}, {"method", name_of(run.render.method)}};
+        Json json = {{"pixel", {pixel.x, pixel.y}}, {"sample", chosen.name.sample}, {"method", method}};
         if (!chosen.why.empty()) json["why"] = chosen.why;
         json["terms"] = Json::array();
         for (const Rgb& term : found.terms) json["terms"].push_back(rgb(term));
@@ -227,7 +243,7 @@ int replay_command(const ReplayRequest& request) {
         fmt::print("{}\n", json.dump(2));
         return 0;
     }
-    fmt::print("Sample {} of pixel {},{} by {}{}\n\n", chosen.name.sample, pixel.x, pixel.y, name_of(run.render.method),
+    fmt::print("Sample {} of pixel {},{} by {}{}\n\n", chosen.name.sample, pixel.x, pixel.y, method,
                chosen.why.empty() ? "" : "; " + chosen.why);
     for (auto s = found.steps.begin(); s != found.steps.end(); ++s) print(*s, scene, s == unsound);
     fmt::print("\nWhat it brings to its own pixel\n");

@@ -61,7 +61,7 @@ double MixedSampler::scale(std::size_t part, std::size_t quantity, const Vec2& p
 
 MixedSampler::OfPart MixedSampler::part_of(const SampleName& name) const {
     const std::size_t part = name.sample % parts_.size();
-    return {*parts_[part], {name.pixel, name.sample / parts_.size()}, part};
+    return {*parts_[part], {name.pixel, name.sample / parts_.size()}, part, mixture_->parts[part].method};
 }
 
 bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,

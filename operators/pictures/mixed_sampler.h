@@ -29,11 +29,13 @@ public:
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const;
 
+    std::size_t parts() const { return parts_.size(); }
     // The method that made a sample, and the sample's name there.
     struct OfPart {
         const PictureSampler& sampler;
         SampleName name;
         std::size_t part;
+        const std::string& method;
     };
     OfPart part_of(const SampleName& name) const;
     // What a sample of a method with value 1 adds to the mean of its pixel, or of that at a position on the film, times the

@@ -18,7 +18,7 @@ bool is_finite(const ReplayedStep& replayed) {
 
 Replay replay(const PictureSampler& sampler, const SampleName& name) {
     if (const MixedSampler* mixed = sampler.mixed()) {
-        const auto [of_part, name_there, part] = mixed->part_of(name);
+        const auto& [of_part, name_there, part, method] = mixed->part_of(name);
         Replay replayed = replay(of_part, name_there);
         for (std::size_t q = 0; q < replayed.terms.size(); ++q) replayed.terms[q] *= mixed->scale(part, q, name.pixel);
         for (ReplayedStep& step : replayed.steps)

@@ -12,8 +12,8 @@ std::optional<MethodsForScene> methods_for_scene(int bounces, std::uint64_t seed
                                                  const Watch& watch) {
     MethodsForScene found;
     for (const Method& method : all_methods()) {
-        if (std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Classic>(method) ||
-            std::holds_alternative<method::Pointwise>(method))
+        const bool is_of_others = std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Mixed>(method);
+        if (is_of_others || std::holds_alternative<method::Classic>(method) || std::holds_alternative<method::Pointwise>(method))
             continue;
         const StudyMethod studied{name_of(method), method};
         try {

@@ -280,7 +280,7 @@ TEST_F(StudyCommand, Refused) {
     };
     EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
               "--methods wlak: --method: wlak not in "
-              "{auto,walk,guided,corrected,surface,light,bidirectional,photon,cache,metropolis,classic,pointwise,matrix,gather,"
+              "{auto,walk,guided,corrected,surface,light,bidirectional,mixed,photon,cache,metropolis,classic,pointwise,matrix,gather,"
               "patches}; did you mean 'walk'?\n");
     EXPECT_EQ(refusal({"--methods", "walk,auto"}),
               "--methods auto: a study compares methods, and auto is one of the others; name those that it is to compare\n");
@@ -298,7 +298,7 @@ TEST_F(StudyCommand, Refused) {
         "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
     EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
               "--methods matrix:sampler=sobol: --sampler belongs to --method auto, walk, guided, corrected, surface, light, "
-              "bidirectional, photon, cache, metropolis, "
+              "bidirectional, mixed, photon, cache, metropolis, "
               "classic and pointwise, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),
               "--methods patches:importance=true: ways and importance have no place in a study, which compares pictures of "
