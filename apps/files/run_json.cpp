@@ -157,18 +157,24 @@ Json chains_json(const std::vector<ChainStatistics>& all) {
     return json;
 }
 
-// What each method of a mixture does: its part of the work, and its mean weight in each bounce.
+// What each method of a mixture does: its part of the work, and for each bounce its mean weight and a digit for each block of the
+// picture, row by row: its weight from 0 to 1 in ninths.
 Json mixture_json(const Mixture& mixture) {
-    Json json = Json::array();
+    Json json = {{"blocks", {mixture.blocks.across, mixture.blocks.down}}, {"methods", Json::array()}};
     const std::size_t blocks = mixture.blocks.count();
     for (std::size_t part = 0; part < mixture.parts.size(); ++part) {
-        std::vector<double> weights(mixture.bounces, 0.0);
+        std::vector<double> means(mixture.bounces, 0.0);
+        std::vector<std::string> maps(mixture.bounces);
         for (std::size_t bounce = 0; bounce < mixture.bounces; ++bounce)
-            for (std::size_t block = 0; block < blocks; ++block)
-                weights[bounce] += mixture.weight(part, bounce, block) / static_cast<double>(blocks);
-        json.push_back({{"method", mixture.parts[part].method},
-                        {"part_of_work", mixture.parts[part].share},
-                        {"mean_weight_of_bounces", weights}});
+            for (std::size_t block = 0; block < blocks; ++block) {
+                const double weight = mixture.weight(part, bounce, block);
+                means[bounce] += weight / static_cast<double>(blocks);
+                maps[bounce] += static_cast<char>('0' + std::lround(9.0 * weight));
+            }
+        json["methods"].push_back({{"method", mixture.parts[part].method},
+                                   {"part_of_work", mixture.parts[part].share},
+                                   {"mean_weight_of_bounces", means},
+                                   {"weights_of_bounces", maps}});
     }
     return json;
 }

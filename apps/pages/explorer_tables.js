@@ -78,12 +78,33 @@ const planTable = plan => {
     parts.push(element("p", `Left out as well, which saves ${nothing}: ${idle.filter(p => p.saves === nothing).map(p => p.part).join(", ")}.`));
   return [...parts, generic(kept.map(({ part, reason }) => ({ kept: part, reason })))];
 };
+// The weights of each method of a mixture, bounce by bounce: a picture with a pixel for each block.
+const weightMap = (digits, [width, height], bounce) => {
+  const figure = element("figure"), canvas = element("canvas");
+  Object.assign(canvas, { width, height });
+  const pixels = new ImageData(width, height);
+  [...digits].forEach((digit, i) => pixels.data.set([...Array(3).fill(Math.round(digit * 255 / 9)), 255], 4 * i));
+  canvas.getContext("2d").putImageData(pixels, 0, 0);
+  figure.append(canvas, element("figcaption", bounce === 0 ? "Le" : `K${bounce > 1 ? superscript(bounce) : ""} Le`));
+  return figure;
+};
+const mixtureMaps = ({ blocks, methods }) => [element("p", "The weight of each method in each block of the picture and each bounce: black 0, white 1."),
+  ...methods.flatMap(m => {
+    const row = element("div", "", "weights");
+    row.append(...m.weights_of_bounces.map((digits, bounce) => weightMap(digits, blocks, bounce)));
+    return [element("p", `${m.method}, ${number(100 * m.part_of_work, 2)}% of the work`), row];
+  })];
 all.forEach(s => {
   const tag = all.length > 1 ? ` of ${letter(s.index)}` : "", run = s.run, what = { command: run.command, ...run }, parts = [];
   section(`The bounces${tag}`, bouncesTable(s));
   if (run.choice) {
     parts.push(element("p", `By ${run.choice.method}: ${run.choice.why}.`));
     if (run.choice.pilot) parts.push(folded("The pilot that chose the method", generic(run.choice.pilot)));
+  }
+  if (run.samples.mixture) {
+    const { mixture, ...samples } = run.samples;
+    parts.push(folded(`What is mixed: ${mixture.methods.map(m => m.method).join(", ")}`, ...mixtureMaps(mixture)));
+    what.samples = samples;
   }
   if (Array.isArray(run.plan)) {
     const kept = run.plan.filter(p => p.kept).length;
@@ -97,5 +118,5 @@ all.forEach(s => {
   for (const part of ["choice", "health", "bounces", "warnings", "ways"]) delete what[part];
   section(`The run${tag}`, ...parts, folded("All facts of run.json", generic(what)));
 });
-section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits), standard errors to 3%. " +
+section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits) or to 1/32 of their standard error, standard errors to 3%. " +
   (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));

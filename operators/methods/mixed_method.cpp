@@ -1,6 +1,8 @@
 #include "operators/methods/mixed_method.h"
 
 #include "core/base/error.h"
+#include "operators/correction/approximation.h"
+#include "operators/guide/guide.h"
 #include "operators/methods/ahead.h"
 #include "operators/methods/candidates.h"
 #include "operators/methods/method_plan.h"
@@ -32,7 +34,12 @@ Mixture make_mixture(const method::Mixed& mixed, const Scene& scene, const Sampl
             if (all.empty()) throw;
         }
     const int size = std::max(scene.film.crop_width, scene.film.crop_height);
-    return mix(scene, scene.with(small_film(scene.film, std::max(size / scale_of_pilot, size_of_pilot))), all, watch);
+    Mixture mixture = mix(scene, scene.with(small_film(scene.film, std::max(size / scale_of_pilot, size_of_pilot))), all, watch);
+    for (const MixtureCandidate& candidate : all) {
+        if (candidate.settings.guide) mixture.rays += candidate.settings.guide->rays();
+        if (candidate.settings.approximation) mixture.rays += candidate.settings.approximation->rays();
+    }
+    return mixture;
 }
 
 }  // namespace neumann

@@ -32,7 +32,7 @@ struct Mixture {
     PixelBlocks blocks;
     std::vector<double> weights;  // of bounces 0 … N, part by part, bounce by bounce; Σ over parts is 1
     std::size_t bounces = 0;      // N + 1
-    std::uint64_t rays = 0;       // cast by the pilots
+    std::uint64_t rays = 0;       // cast before the first sample
 
     bool has(PathGenerator generator) const {
         return std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return part.generator == generator; });

@@ -22,7 +22,7 @@ constexpr std::uint32_t pilot_block = 2;
 constexpr double from_around = 0.1;
 // At least so much of a method's variance is believed to be where the light is.
 constexpr double least_by_light = 0.1;
-// It is if it fills less than this part of what is lit, the more so the less.
+// More of it is, if it fills less than 1/few of what is lit.
 constexpr double few = 4.0;
 // Of the largest variance of a method that another is believed to have.
 constexpr double least_variance = 1e-4;

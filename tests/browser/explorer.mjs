@@ -631,6 +631,23 @@ for (const [name, scheme] of [["a", "light"], ["both", "dark"]]) {
   assert.deepEqual(await phone.evaluate(() => state.pixel), pixel);
 }
 
+// The weights of a mixture add up to white, to the rounding of ninths, and are the digits of run.json.
+neumann("render", path.join(process.env.SCENES, "glossy-floor/glossy-floor.xml"), "-D", "res=32", "-n", "2", "--method", "mixed", "--spp", "64", "-o", at("mixed"), "--quiet");
+{
+  const { blocks, methods } = JSON.parse(readFileSync(at("mixed/run.json"))).samples.mixture, mixed = await browser.open(at("mixed/index.html"));
+  await mixed.waitForSelector("body[data-ready]");
+  const drawn = await mixed.locator(".weights canvas").evaluateAll(all => all.map(c => [...c.getContext("2d").getImageData(0, 0, c.width, c.height).data].filter((_, i) => i % 4 === 0)));
+  assert.equal(drawn.length, 3 * methods.length);
+  drawn.forEach((map, k) => assert.deepEqual(map, [...methods[Math.floor(k / 3)].weights_of_bounces[k % 3]].map(d => Math.round(d * 255 / 9))));
+  for (let bounce = 0; bounce < 3; ++bounce)
+    for (let block = 0; block < blocks[0] * blocks[1]; ++block) {
+      const all = methods.reduce((sum, m) => sum + Number(m.weights_of_bounces[bounce][block]), 0);
+      assert.ok(Math.abs(all - 9) <= methods.length / 2, `bounce ${bounce}, block ${block}: ${all} ninths`);
+    }
+  assert.ok((await mixed.locator("summary").allInnerTexts()).some(head => head.startsWith("What is mixed: ")));
+  await mixed.close();
+}
+
 await browser.close();
 assert.deepEqual(browser.complaints, []);
 console.log("the explorer shows what the files say");
