@@ -110,7 +110,6 @@ struct Beginning {
 };
 Beginning where_it_began(const Scene& scene, const RecordedRun& run, SampleName name) {
     const std::uint32_t pixel = name.pixel;
-    const bool is_mixed = std::holds_alternative<method::Mixed>(run.render.method);
     if (!run.merged.empty() && std::holds_alternative<method::Mixed>(run.render.method))
         throw InputError(
             "replay: a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");

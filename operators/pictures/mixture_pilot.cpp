@@ -32,7 +32,7 @@ constexpr double missed = 3.0, met_at_most = 3.0;
 // A method that is to get a smaller part of the work after the first replicates is left out; and one without which the mean of the
 // errors, as variances, would be larger by a smaller factor: what a mixture gains, it loses in part because each has fewer samples
 // to stratify.
-constexpr double share_to_go_on = 0.01, least_gain = 1.3;
+constexpr double share_to_go_on = 0.01, gain_of_part = 1.3;
 // A pixel has at most 2^most_powers times as many samples of a method as the mixture has on average.
 constexpr int most_powers = 4;
 
@@ -182,7 +182,7 @@ Choice choose(Contenders contenders, double budget, const Grid& grid, const Watc
             without_it.push_back(mean_error(others, best_mixture(others)));
         }
         const auto least = std::ranges::min_element(without_it);
-        if (*least >= least_gain * mean_error(costs, chosen.numbers)) return chosen;
+        if (*least >= gain_of_part * mean_error(costs, chosen.numbers)) return chosen;
         const auto out = static_cast<std::size_t>(least - without_it.begin());
         costs = without(costs, out);
         chosen.leave_out(out);
