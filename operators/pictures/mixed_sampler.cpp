@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace neumann {
 
@@ -94,6 +95,8 @@ bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         });
         const auto rename = [&](SamplePlace& place) { place.name.sample = place.name.sample * parts + part; };
         for (NonFiniteSample& sample : counted.non_finite) rename(sample.place);
+        // Of those that the method itself found large: where blocks have other weights, some that it did not keep may be larger
+        // now.
         for (std::size_t q = 0; q < Q; ++q) {
             const LargestSamples of = std::exchange(counted.largest[q], {});
             counted.largest[q].outdo(tally.largest[q]);
