@@ -6,7 +6,6 @@
 #include "operators/methods/ahead.h"
 #include "operators/methods/candidates.h"
 #include "operators/methods/render.h"
-#include "operators/pictures/missing_paths.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -114,16 +113,16 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
     const Stopwatch clock;
     const int bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(trial_bounces)), trial_bounces);
     if (bounces == 0) return {method::Walk{open}, "the emitted light alone takes no walk"};
-    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && !scene.hide_emitters)
-        return {method::Bidirectional{open},
-                "what mirrors and glass throw on from a light without extent is found from the light alone"};
+    const std::vector<Candidate> able = candidates(open, scene);
+    if (able.size() == 1)
+        return {able.front().method, "what mirrors and glass throw on from a light without extent is found from the light alone"};
     const double affordable = expected_rays(with_default_limits(goal), scene.film, bounces);
     if (affordable < rays_of_a_long_render) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
     const Scene small = scene.with(small_film(scene.film, trial_width));
     std::vector<Candidate> all;
     std::vector<Result> results;
-    for (const Candidate& candidate : candidates(open, scene)) {
+    for (const Candidate& candidate : able) {
         if (watch.stop()) break;
         try {
             results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));

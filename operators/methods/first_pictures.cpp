@@ -17,7 +17,8 @@ constexpr std::size_t most_faces = 20'000;
 bool makes_all_paths(const Method& method) {
     return std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Walk>(method) ||
            std::holds_alternative<method::Guided>(method) || std::holds_alternative<method::Corrected>(method) ||
-           std::holds_alternative<method::Bidirectional>(method) || std::holds_alternative<method::Mixed>(method) || std::holds_alternative<method::Pointwise>(method);
+           std::holds_alternative<method::Bidirectional>(method) || std::holds_alternative<method::Mixed>(method) ||
+           std::holds_alternative<method::Pointwise>(method);
 }
 
 std::size_t faces(const Geometry& geometry) {

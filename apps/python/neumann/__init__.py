@@ -18,8 +18,9 @@ surface, R scatters it there; operators/NOTATION.md is the dictionary.
 """
 
 from ._blame import Blame, blame
-from ._bounces import Bounce, Bounces, BounceSeries, Way, compare, read
+from ._bounces import Bounce, Bounces, BounceSeries, Way, read
 from ._chain import Chain
+from ._compare import compare
 from ._dictionary import look_at
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._method import Method

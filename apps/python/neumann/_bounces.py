@@ -1,10 +1,9 @@
-"""A rendered series, from memory or from a folder."""
+"""A rendered series: its bounces, sums and rest."""
 
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Protocol, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,102 +12,11 @@ from . import _neumann, _report
 from ._display import as_facts, exposure_of, frame, large, of_bounces, show, small, strip
 from ._progress import run as run_job
 from ._report import Report
+from ._sources import Folder, Memory, Picture, Pictures, Source
 
 if TYPE_CHECKING:
     import pandas
     import xarray
-
-Picture = NDArray[np.float32]
-_Means = Optional[Tuple[Tuple[float, float, float], ...]]
-# Mean, stderr, discretisation, spread, means.
-_Pictures = Tuple[Picture, Optional[Picture], Optional[Picture], Optional[Picture], _Means]
-
-
-class _Source(Protocol):
-    bounces: int
-
-    def picture(self, kind: str, bounce: int) -> _Pictures: ...
-    def rest(self) -> Optional[_Pictures]: ...
-    def table(self) -> str: ...
-    def convergence(self) -> str: ...
-    def run(self) -> str: ...
-    def warnings(self) -> List[str]: ...
-    def ways(self) -> Any: ...
-    def save(self, folder: str, files: Optional[Sequence[str]]) -> None: ...
-    def page(self) -> str: ...
-
-
-class Memory:
-    def __init__(self, rendering: "_neumann.Rendering") -> None:
-        self.rendering = rendering
-        self.bounces = rendering.bounces
-        self.rest, self.table, self.convergence = rendering.rest, rendering.table, rendering.convergence
-
-    def picture(self, kind: str, bounce: int) -> _Pictures:
-        return self.rendering.term(bounce) if kind == "bounce" else self.rendering.sum(bounce)
-
-    def run(self) -> str:
-        return self.rendering.run("DIR")
-
-    def warnings(self) -> List[str]:
-        return self.rendering.warnings
-
-    def ways(self) -> Any:
-        return self.rendering.ways()
-
-    def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
-        run_job(self.rendering.save(folder) if files is None else self.rendering.save(folder, list(files)))
-
-    def page(self) -> str:
-        with TemporaryDirectory() as folder:
-            self.save(folder, ["page"])
-            return (Path(folder) / "index.html").read_text(encoding="utf-8")
-
-
-class Folder:
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        if not (folder / "run.json").is_file():
-            raise _neumann.InputError(f"{folder}: no run.json; expected the folder of a render that was finished")
-        self.bounces = len(list(folder.glob("bounce_*.exr"))) - 1
-
-    def _text(self, name: str) -> str:
-        return (self._folder / name).read_text(encoding="utf-8")
-
-    def picture(self, kind: str, bounce: int) -> _Pictures:
-        return _neumann.read(str(self._folder / f"{kind}_{bounce:03}.exr"))
-
-    def rest(self) -> Optional[_Pictures]:
-        path = self._folder / "rest.exr"
-        return _neumann.read(str(path)) if path.exists() else None
-
-    def table(self) -> str:
-        return self._text("series.csv")
-
-    def convergence(self) -> str:
-        return self._text("convergence.csv")
-
-    def run(self) -> str:
-        return self._text("run.json")
-
-    def warnings(self) -> List[str]:
-        return [w["text"] for w in _report.from_json(self.run())["warnings"]]
-
-    def ways(self) -> Any:
-        found = []
-        for path in self._folder.glob("way_s*_t*_unweighted.exr"):
-            name = path.name[: -len("_unweighted.exr")]
-            s, t = (int(part[1:]) for part in name.split("_")[1:])
-            found.append((s, t, _neumann.read(str(self._folder / f"{name}.exr"))[0], _neumann.read(str(path))[0]))
-        return sorted(found, key=lambda way: way[:2]) or None
-
-    def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
-        raise _neumann.InputError(f"{self._folder}: was read from there; copy the folder")
-
-    def page(self) -> str:
-        if not (self._folder / "index.html").is_file():
-            raise _neumann.InputError(f"{self._folder}: was written without its page, which --files page adds")
-        return self._text("index.html")
 
 
 class Way(NamedTuple):
@@ -135,7 +43,7 @@ class Bounce:
     not known. mean: over pixels and channels.
     """
 
-    def __init__(self, bounce: int, pictures: _Pictures, series: "BounceSeries") -> None:
+    def __init__(self, bounce: int, pictures: Pictures, series: "BounceSeries") -> None:
         self.bounce = bounce
         self.value, self.stderr, self.discretisation, self.spread, _ = self._pictures = pictures
         self.mean = float(self.value.mean(dtype=np.float64))
@@ -181,17 +89,17 @@ class BounceSeries:
     """
 
     def __init__(self, source: Any, title: str) -> None:
-        self._source: _Source = source
+        self._source: Source = source
         self.title = title
         """The scene, or the folder."""
         self.bounces: int = source.bounces
         """N, the last bounce with a picture of its own."""
 
-    def _all(self, kind: str) -> List[_Pictures]:
+    def _all(self, kind: str) -> List[Pictures]:
         return [self._source.picture(kind, i) for i in range(self.bounces + 1)]
 
     @staticmethod
-    def _stack(pictures: List[_Pictures]) -> Tuple[Any, ...]:
+    def _stack(pictures: List[Pictures]) -> Tuple[Any, ...]:
         def stacked(which: int) -> Optional[Picture]:
             found = [p[which] for p in pictures]
             return None if any(f is None for f in found) else np.stack(found)  # type: ignore[arg-type]
@@ -207,7 +115,7 @@ class BounceSeries:
         return self._stack(self._all("sum"))
 
     @cached_property
-    def _rest(self) -> _Pictures:
+    def _rest(self) -> Pictures:
         return self._source.rest() or (None, None, None, None, None)  # type: ignore[return-value]
 
     @property
@@ -377,56 +285,3 @@ class BounceSeries:
 def read(folder: Union[str, "PathLike[str]"]) -> BounceSeries:
     """The series in the folder of a finished render. Raises InputError where there is none."""
     return BounceSeries(Folder(Path(folder)), fspath(folder))
-
-
-def _picture(x: "Comparable") -> Optional[_Pictures]:
-    """A picture with its errors, from memory or a file; None of a series."""
-    if isinstance(x, (str, PathLike)):
-        return None if Path(x).is_dir() else _neumann.read(fspath(x))
-    if isinstance(x, Bounce):
-        return x._pictures
-    return None if isinstance(x, BounceSeries) else (np.asarray(x), None, None, None, None)
-
-
-Comparable = Union[BounceSeries, Bounce, NDArray[Any], str, "PathLike[str]"]
-
-
-def compare(a: Comparable, b: Comparable) -> Any:
-    """How far a is from the reference b, as ``neumann compare``.
-
-    Two pictures, each a bounce, an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
-    reference_mean, mean_difference and mean_difference_interval95, half of the latter's interval: None where a file does not hold it, and
-    an array counts as exact. Means run over pixels and channels, fractions and not percent, with ε = 0.01:
-    RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
-
-    Two series, or folders of renders, give a structured array: a row for each picture that both have ("bounce_000" …, "sum_000" …,
-    "rest" where they end at the same bounce). ``rmse_by_noise`` is the RMSE that standard errors alone explain. Raises InputError
-    where sizes differ.
-    """
-
-    def errors_of(x: Any, y: Any) -> Any:
-        return _neumann.compare(x[0], y[0], x[3], y[3], x[4], y[4])
-
-    pictures = [_picture(x) for x in (a, b)]
-    if all(pictures):
-        return Report(errors_of(*pictures))
-    if any(pictures):
-        raise _neumann.InputError("a series against a picture; compare a picture with a picture, as series[2] is one")
-    a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
-    both, rows = range(min(len(a), len(b))), []
-
-    def of(series: BounceSeries, kind: str, i: int) -> Any:
-        return tuple(None if pictures is None else pictures[i] for pictures in getattr(series, kind))
-
-    for name, kind in (("bounce", "_terms"), ("sum", "_sums")):
-        for i in both:
-            rows.append((f"{name}_{i:03}", errors_of(of(a, kind, i), of(b, kind, i))))
-    if a.rest is not None and b.rest is not None and len(a) == len(b):
-        rows.append(("rest", errors_of(a._rest, b._rest)))
-    columns = [name for name in rows[0][1] if name not in ("pixels", "not_finite")]
-    result = np.empty(len(rows), dtype=[("picture", "U12")] + [(name, np.float64) for name in columns])
-    for row, (name, figures) in zip(result, rows):
-        row["picture"] = name
-        for column in columns:
-            row[column] = np.nan if figures[column] is None else figures[column]
-    return result

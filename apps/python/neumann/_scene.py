@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
-from ._bounces import BounceSeries, Memory
+from ._bounces import BounceSeries
 from ._chain import Chain
 from ._dictionary import edits_of, parse
 from ._display import as_facts, as_table
@@ -22,6 +22,7 @@ from ._photons import Photons
 from ._progress import run
 from ._records import Records
 from ._report import HealthWarning, Report, warn
+from ._sources import Memory
 from ._study import Study
 from ._unbounce import LightPictures
 

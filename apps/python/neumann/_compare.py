@@ -1,0 +1,65 @@
+"""How far pictures and series are from others."""
+
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _neumann
+from ._bounces import Bounce, BounceSeries, read
+from ._report import Report
+from ._sources import Pictures
+
+def _picture(x: "Comparable") -> Optional[Pictures]:
+    """A picture with its errors, from memory or a file; None of a series."""
+    if isinstance(x, (str, PathLike)):
+        return None if Path(x).is_dir() else _neumann.read(fspath(x))
+    if isinstance(x, Bounce):
+        return x._pictures
+    return None if isinstance(x, BounceSeries) else (np.asarray(x), None, None, None, None)
+
+
+Comparable = Union[BounceSeries, Bounce, NDArray[Any], str, "PathLike[str]"]
+
+
+def compare(a: Comparable, b: Comparable) -> Any:
+    """How far a is from the reference b, as ``neumann compare``.
+
+    Two pictures, each a bounce, an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
+    reference_mean, mean_difference and mean_difference_interval95, half of the latter's interval: None where a file does not hold it, and
+    an array counts as exact. Means run over pixels and channels, fractions and not percent, with ε = 0.01:
+    RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
+
+    Two series, or folders of renders, give a structured array: a row for each picture that both have ("bounce_000" …, "sum_000" …,
+    "rest" where they end at the same bounce). ``rmse_by_noise`` is the RMSE that standard errors alone explain. Raises InputError
+    where sizes differ.
+    """
+
+    def errors_of(x: Any, y: Any) -> Any:
+        return _neumann.compare(x[0], y[0], x[3], y[3], x[4], y[4])
+
+    pictures = [_picture(x) for x in (a, b)]
+    if all(pictures):
+        return Report(errors_of(*pictures))
+    if any(pictures):
+        raise _neumann.InputError("a series against a picture; compare a picture with a picture, as series[2] is one")
+    a, b = (x if isinstance(x, BounceSeries) else read(x) for x in (a, b))
+    both, rows = range(min(len(a), len(b))), []
+
+    def of(series: BounceSeries, kind: str, i: int) -> Any:
+        return tuple(None if pictures is None else pictures[i] for pictures in getattr(series, kind))
+
+    for name, kind in (("bounce", "_terms"), ("sum", "_sums")):
+        for i in both:
+            rows.append((f"{name}_{i:03}", errors_of(of(a, kind, i), of(b, kind, i))))
+    if a.rest is not None and b.rest is not None and len(a) == len(b):
+        rows.append(("rest", errors_of(a._rest, b._rest)))
+    columns = [name for name in rows[0][1] if name not in ("pixels", "not_finite")]
+    result = np.empty(len(rows), dtype=[("picture", "U12")] + [(name, np.float64) for name in columns])
+    for row, (name, figures) in zip(result, rows):
+        row["picture"] = name
+        for column in columns:
+            row[column] = np.nan if figures[column] is None else figures[column]
+    return result
