@@ -7,7 +7,7 @@
 // A walk that leaves a diffuse surface x, mostly towards where the fields are bright, reads f_k at the next one, z, and ends there:
 // one ray is a sample of K f_k for all k. At x it also asks one of the shared points y for its errors:
 //
-//     K e_k (x) = ∫ ρ(x) g(x, y) V(x, y) e_k(y) dA(y),   g = cosθx cosθy / (π d²)
+//     K e_k (x) = ∫ ρ(x) g(x, y) V(x, y) e_k(y) dA(y),   g of operators/walk/coupling.h
 //
 // g is unbounded where surfaces meet, so points carry only its part below c, min(g, c), and walks carry the rest: at z a walk goes
 // on with probability 1 − c/g, and what it then finds replaces f_k(z). A walk goes on in any case from surfaces that are not
@@ -20,6 +20,7 @@
 #include "operators/correction/shared_points.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
+#include "operators/walk/coupling.h"
 #include "operators/walk/guided_continuation.h"
 #include "operators/walk/observer.h"
 #include "operators/walk/term_samples.h"
@@ -87,13 +88,6 @@ public:
 private:
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
     bool has_rest() const { return settings_.rest_probability > 0.0; }
-    static double kernel(const Vec3& x, const Vec3& nx, const Vec3& y, const Vec3& ny) {
-        const Vec3 d = y - x;
-        const double a = glm::dot(nx, d), b = -glm::dot(ny, d);
-        if (!(a > 0.0) || !(b > 0.0)) return 0.0;
-        const double d2 = glm::dot(d, d);
-        return a * b * inv_pi / (d2 * d2);
-    }
     // R: the next direction, by what the fields say of the light that arrives (guide/direction_tables.h), and the shared point that
     // is asked along with it. `wanted`: the number of later bounces that have pictures.
     bool choose_direction(CorrectedWalker& w, int wanted, Sampler& sampler) const {
@@ -118,7 +112,7 @@ private:
     bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
         if (!w.reads || !fields_->covers(w.x, front)) return true;
-        const double g = kernel(w.from.position, w.from.normal, w.x.position, front ? w.x.normal : -w.x.normal);
+        const double g = coupling(w.from.position, w.from.normal, w.x.position, front ? w.x.normal : -w.x.normal);
         const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
         const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
         const Rgb weight = on ? w.beta * (1.0 - 1.0 / w.survival) : w.beta;

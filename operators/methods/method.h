@@ -41,6 +41,7 @@ struct Walk : PathOptions {
     Roulette roulette = {};
     Split split = {};
     std::optional<LeastError> adaptive = {};  // if pixels have different numbers of samples: to make this least
+    bool reuse = false;                       // walks of neighbouring pixels use each other's tails
     std::optional<TreeGoal> tree = {};        // if the walk splits and ends by the best numbers for its depths: for what
     bool operator==(const Walk&) const = default;
 };

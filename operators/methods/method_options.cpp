@@ -213,6 +213,11 @@ std::vector<MethodOption> make_options() {
             "best for the sum of all bounces (sum) or for one bounce (its number)",
             [](const auto& m) requires requires { m.tree; } { return m.tree; }, [](auto& m, const TreeGoal& t) { m.tree = t; },
             read_tree, print_tree, fmt::format("sum or a bounce from 1 to {}", most_depths_of_tree)),
+        flag(
+            "reuse",
+            "For walk: let the walks of eight pixels in a row use each other's tails, from the second surface on where both are "
+            "diffuse",
+            [](const auto& m) requires requires { m.reuse; } { return m.reuse; }, [](auto& m, bool on) { m.reuse = on; }),
         choice(
             "adaptive", "WHAT",
             "For walk, guided, corrected and bidirectional: more samples for the pixels that need them, by a pilot, so that the "
@@ -288,6 +293,8 @@ void expect_sense(const method::Walk& walk, bool lights) {
                                      name(strategies, strategy(walk.direct))));
     if (walk.tree && (walk.split != Split{} || walk.roulette != Roulette{}))
         throw InputError("--tree chooses what --split and --roulette say; take it alone");
+    if (walk.reuse && (walk.tree || walk.adaptive || walk.split != Split{}))
+        throw InputError("--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split");
 }
 void expect_sense(const method::Bidirectional& both, bool) {
     if (both.direct.direct != DirectLight::mis || both.direct.place == LightPlace::projected)

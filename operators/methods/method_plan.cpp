@@ -14,7 +14,7 @@ using Decisions = std::vector<bool LeftOut::*>;
 
 // The decisions of the plan that a method can act on; nullopt if the method supports no plan.
 std::optional<Decisions> decisions(const method::Walk& walk) {
-    if (walk.tree) return std::nullopt;
+    if (walk.tree || walk.reuse) return std::nullopt;
     const DirectLight direct = walk.direct.direct;
     Decisions taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};
     if (direct != DirectLight::hemisphere && direct != DirectLight::cosine) taken.push_back(&LeftOut::shadow_rays_in_room);

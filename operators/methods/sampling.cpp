@@ -71,6 +71,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
         settings.walk.direct = {.direct = DirectLight::light};
     if constexpr (requires { m.roulette; }) settings.walk.roulette = m.roulette;
     if constexpr (requires { m.split; }) settings.walk.split = m.split;
+    if constexpr (requires { m.reuse; }) settings.reuses_tails = m.reuse;
     if constexpr (std::same_as<M, method::Metropolis>) settings.chain_length = m.chain.value_or(settings.chain_length);
     settings.sampler = m.sampler.value_or(scene.sampler.value_or(SamplerKind::sobol));
     return settings;

@@ -13,7 +13,7 @@ struct PathStep {
         first,    // from the camera or from a light
         goes_on,  // after a reflection
         record,   // from a record of a cache
-        asks      // a ray to a point on a light, on the other subpath or on the lens, or in a direction sampled for direct light
+        asks      // a ray to a point on a light, on the other subpath, on the lens or on the walk of another pixel, or in a direction sampled for direct light
     };
     Kind kind = Kind::first;
     bool from_light = false;  // part of the subpath from a light

@@ -79,7 +79,8 @@ public:
 
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
-    bool has_whole_pictures() const { return !std::holds_alternative<TermEstimator>(sampler_); }
+    // Whether its pixels share something.
+    bool has_whole_pictures() const { return settings_.reuses_tails || !std::holds_alternative<TermEstimator>(sampler_); }
     MomentsNode empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const;
     // sample(replicate, picture, ranges, tally, watch), for each replicate in turn.
     template <class Sample>

@@ -53,6 +53,16 @@ void TreeEstimator::trace(PathObserver& observer, std::span<const CameraRay> ray
     walk_tree(*scene_, direct_, settings_, ratios_->of_depths, rays, samplers, tree, result, WatchedPaths(split));
 }
 
+void ReusingEstimator::trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,
+                             TermSamples& result) const {
+    walk_reusing(
+        *scene_, direct_, diffuse_, settings_, size_, rays, samplers, result,
+        [&](const WalkSettings& settings, std::span<Sampler> random, Walkers& tails, TermSamples& found, const auto& watched) {
+            walk_on(*scene_, scene_->geometry, direct_, settings, random, tails, found, MaterialContinuation(), watched);
+        },
+        WatchedPaths(observer));
+}
+
 std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
         return whole_pictures->retrace(replicate, first, observer);

@@ -8,8 +8,9 @@
 
 namespace neumann {
 
-SampleLayout::SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation)
-    : pixels_(pixels), size_(size), allocation_(std::move(allocation)) {
+SampleLayout::SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation,
+                           std::uint32_t together)
+    : pixels_(pixels), size_(size), pixels_of_group_(std::max(paths_at_once / size, together)), allocation_(std::move(allocation)) {
     if (!allocation_) {
         nets_.emplace_back(size);
         return;
@@ -54,18 +55,16 @@ std::uint32_t SampleLayout::pixel_of(std::uint32_t path) const {
 
 std::uint32_t SampleLayout::groups() const {
     if (allocation_) return static_cast<std::uint32_t>(groups_.size());
-    const std::uint32_t at_once = std::max(paths_at_once / size_, 1u);
-    return (pixels_ + at_once - 1) / at_once;
+    return (pixels_ + pixels_of_group_ - 1) / pixels_of_group_;
 }
 
 PixelGroup SampleLayout::group(std::uint32_t number) const {
     if (allocation_) return groups_[number];
-    const std::uint32_t at_once = std::max(paths_at_once / size_, 1u);
-    return {number * at_once, std::min((number + 1) * at_once, pixels_), size_};
+    return {number * pixels_of_group_, std::min((number + 1) * pixels_of_group_, pixels_), size_};
 }
 
 std::uint32_t SampleLayout::group_of(std::uint32_t pixel) const {
-    if (!allocation_) return pixel / std::max(paths_at_once / size_, 1u);
+    if (!allocation_) return pixel / pixels_of_group_;
     return static_cast<std::uint32_t>(std::ranges::upper_bound(groups_, pixel, {}, &PixelGroup::begin) - groups_.begin()) - 1;
 }
 

@@ -35,8 +35,9 @@ struct PlaceInGroup {
 class SampleLayout {
 public:
     // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many; otherwise size · 2^k, at least 1,
-    // or none.
-    SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {});
+    // or none. `together`: the pixels of a group at least, if there is no allocation.
+    SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {},
+                 std::uint32_t together = 1);
 
     std::uint32_t size(std::uint32_t pixel) const;
     std::vector<std::uint32_t> sizes() const;  // of all pixels, if they differ
@@ -61,7 +62,7 @@ public:
     const SobolPoints& net(std::uint32_t size) const;
 
 private:
-    std::uint32_t pixels_, size_;
+    std::uint32_t pixels_, size_, pixels_of_group_;
     std::shared_ptr<const Allocation> allocation_;
     std::vector<std::uint32_t> first_path_;  // of each pixel, and their number
     std::vector<PixelGroup> groups_;

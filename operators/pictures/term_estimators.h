@@ -8,6 +8,7 @@
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
+#include "operators/reuse/reusing_walk.h"
 #include "operators/series/neumann_series.h"
 #include "operators/splitting/tree_ratios.h"
 #include "operators/splitting/tree_walk.h"
@@ -105,9 +106,36 @@ private:
     std::shared_ptr<const TreeRatios> ratios_;
 };
 
+// Walks that use each other's tails. Their pixels are not independent.
+class ReusingEstimator {
+public:
+    ReusingEstimator(const Scene& scene, const SamplingSettings& settings)
+        : scene_(&scene),
+          settings_(settings.walk),
+          size_(settings.replicate_size),
+          direct_(scene, settings.walk.direct),
+          diffuse_(scene) {}
+
+    void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
+        walk_reusing(*scene_, direct_, diffuse_, settings_, size_, rays, samplers, result,
+                     [&](const WalkSettings& settings, std::span<Sampler> random, Walkers& tails, TermSamples& found, const auto&) {
+                         walk_on(*scene_, direct_, settings, random, tails, found, MaterialContinuation());
+                     });
+    }
+    void trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,
+               TermSamples& result) const;
+
+private:
+    const Scene* scene_;
+    WalkSettings settings_;
+    std::size_t size_;  // samples of a pixel
+    DirectLightSampler direct_;
+    DiffuseSides diffuse_;
+};
+
 using TermEstimator =
     std::variant<WalkEstimator<MaterialContinuation>, WalkEstimator<SurfaceContinuation>, WalkEstimator<SpecularContinuation>,
-                 WalkEstimator<GuidedContinuation>, TreeEstimator, PointwiseEstimator>;
+                 WalkEstimator<GuidedContinuation>, TreeEstimator, ReusingEstimator, PointwiseEstimator>;
 TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings);
 
 }  // namespace neumann

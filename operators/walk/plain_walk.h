@@ -1,6 +1,7 @@
 // The walk of walk.h in its plainest form, for walks that change their number or end before the light does. Before each reflection
 // `branches(bounce)` may put other walkers in the place of those that are alive, and at each vertex `reads(i, walker, side,
-// bounce)` tells whether the walk ends with the direct light of this vertex. Leaves nothing out.
+// bounce)` tells whether the walk ends with the direct light of this vertex, at the next vertex; walkers.reads then tells which
+// walks ended so, and their x what they found. Leaves nothing out.
 #pragma once
 
 #include "core/base/hot.h"
@@ -16,7 +17,7 @@
 namespace neumann {
 
 struct PlainWalkers : Walkers {
-    std::vector<char> reads;  // whether the walk ends here
+    std::vector<char> reads;  // whether the walk ends at the next vertex that it finds
 };
 
 // Walks on from first vertices. samplers[i] gives the random numbers of walker i; find(i, q, light) adds to bounce q, or the rest,
@@ -29,10 +30,11 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
     const Emitters& emitters = scene.emitters;
     const Ending ending = settings.ending();
     const int N = settings.bounces;
+    walkers.reads.assign(walkers.walker.size(), 0);
     for (int bounce = 1; ending.reach(bounce, walkers, samplers, given_up); ++bounce) {
         const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
         branches(bounce);
-        walkers.reads.assign(walkers.walker.size(), 0);
+        walkers.reads.resize(walkers.walker.size());
         // R: end, or sample the lights and, along with the last light sample, the next direction.
         const std::size_t questions = std::max<std::size_t>(direct.questions(), 1);
         for (std::size_t question = 1; question <= questions; ++question) {
@@ -40,7 +42,7 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
                 const SurfaceSide side = scene.materials.side(w.x, w.wo);
                 if (!side.bsdf) return false;
                 const Vec3 wo = side.p.frame.to_local(w.wo);
-                if (question == 1 && !ending.is_last(bounce)) walkers.reads[i] = reads(i, w, side, bounce);
+                if (question == 1) walkers.reads[i] = !ending.is_last(bounce) && reads(i, w, side, bounce);
                 w.asked.value = Rgb(0.0);
                 if (direct.questions() > 0)
                     choose_question(direct, question % questions, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
@@ -52,7 +54,9 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
                               [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
         }
         walkers.keep_if([&](Walker& w, std::uint32_t i) {
-            return w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, samplers[i]);
+            if (w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, samplers[i])) return true;
+            walkers.reads[i] = 0;
+            return false;
         });
 
         // T: follow the direction; Le: add the light that it hits.

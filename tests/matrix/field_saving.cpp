@@ -29,7 +29,7 @@ FieldProgress copy_of(const FieldProgress& progress) {
 
 class FieldSavingTest : public testing::TestWithParam<const char*> {
 protected:
-    FieldSavingTest() : scene_(read_scene(std::string(SCENES) + "/" + GetParam() + "/" + GetParam() + ".xml", {{"res", "12"}})) {
+    FieldSavingTest() : scene_(read_scene(std::string(SCENES) + "/" + GetParam() + "/" + GetParam() + ".xml", {{"res", "24"}})) {
         settings_.reading = FieldReading::gather;
         settings_.bounces = 3;
         settings_.patching.patches = 200;
@@ -50,7 +50,7 @@ protected:
             stop = true;
         };
         const auto found = render_fields(scene_, settings_, {.stop = [&] { return stop.load(); }}, nullptr, &saving);
-        EXPECT_NE(found.has_value(), stop.load());
+        EXPECT_TRUE(found || stop);  // found in spite of a stop, if the last pixels were being read
         return kept;
     }
     FieldPictures rendered_from(FieldProgress progress) const {
