@@ -291,7 +291,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
             record.most_of_pixel = std::max(record.most_of_pixel, layout.size(pixel));
         }
     }
-    if (settings.generator == PathGenerator::walk && !settings.tree && !settings.reuses_tails)
+    if (settings.generator == PathGenerator::walk && !settings.tree && !settings.shares_tails())
         record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
     if (goal.only_pictures) {
         series.warnings.add("sample was not a finite number and was left out", sampled.tally.non_finite_samples());

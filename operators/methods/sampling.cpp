@@ -21,6 +21,9 @@ namespace neumann {
 namespace {
 
 constexpr int tree_width = 32;  // of the pilot of --tree, in pixels
+// That use each other's tails with --reuse: more of them cost more rays than they save, in most scenes
+// (tests/bench/bench_reuse.cpp).
+constexpr std::uint32_t reusing_pixels = 8;
 
 template <class M>
 PathGenerator kind() {
@@ -71,7 +74,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
         settings.walk.direct = {.direct = DirectLight::light};
     if constexpr (requires { m.roulette; }) settings.walk.roulette = m.roulette;
     if constexpr (requires { m.split; }) settings.walk.split = m.split;
-    if constexpr (requires { m.reuse; }) settings.reuses_tails = m.reuse;
+    if constexpr (requires { m.reuse; }) settings.sharing_pixels = m.reuse ? reusing_pixels : 1;
     if constexpr (std::same_as<M, method::Metropolis>) settings.chain_length = m.chain.value_or(settings.chain_length);
     settings.sampler = m.sampler.value_or(scene.sampler.value_or(SamplerKind::sobol));
     return settings;

@@ -80,7 +80,7 @@ public:
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
     // Whether its pixels share something.
-    bool has_whole_pictures() const { return settings_.reuses_tails || !std::holds_alternative<TermEstimator>(sampler_); }
+    bool has_whole_pictures() const { return settings_.shares_tails() || !std::holds_alternative<TermEstimator>(sampler_); }
     MomentsNode empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const;
     // sample(replicate, picture, ranges, tally, watch), for each replicate in turn.
     template <class Sample>

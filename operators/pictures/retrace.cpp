@@ -56,7 +56,7 @@ void TreeEstimator::trace(PathObserver& observer, std::span<const CameraRay> ray
 void ReusingEstimator::trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,
                              TermSamples& result) const {
     walk_reusing(
-        *scene_, direct_, diffuse_, settings_, size_, rays, samplers, result,
+        *scene_, direct_, diffuse_, settings_, size_, sharing_, rays, samplers, result,
         [&](const WalkSettings& settings, std::span<Sampler> random, Walkers& tails, TermSamples& found, const auto& watched) {
             walk_on(*scene_, scene_->geometry, direct_, settings, random, tails, found, MaterialContinuation(), watched);
         },

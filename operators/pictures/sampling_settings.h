@@ -3,7 +3,6 @@
 
 #include "core/scene/scene.h"
 #include "operators/pictures/sample_layout.h"
-#include "operators/reuse/sharing_pixels.h"
 #include "operators/walk/walk_settings.h"
 
 #include <cstdint>
@@ -59,7 +58,7 @@ struct SamplingSettings {
     std::shared_ptr<const Allocation> allocation = {};
     std::shared_ptr<const Mixture> mixture = {};  // for `mixed`
     std::shared_ptr<const TreeRatios> tree = {};  // for `walk`, if paths are trees (tree_walk.h)
-    bool reuses_tails = false;                    // for `walk` (reusing_walk.h)
+    std::uint32_t sharing_pixels = 1;             // for `walk`: pixels in a row that use each other's tails (reusing_walk.h)
     // If given, pictures and their errors are of this matrix times the samples' RGB.
     std::optional<glm::dmat3> colors = {};
     // For `bidirectional`: the quantities are the strategies (s, t) for bounce N, N + 2 weighted and then N + 2 unweighted ones, in
@@ -72,8 +71,9 @@ struct SamplingSettings {
     // Of the crop's pixels in a replicate.
     SampleLayout layout(const Film& film) const {
         return {static_cast<std::uint32_t>(film.crop_width) * static_cast<std::uint32_t>(film.crop_height), replicate_size,
-                allocation, reuses_tails ? sharing_pixels : 1u};
+                allocation, sharing_pixels};
     }
+    bool shares_tails() const { return sharing_pixels > 1; }
     std::size_t quantities() const { return pictures() * (has_two_radii(generator) ? 2 : 1); }
 };
 

@@ -16,7 +16,7 @@ TermEstimator make_estimator(const Scene& scene, const SamplingSettings& setting
             if (!settings.guide) throw std::logic_error("PictureSampler: a guided walk has no guide");
             return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.guide));
         default:
-            if (settings.reuses_tails) return ReusingEstimator(scene, settings);
+            if (settings.shares_tails()) return ReusingEstimator(scene, settings);
             if (settings.tree) return TreeEstimator(scene, settings.walk, settings.tree);
             return WalkEstimator(scene, settings.walk, MaterialContinuation());
     }

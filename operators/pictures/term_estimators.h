@@ -113,11 +113,12 @@ public:
         : scene_(&scene),
           settings_(settings.walk),
           size_(settings.replicate_size),
+          sharing_(settings.sharing_pixels),
           direct_(scene, settings.walk.direct),
           diffuse_(scene) {}
 
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
-        walk_reusing(*scene_, direct_, diffuse_, settings_, size_, rays, samplers, result,
+        walk_reusing(*scene_, direct_, diffuse_, settings_, size_, sharing_, rays, samplers, result,
                      [&](const WalkSettings& settings, std::span<Sampler> random, Walkers& tails, TermSamples& found, const auto&) {
                          walk_on(*scene_, direct_, settings, random, tails, found, MaterialContinuation());
                      });
@@ -128,7 +129,7 @@ public:
 private:
     const Scene* scene_;
     WalkSettings settings_;
-    std::size_t size_;  // samples of a pixel
+    std::size_t size_, sharing_;  // samples of a pixel; pixels in a row
     DirectLightSampler direct_;
     DiffuseSides diffuse_;
 };

@@ -14,7 +14,6 @@
 
 #include "core/base/hot.h"
 #include "operators/correction/diffuse_sides.h"
-#include "operators/reuse/sharing_pixels.h"
 #include "operators/walk/coupling.h"
 #include "operators/walk/first_vertices.h"
 #include "operators/walk/plain_walk.h"
@@ -61,11 +60,11 @@ private:
     std::span<const Corner> corners_;
 };
 
-// Samples all terms along some camera rays, those of `size` samples of each pixel, pixel by pixel. walk_tails(settings, samplers,
-// walkers, out, observer) is walk_on() of walk.h.
+// Samples all terms along some camera rays, those of `size` samples of each pixel, pixel by pixel, where so many pixels in a row
+// share tails. walk_tails(settings, samplers, walkers, out, observer) is walk_on() of walk.h.
 template <class Sampler, class WalkTails, class Observer = NoObserver>
 NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& direct, const DiffuseSides& diffuse,
-                              const WalkSettings& settings, std::size_t size, std::span<const CameraRay> rays,
+                              const WalkSettings& settings, std::size_t size, std::size_t sharing, std::span<const CameraRay> rays,
                               std::span<Sampler> samplers, TermSamples& out, const WalkTails& walk_tails,
                               const Observer& observer = {}) {
     const int N = settings.bounces;
@@ -137,7 +136,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     };
     std::vector<Pair> pairs;
     std::vector<std::size_t> asking;
-    const std::size_t together = sharing_pixels * size;
+    const std::size_t together = sharing * size;
     for (const std::uint32_t q : with_tail) {
         if (!corners[q].shares) continue;
         const std::size_t begin = q / together * together + q % size,

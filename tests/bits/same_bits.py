@@ -36,7 +36,7 @@ SCENES_OF = {"mixed": ("cornell-box", "glossy-floor")}
 # Of the Cornell box alone.
 OPTIONS = {
     "walk": ["--direct mis-solid-angle --lights all", "--direct bsdf --roulette albedo", "--direct light --lights power --split 3,2",
-             "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2"],
+             "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2", "--reuse --roulette 0.8", "--tree sum"],
     "light": ["--roulette throughput"],
     "bidirectional": ["--direct mis-balance --ways 2", "--roulette albedo"],
     "photon": ["--gather --photons 3000", "--radius 20"],

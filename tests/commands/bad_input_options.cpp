@@ -88,6 +88,12 @@ TEST_F(BadInputOptions, Tree) {
     EXPECT_EQ(refusal({"--tree", "5", "-n", "4"}), "--tree 5: the last bounce that has a picture is 4\n");
 }
 
+TEST_F(BadInputOptions, Reuse) {
+    EXPECT_EQ(refusal({"--method", "guided", "--reuse"}), "--reuse belongs to --method walk, not to guided\n");
+    for (const auto& [option, value] : {std::pair{"--tree", "sum"}, {"--adaptive", "sum"}, {"--split", "2,2"}})
+        EXPECT_EQ(refusal({"--reuse", option, value}), "--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split\n");
+}
+
 TEST_F(BadInputOptions, Photons) {
     for (const std::string radius : {"0", "-1", "nan", "wide"})
         EXPECT_TRUE(refusal({"--method", "photon", "--radius", radius})

@@ -24,6 +24,7 @@ const std::map<std::string, std::string> values{{"direct", "mis-balance"},
                                                 {"chain", "64"},
                                                 {"adaptive", "sum"},
                                                 {"tree", "3"},
+                                                {"reuse", "true"},
                                                 {"records", "split-sphere"},
                                                 {"accuracy", "0.5"}};
 

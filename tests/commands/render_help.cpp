@@ -35,7 +35,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
                                  "--patches",  "--directions", "--reference", "--seed",     "-t",           "-D",       "--lenient",
                                  "--quiet",    "--json",       "--files",     "--theme",    "--importance", "--plan",   "--memory",
                                  "--resume",   "--checkpoint", "--part",      "--photons",  "--radius",     "--gather", "--chain",
-                                 "--adaptive", "--tree",       "--records",   "--accuracy"}));
+                                 "--adaptive", "--tree",       "--records",   "--accuracy",   "--reuse"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
