@@ -32,12 +32,12 @@ TEST(MethodText, EveryMethodComesBackFromTextAndJson) {
     for (const std::string& name : method_names()) {
         MethodText given{name};
         for (const MethodOption& o : method_options())
-            if (o.belongs_to(make_method({name})) && std::string(o.name) != "tree")
+            if (o.belongs_to(make_method({name})) && std::string(o.name) != "tree" && std::string(o.name) != "reuse")
                 given.options.emplace_back(o.name, values.at(o.name));
-        // A tree stands in the place of --split and --roulette.
-        const MethodText tree{"walk", {{"tree", values.at("tree")}}};
+        // These stand in the place of --split, and a tree also of --roulette.
+        const MethodText tree{"walk", {{"tree", values.at("tree")}}}, reuse{"walk", {{"reuse", values.at("reuse")}}};
         for (const MethodText& text :
-             name == "walk" ? std::vector{MethodText{name}, given, tree} : std::vector{MethodText{name}, given}) {
+             name == "walk" ? std::vector{MethodText{name}, given, tree, reuse} : std::vector{MethodText{name}, given}) {
             const Method method = make_method(text);
             EXPECT_EQ(name_of(method), name);
             EXPECT_TRUE(make_method(text_of(method)) == method) << name;
