@@ -3,6 +3,7 @@
 #include "apps/python/module.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"
+#include "operators/statistics/flip.h"
 #include "operators/statistics/metrics.h"
 
 #include <fmt/format.h>
@@ -107,6 +108,17 @@ py::dict compare_arrays(const Array& a, const Array& b, const py::object& a_stde
     return d;
 }
 
+// HDR-FLIP of each pixel, (height, width).
+py::array_t<float> flip(const Array& a, const Array& b) {
+    const Image test = as_image(a), reference = as_image(b);
+    std::vector<float> errors;
+    {
+        const py::gil_scoped_release without_lock;
+        errors = hdr_flip(test, reference);
+    }
+    return py::array_t<float>({test.height, test.width}, errors.data());
+}
+
 // A PNG at most `height` pixels high; small pictures are enlarged by whole factors, so that pixels stay square and equal.
 py::bytes png(const Array& array, double exposure, int height) {
     Image image = as_image(array);
@@ -121,6 +133,7 @@ void bind_pictures(py::module_& m) {
     m.def("read", &read, py::arg("path"));
     m.def("compare", &compare_arrays, py::arg("a"), py::arg("b"), py::arg("a_stderr") = py::none(),
           py::arg("b_stderr") = py::none(), py::arg("a_means") = py::none(), py::arg("b_means") = py::none());
+    m.def("flip", &flip, py::arg("a"), py::arg("b"));
     m.attr("metrics_epsilon") = metrics_epsilon;
     m.def("png", &png, py::arg("picture"), py::arg("exposure"), py::arg("height"));
     m.def(

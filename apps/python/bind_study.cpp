@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-// function(origin (n, 3), direction (n, 3), pixel (n, 2), bounces, seed) as an estimator. The study calls it in the job's thread.
+// function(rays as of as_dict(), bounces, seed) as an estimator. The study calls it in the job's thread.
 OwnEstimator estimator_of(const py::object& function) {
     const std::shared_ptr<py::object> kept(new py::object(function), [](py::object* f) {
         const py::gil_scoped_acquire lock;
@@ -20,18 +20,7 @@ OwnEstimator estimator_of(const py::object& function) {
         const py::gil_scoped_acquire lock;
         const auto n = static_cast<py::ssize_t>(rays.size());
         const py::ssize_t terms = bounces + 1;
-        py::array_t<double> origin({n, py::ssize_t{3}}), direction({n, py::ssize_t{3}});
-        py::array_t<int> pixel({n, py::ssize_t{2}});
-        for (py::ssize_t i = 0; i < n; ++i) {
-            const CameraRay& ray = rays[static_cast<std::size_t>(i)];
-            for (int axis = 0; axis < 3; ++axis) {
-                origin.mutable_at(i, axis) = ray.origin[axis];
-                direction.mutable_at(i, axis) = ray.direction[axis];
-            }
-            pixel.mutable_at(i, 0) = pixels[static_cast<std::size_t>(i)].x;
-            pixel.mutable_at(i, 1) = pixels[static_cast<std::size_t>(i)].y;
-        }
-        const py::object made = (*kept)(origin, direction, pixel, bounces, seed);
+        const py::object made = (*kept)(as_dict(rays, pixels), bounces, seed);
         const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(made);
         if (!array || array.ndim() != 3 || array.shape(0) != n || array.shape(1) != terms || array.shape(2) != 3)
             throw InputError(fmt::format("returned {}, expected an array ({}, {}, 3): rays, bounces 0 to {}, channels",

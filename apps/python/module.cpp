@@ -36,6 +36,7 @@ PYBIND11_MODULE(_neumann, m) {
     bind_chains(m);
     bind_blame(m);
     bind_unbounce(m);
+    bind_rays(m);
 }
 
 namespace neumann {

@@ -7,6 +7,7 @@
 #include "core/image/pixel_estimate.h"
 #include "core/reader/changed_scene.h"
 #include "core/scene/scene.h"
+#include "operators/queries/camera_rays.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <pybind11/numpy.h>
@@ -14,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,7 @@ void bind_records(py::module_& m);
 void bind_chains(py::module_& m);
 void bind_blame(py::module_& m);
 void bind_unbounce(py::module_& m);
+void bind_rays(py::module_& m);
 
 // The scene on patches, traced. Throws as PatchScene's constructor does.
 std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOptions options);
@@ -56,6 +59,9 @@ py::object as_array_or_none(const Image& image);
 py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMeans>& means);
 // Takes any numeric array of this shape. Throws InputError.
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array);
+
+// origin and direction (n, 3), length (n,), and pixel (n, 2), column and row.
+py::dict as_dict(std::span<const CameraRay> rays, std::span<const Pixel> pixels);
 
 // The equivalent command line.
 std::string command_line(const std::string& command, const LoadedScene& scene, const std::vector<std::string>& arguments);

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "operators/queries/camera_rays.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <algorithm>
@@ -29,19 +30,7 @@ BounceSeries render_by_own(const OwnEstimator& estimator, const Scene& scene, st
             series.outcome = Outcome::interrupted;
             return series;
         }
-        std::vector<CameraRay> rays;
-        std::vector<Pixel> pixels;
-        std::vector<double> weights;
-        for (std::uint64_t sample = first; sample < std::min(first + at_once, samples); ++sample)
-            for (std::uint32_t number = 0; number < count; ++number) {
-                Sampler numbers(seed, number);
-                numbers.start(sample);
-                const Pixel pixel = pixel_of(film, number);
-                const CameraSample from = sample_camera(scene, pixel.x, pixel.y, numbers);
-                rays.push_back(from.ray);
-                pixels.push_back(pixel);
-                weights.push_back(from.weight);
-            }
+        const auto [rays, pixels, weights] = camera_rays(scene, first, std::min(at_once, samples - first), seed);
         const std::vector<Rgb> found = estimator(rays, pixels, bounces, seed + first);
         for (std::size_t ray = 0; ray < rays.size(); ++ray)
             for (std::size_t i = 0; i < terms_of_ray; ++i) {

@@ -83,7 +83,9 @@ class Display(Case):
         series = scene.render(method="bidirectional", bounces=2, ways=1, spp=8, quiet=True)
         operators = scene.operators(**size)
         lights = scene.under_lights((2, 2), spp=8, bounces=2, quiet=True)
+        points = scene.intersect([[278, 273, -800]], [[0, 0, 1]])
         results = [
+            points, scene.sample_lights(points, [[0.5, 0.5]]), scene.camera_rays(),
             scene, scene.plan(), series, series[1], series[1:], series.ways[0], series.run, neumann.compare(series[0], series[1]),
             scene.chain(1, states=50), scene.photons(500), scene.records(bounces=1, directions=16), lights, lights.unbounce(quiet=True),
             scene.matrices(**size), operators, operators.symmetrised(), scene.solve(**size), scene.spectrum(**size),

@@ -1,6 +1,7 @@
 """A series is indexed, sliced, shown, merged, and turned into what other libraries have."""
 
 import importlib.util
+import json
 import sys
 import types
 import unittest
@@ -8,7 +9,7 @@ from unittest import mock
 
 import neumann
 import numpy as np
-from support import Case, cornell, furnace, scene_file
+from support import Case, command, cornell, furnace, scene_file
 
 
 def render(seed=0, **options):
@@ -45,6 +46,34 @@ class Bounces(Case):
         row = rows[rows["picture"] == "bounce_002"][0]
         for name in ("rmse", "rel_mse", "mean_difference", "mean_difference_interval95"):
             self.assertEqual(found[name], row[name])
+
+    def test_flip(self):
+        a, b = render(1), render(2)
+        a.save(self.folder / "a")
+        b.save(self.folder / "b")
+        done = command("compare", "a", "b", "--flip", "--json", folder=self.folder)
+        said = {p["name"]: p["flip"] for p in json.loads(done.stdout)["pictures"]}
+        rows = neumann.compare(a, b, flip=True)
+        self.assertEqual(list(rows["picture"]), list(said))
+        np.testing.assert_allclose(rows["flip"], list(said.values()), rtol=1e-12)
+        self.assertGreater(said["bounce_002"], 0)
+        errors = neumann.flip(a[2], b[2])
+        self.assertEqual((errors.shape, errors.dtype), ((16, 16), np.float32))
+        self.assertAlmostEqual(errors.mean(dtype=float), said["bounce_002"], 12)
+        file = self.folder / "a" / "bounce_002.exr"
+        np.testing.assert_array_equal(neumann.flip(file, b.terms[2]), errors)
+        self.assertEqual(neumann.compare(file, b[2], flip=True).flip, neumann.compare(a[2], b[2], flip=True).flip)
+        self.assertNotIn("flip", neumann.compare(a[2], b[2]))
+        # No difference, and pixels that are no numbers in one of them.
+        broken = b.terms[2].copy()
+        broken[3, 5] = np.nan
+        self.assertEqual(neumann.flip(b[2], b[2]).max(), 0)
+        self.assertEqual(neumann.flip(broken, b[2])[3, 5], 1)
+        for wrong, message in (((a, b), "^a series; FLIP is of two pictures, as series.2. is one$"), ((a[2], np.zeros((16, 16))), "^an array of shape .16, 16. is no picture")):
+            with self.assertRaisesRegex(neumann.InputError, message):
+                neumann.flip(*wrong)
+        with self.assertRaises(neumann.InputError):
+            neumann.flip(a[2], np.zeros((8, 16, 3)))
 
 
 class Merging(Case):

@@ -20,7 +20,7 @@ surface, R scatters it there; operators/NOTATION.md is the dictionary.
 from ._blame import Blame, blame
 from ._bounces import Bounce, Bounces, BounceSeries, Way, read
 from ._chain import Chain
-from ._compare import compare
+from ._compare import compare, flip
 from ._dictionary import look_at
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._method import Method
@@ -46,6 +46,7 @@ from ._neumann import InputError, RunError
 from ._neumann import version as __version__
 from ._operators import Operators, Symmetrised
 from ._photons import Photons
+from ._rays import LightPoints, Points
 from ._records import Records
 from ._report import HealthWarning, NeumannWarning, Report
 from ._scene import Plan, Scene, load, load_dict
@@ -69,6 +70,7 @@ __all__ = [
     "InputError",
     "Light",
     "LightPictures",
+    "LightPoints",
     "Matrices",
     "Matrix",
     "Method",
@@ -80,6 +82,7 @@ __all__ = [
     "Photon",
     "Photons",
     "Plan",
+    "Points",
     "Pointwise",
     "Records",
     "Report",
@@ -96,6 +99,7 @@ __all__ = [
     "blame",
     "compare",
     "cube",
+    "flip",
     "load",
     "load_dict",
     "look_at",

@@ -1,9 +1,9 @@
 """Estimators written in Python, for a study."""
 
-from typing import Any, Callable
+from typing import Any, Callable, Dict
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ._report import Report
 
@@ -19,7 +19,7 @@ def name_of(estimator: Estimator) -> str:
 def from_rays(estimator: Estimator) -> Any:
     """The function that the compiled part calls."""
 
-    def call(origin: NDArray[Any], direction: NDArray[Any], pixel: NDArray[Any], bounces: int, seed: int) -> ArrayLike:
-        return estimator(Report(origin=origin, direction=direction, pixel=pixel), bounces, np.random.default_rng(seed))
+    def call(rays: Dict[str, Any], bounces: int, seed: int) -> ArrayLike:
+        return estimator(Report(rays), bounces, np.random.default_rng(seed))
 
     return call

@@ -6,6 +6,7 @@ from os import PathLike, fspath
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union, Unpack
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
@@ -20,6 +21,7 @@ from ._method_options import MethodOptions
 from ._operators import Operators
 from ._photons import Photons
 from ._progress import run
+from ._rays import AnyPoints, LightPoints, Points, compiled
 from ._records import Records
 from ._report import HealthWarning, Report, warn
 from ._sources import Memory
@@ -172,6 +174,33 @@ class Scene:
         options = [(name, str(value)) for name, value in given.items() if value is not None]
         return Records(run(_neumann.records(self._scene, bounces, options, seed)))
 
+    def camera_rays(self, samples: int = 1, *, first: int = 0, seed: int = 0) -> Report:
+        """Rays of the camera, of samples first … first + samples − 1 of every pixel: sample by sample, in each row by row.
+
+        A Report of origin and direction (n, 3), unit length; length (n,), up to the far plane; pixel (n, 2), column and row; and weight
+        (n,): a pixel is the mean of weight times radiance, ``(weight[:, None] * L).reshape(samples, height, width, 3).mean(axis=0)``. Raises
+        InputError.
+        """
+        return Report(_neumann.camera_rays(self._scene, samples, first, seed))
+
+    def intersect(self, origin: AnyPoints, direction: ArrayLike, length: Optional[ArrayLike] = None) -> Points:
+        """What rays hit first, tr(x, ω).
+
+        origin: an array (n, 3) of points in space, or Points and LightPoints, which know their surfaces. direction: (n, 3), of any length but 0. length: (n,), of
+        rays from space; without it they are endless. On all processors, without Python's lock. Raises InputError.
+        """
+        return Points(_neumann.intersect(self._scene, compiled(origin), direction, length))
+
+    def visible(self, a: AnyPoints, b: AnyPoints) -> NDArray[np.bool_]:
+        """Whether points see each other, V(a, b), pair by pair: (n,). They are Points, LightPoints, or arrays (n, 3) of points in space, which
+        are not to be on a surface. Raises InputError."""
+        return _neumann.visible(self._scene, compiled(a), compiled(b))
+
+    def sample_lights(self, points: AnyPoints, u: ArrayLike) -> LightPoints:
+        """A sample of light for each of n points, by random numbers u (n, 2) from 0 to below 1. It does not look whether it is seen; ask
+        ``visible(points, lights)``. Raises InputError."""
+        return LightPoints(_neumann.sample_lights(self._scene, compiled(points), u))
+
     def under_lights(
         self,
         lights: Tuple[int, int] = (8, 8),
@@ -313,8 +342,9 @@ class Scene:
 
         methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"], or neumann.Walk(direct="light") and the like; without
         them all that can do the scene. An estimator of your own stands beside them as "its_name()": a function of rays, with ``origin``
-        (n, 3), ``direction`` (n, 3) and ``pixel`` (n, 2) of n camera rays, the last bounce N, and a numpy.random.Generator, which returns
-        samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It must not start other work of this package. budgets: seconds of a
+        (n, 3), ``direction`` (n, 3), ``length`` (n,) and ``pixel`` (n, 2) of n camera rays, the last bounce N, and a numpy.random.Generator,
+        which returns samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It may ask ``intersect()``, ``visible()`` and
+        ``sample_lights()``, and must not start other work of this package. budgets: seconds of a
         run, or samples: samples a pixel of one, growing. repeats: runs of each method at each budget, 16 without it, or as many as an
         interval of the sum's RMSE of ± this part of itself takes. bounces: the last one that is looked at. error: relative RMSE, for the
         time to it. crop: x, y, width and height of a part that the page shows of every method. reference: the folder of a render,
