@@ -62,6 +62,7 @@ libbenchmark-dev    | Google Benchmark                        | benchmark/benchm
 dpkg-dev            | what cpack finds dependencies with      | dpkg-shlibdeps
 file                | file, which cpack asks of each file     | file
 python3-openimageio | the Python module of OpenImageIO        |
+python3-ipywidgets  | ipywidgets, sliders of lessons          |
 chromium            | Chromium, in which pages are tested     | chromium chromium-browser google-chrome
 firefox-esr         | Firefox, in which pages are tested      | firefox firefox-esr
 nodejs              | Node.js 18 or later, which drives it    | node nodejs

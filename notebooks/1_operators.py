@@ -14,7 +14,7 @@
 # Every `assert` is a promise of the text above it. If one does not hold, the lesson stops there.
 
 # %%
-from lesson import limit, pictures, scene, seed
+from lesson import explore, limit, pictures, scene, seed
 import matplotlib.pyplot as plt
 import numpy as np
 import neumann
@@ -24,7 +24,7 @@ import neumann
 # In Jupyter the last line shows all bounces, what is left beyond them, and the sums below, at one exposure.
 
 # %%
-series = scene("cornell-box", res=64).render(bounces=5, spp=64, sampler="independent", seed=seed, quiet=True)
+series = scene("cornell-box", res=256).render(bounces=5, spp=64, method="walk", sampler="independent", seed=seed, quiet=True)
 series
 
 # %% [markdown]
@@ -51,7 +51,8 @@ series
 # multiplies by its reflectance $\rho$.
 
 # %%
-patches = scene("cornell-box", res=64).matrices(patches=800, channel="r", seed=seed, quiet=True)
+rays = 256  # of a patch
+patches = scene("cornell-box", res=256).matrices(patches=3000, directions=rays, channel="r", seed=seed, quiet=True)
 T, R, Le = patches
 print(patches)
 assert (T.data == 1).all() and (np.diff(T.indptr) <= 1).all(), "a ray meets one patch, or none"
@@ -65,21 +66,52 @@ assert R.min() >= 0 and reflectance.max() < 0.7801  # of the lamp's own surface;
 # (A1: $R$ has the colours and no rays, $T$ has the rays and no colours. A2: $L$ becomes the sum of what each lamp makes alone.)
 #
 # ## One bounce at a time
-# Now light bounces by multiplying. The loop below is all there is to it.
+# Now light bounces by multiplying. The loop below is all there is to it, but for its first step: the lamp is small, and so $K L_e$ is
+# taken from points *on the lamp*, each patch asking which of them it sees. `patches.b` is that. From then on the whole room shines,
+# and a patch's rays are enough.
 
 # %%
-light, seen = Le, []
-for i in range(6):
+light, seen = patches.b, [patches.picture(Le)]
+for i in range(1, 6):
     seen.append(patches.picture(light))
     light = R @ (T @ light)  # K = R T
 pictures(seen, [f"bounce {i}" for i in range(6)])
 plt.show()
 
 # %% [markdown]
-# The figure: $L_e$, and $K$ applied to it up to five times, as the camera sees 800 patches in red light. Each picture is as
-# bright as it can be; the radiance that is shown as white stands above it. Patches look like tiles. That is an error, the
-# *discretisation*, and lesson 3 is about it.
+# The figure: $L_e$, and $K$ applied to it up to five times, as the camera sees 3000 patches in red light. Each picture is as bright
+# as it can be; the radiance that is shown as white stands above it. Patches look like tiles, and shadows have steps: a patch has one
+# value. That is an error, the *discretisation*, and lesson 3 is about it.
 #
+# ## Why the lamp was asked
+# $R\,(T L_e)$ is bounce 1 as well, by the same matrices as all others. It waits for rays to meet the lamp.
+
+# %%
+by_chance = R @ (T @ Le)
+pictures([patches.picture(by_chance), patches.picture(patches.b)], ["rays that meet the lamp", "points on the lamp"], white=0.3)
+plt.show()
+
+# %% [markdown]
+# The figure: bounce 1 twice, from 256 rays of each patch, and from points on the lamp. On the left it is confetti. That is not the
+# discretisation, for the patches are the same. A ray of a patch meets the lamp with some probability $p$, the share of the patch's
+# view, weighted by the cosine, that the lamp fills. The number of rays that do is 0 or 1 or 2, and each brings all of the lamp's
+# radiance. Of $n$ independent rays that is a mean with the relative standard error $\sqrt{(1 - p)/(n\,p)}$: large, because $p$ is
+# small. It is *noise*: both pictures have the same expected value. Count it:
+
+# %%
+p = patches.b / (reflectance * Le.max())  # K Le = ρ p Le
+sees = p > 1e-4
+met = by_chance / (reflectance * Le.max()) * rays  # rays that met the lamp
+assert np.allclose(met, met.round(), atol=1e-6)
+met, expected = met[sees], rays * p[sees]
+relative = np.sqrt(np.mean((met / expected - 1) ** 2))
+print(f"the lamp fills {p[sees].mean():.2%} of a view: of {rays} rays {expected.mean():.1f} meet it; of {np.mean(met == 0):.0%} of the patches, none")
+print(f"relative error of a patch: {relative:.0%}; independent rays would have {np.sqrt(np.mean((1 - p[sees]) / expected)):.0%}")
+assert np.mean((met - expected) ** 2 / (expected * (1 - p[sees]))) < 1, "rays that are spread evenly do better than independent ones"
+# In the mean both are right: the sum over all patches is within the noise of independent rays.
+assert abs(np.sum(met - expected)) <= limit() * np.sqrt(np.sum(expected * (1 - p[sees])))
+
+# %% [markdown]
 # **Q3.** Linearity, tried: is $K(2f + g) = 2Kf + Kg$?
 
 # %%
@@ -116,7 +148,7 @@ plt.show()
 # %%
 lit = series.terms.sum(axis=3) > 0
 ceiling = np.zeros(lit[0].shape, dtype=bool)
-ceiling[3:6, 16:48] = True  # these rows show nothing else
+ceiling[12:24, 64:192] = True  # these rows show nothing else
 assert not lit[1][ceiling].any() and lit[2][ceiling].all()
 new = lit[2] & ~lit[0] & ~lit[1]
 print(
@@ -124,7 +156,7 @@ print(
     f"for the first time in bounce 2: {new.mean():.1%}"
 )
 floor = np.zeros_like(ceiling)
-floor[58:61, 16:48] = True
+floor[232:244, 64:192] = True
 above = [series.terms[i][ceiling].mean() / series.terms[i][floor].mean() for i in range(1, 6)]
 print("ceiling over floor, bounces 1 to 5:", *(f"{x:.2f}" for x in above))
 assert above[0] == 0 and above[1] > 1 > above[2]
@@ -179,14 +211,27 @@ plt.show()
 
 # %% [markdown]
 # The figure: $S_0$ to $S_5$, at one exposure. After bounce 2 the eye finds little to add; the numbers below say how much is still
-# missing.
+# missing. Where ipywidgets is installed, sliders take you through bounces and exposures:
+
 
 # %%
-one = np.abs(series.sums[1:] - (series.sums[:-1] + series.terms[1:]))
-rounding = 2.0**-24 * (series.sums[1:] + series.sums[:-1] + series.terms[1:])
-assert (
-    one <= 1.01 * rounding + 2.0**-148
-).all(), "pictures hold 32-bit floats: the three numbers are rounded, and nothing else is lost"
+def show(bounce, stops):
+    """A bounce and the sum up to it, brighter by 2^stops."""
+    shown = [series.terms[bounce], series.sums[bounce]]
+    pictures(shown, [f"bounce {bounce}", f"bounces 0 to {bounce}"], white=white / 2**stops)
+    plt.show()
+
+
+explore(show, bounce=(0, 5, 3), stops=(-3, 6, 3))
+
+# %% [markdown]
+# The figure: bounce 3 and $S_3$, eight times as bright as above. What the eye did not find is a picture, too.
+
+# %%
+sums, terms = series.sums.astype(float), series.terms.astype(float)
+off = np.abs(sums[1:] - (sums[:-1] + terms[1:]))
+rounding = 2.0**-24 * (sums[1:] + sums[:-1] + terms[1:])
+assert (off <= rounding + 2.0**-148).all(), "pictures hold 32-bit floats: the three numbers are rounded, and nothing else is lost"
 
 # %% [markdown]
 # ## How fast they fall, and what is left out
@@ -196,7 +241,7 @@ assert (
 # %%
 mean, error = series.table["mean"], series.table["mean_stderr"]
 rest, rest_error = series.run.rest.mean, series.run.rest.stderr
-figure, axes = plt.subplots(figsize=(6, 3.6))
+figure, axes = plt.subplots()
 axes.errorbar(range(6), mean, yerr=limit() * error, fmt="o", capsize=3, label="bounce $i$")
 axes.errorbar([6], [rest], yerr=limit() * rest_error, fmt="s", capsize=3, color="C3", label="rest: all bounces beyond 5")
 ratio = mean[5] / mean[4]
@@ -235,13 +280,16 @@ assert rest <= series.table["bound"][5]
 
 # %% [markdown]
 # Roulette may begin earlier, too: `roulette=0.6` lets a walk go on with $q = 0.6$ after every bounce. It takes fewer rays, and
-# the late bounces, which fewer walks reach, are noisier. The means stay what they were.
+# the late bounces, which fewer walks reach, are noisier. The means stay what they were. (Of 64² pixels, which the mean does not
+# mind.)
 
 # %%
-early = scene("cornell-box", res=64).render(bounces=5, spp=64, sampler="independent", roulette=0.6, seed=seed + 1000, quiet=True)
-print(f"rays: {early.run.timing.rays / series.run.timing.rays:.0%} of those without roulette")
+small = scene("cornell-box", res=64)
+late = small.render(bounces=5, spp=64, method="walk", sampler="independent", seed=seed, quiet=True)
+early = small.render(bounces=5, spp=64, sampler="independent", roulette=0.6, seed=seed + 1000, quiet=True)
+print(f"rays: {early.run.timing.rays / late.run.timing.rays:.0%} of those without roulette")
 for i in range(1, 6):
-    a, b = early.run.bounces[i], series.run.bounces[i]
+    a, b = early.run.bounces[i], late.run.bounces[i]
     both = np.hypot(a.stderr, b.stderr)
     print(
         f"bounce {i}: standard error {a.stderr / b.stderr:.1f} times as large, "
@@ -250,7 +298,7 @@ for i in range(1, 6):
     assert (
         abs(a.mean - b.mean) <= limit(min(a.degrees_of_freedom, b.degrees_of_freedom)) * both
     )  # five: false alarm in 30 000 seeds
-assert early.run.timing.rays < series.run.timing.rays and early.run.bounces[5].stderr > series.run.bounces[5].stderr
+assert early.run.timing.rays < late.run.timing.rays and early.run.bounces[5].stderr > late.run.bounces[5].stderr
 
 # %% [markdown]
 # ## Exercises

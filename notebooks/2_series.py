@@ -10,7 +10,7 @@
 # done without light, rays or randomness.
 
 # %%
-from lesson import scene, seed
+from lesson import plots, scene, seed
 import matplotlib.pyplot as plt
 import numpy as np
 import neumann
@@ -47,7 +47,7 @@ F, area, ceiling = cube.F, cube.area, cube.face == 5
 Le = ceiling.astype(float)
 assert np.allclose(F.sum(axis=1), 1, atol=1e-12), "the room is closed: all that leaves a patch arrives somewhere"
 
-figure, axes = plt.subplots(figsize=(6, 3.6))
+figure, axes = plt.subplots()
 for rho in (0.5, 0.9, 0.99):
     run = neumann.series(rho * F, Le, error=0, most=60, norm=rho, measure=area, quiet=True)
     axes.plot(run.rows["bounce"], run.rows["sup"], ".-", label=rf"$\rho$ = {rho}")
@@ -94,7 +94,7 @@ for _ in n:
     t = K @ t
     S = S + t
 tail, scale = np.array(tail), exact.max()
-figure, axes = plt.subplots(figsize=(6.4, 4))
+figure, axes = plt.subplots()
 axes.plot(n, run.rows["a_priori"] / scale, label=r"a priori, $a^{n+1}/(1-a)\,\Vert L_e\Vert _\infty$")
 axes.plot(n, run.rows["a_posteriori"] / scale, label=r"a posteriori, $a/(1-a)\,\Vert t_n\Vert _\infty$")
 axes.plot(n, tail / scale, "k.", label=r"what is left, $\Vert L - S_n\Vert _\infty$")
@@ -106,7 +106,7 @@ axes.set(
     title="Bounds, and what they bound",
     ylim=(1e-11, 1e2),
 )
-axes.legend(fontsize=8)
+axes.legend()
 plt.show()
 
 # %%
@@ -157,7 +157,7 @@ apart, both = np.diag([0.5, 0.99]), np.array([1, 1e-6])
 # Three mirrors that pass light round.
 ring, first = 0.9 * np.roll(np.eye(3), 1, axis=0), np.array([1.0, 0, 0])
 
-figure, axes = plt.subplots(2, 2, figsize=(9, 6))
+figure, axes = plots(2, 2)
 series = [
     (terms(chain, last, 400)[:, 0], "behind eleven doors"),
     (terms(plates, inner, 30)[:, 1], "near-parallel plates"),
@@ -239,7 +239,7 @@ for rho in albedos:
         total = total + t
         n += 1
     needed.append(n)
-figure, axes = plt.subplots(figsize=(5.2, 3.6))
+figure, axes = plt.subplots()
 axes.loglog(1 - albedos, needed, "o", label="counted")
 x = np.geomspace(1e-4, 0.6, 100)
 axes.loglog(x, np.log(1e-6) / np.log1p(-x) - 1, "-", color="grey", label=r"$\ln\varepsilon / \ln\rho - 1$")

@@ -6,7 +6,7 @@
 # (eigenvectors), and solve $(I - K) L = L_e$ with far fewer bounces than light itself needs.
 
 # %%
-from lesson import pictures, scene, seed
+from lesson import explore, pictures, plots, radiance_unit, scene, seed
 import matplotlib.pyplot as plt
 import numpy as np
 import scipy.sparse.linalg
@@ -18,25 +18,26 @@ import neumann
 # of $R$ averages over the rays of patch $u$ and multiplies by its reflectance. One channel of colour at a time: this is red.
 
 # %%
-room = scene("cornell-box", res=64)
+room = scene("cornell-box", res=256)
 small = room.matrices(patches=200, directions=16, channel="r", seed=seed, quiet=True)
 T, R, Le = small
 K = R @ T
-figure, axes = plt.subplots(1, 3, figsize=(9, 4.2), gridspec_kw={"width_ratios": [1, 1.6, 1.6]})
+figure, axes = plots(1, 3, gridspec_kw={"width_ratios": [1, 1.6, 2]})
 axes[0].spy(T[:400], markersize=1, aspect="auto")
-axes[0].set(title=f"T, 400 of {T.shape[0]} rows", xlabel="patch", ylabel="ray")
+axes[0].set(title="T, 400 rows", xlabel="patch", ylabel="ray")
 axes[1].spy(R, markersize=0.5, aspect="auto")
 axes[1].set(title="R", xlabel="ray", ylabel="patch")
 axes[2].spy(K, markersize=1)
 axes[2].set(title="K = R T", xlabel="from patch", ylabel="to patch")
 for axis in axes:
     axis.grid(False)
+    axis.locator_params("x", nbins=3)
 plt.show()
 
 # %% [markdown]
-# The figure: $T$ has at most one entry a row (none, where the ray leaves the room), $R$ is a staircase: each patch has its own
-# rays and nobody else's. Their product is full of blocks: a block is what one surface (floor, wall, side of a box) sees of
-# another one.
+# The figure: of $T$ the first 400 rows. It has at most one entry a row (none, where the ray leaves the room), $R$ is a staircase:
+# each patch has its own rays and nobody else's. Their product is full of blocks: a block is what one surface (floor, wall, side of
+# a box) sees of another one.
 #
 # **Q1.** What would a block on the diagonal of $K$ say about a surface? Which surfaces of the Cornell box could have one?
 
@@ -61,16 +62,17 @@ print(f"{K.nnz / np.prod(K.shape):.0%} of the entries of K are not 0, and none o
 # %%
 M = room.matrices(patches=1500, channel="r", seed=seed, quiet=True)
 K = M.K
-t, shown = M.Le, []
-for i in range(5):
+t, shown = M.b, [M.picture(M.Le, spp=4)]  # b is K Le, for which points on the lamp were asked
+for i in range(1, 6):
     shown.append(M.picture(t, spp=4))
     t = K @ t
-pictures(shown, [f"$K^{i} L_e$" for i in range(5)])
+pictures(shown, [f"$K^{i} L_e$" for i in range(6)])
 plt.show()
 
 # %% [markdown]
-# The figure: bounces 0 to 4 in red light. The patches are smaller where light changes quickly, at edges and in corners. Bounce 1 is
-# blotchy, because few of a patch's 64 rays meet so small a lamp; later bounces gather light from the whole room.
+# The figure: bounces 0 to 5 in red light. The patches are smaller where light changes quickly, at edges and in corners. Bounce 2 is
+# blotchy: a patch gathers it by 64 rays, of which few meet what the lamp has made bright; later bounces come from the whole room
+# alike.
 #
 # **How wrong are they?** scenes/cornell-box/README.md has the means of the bounces in red, from a path tracer that knows no
 # patches: 0.053612, 0.0263715, 0.0127978, 0.0058946. Two errors mix: each patch has a single value (*discretisation*), and each
@@ -88,10 +90,10 @@ for size in sizes:
         t = m.R @ (m.T @ t)
     errors.append(np.array(means) / known - 1)
 errors = np.array(errors)
-figure, axes = plt.subplots(figsize=(5.4, 3.6))
+figure, axes = plt.subplots()
 axes.loglog(sizes, np.abs(errors), "o-", label=[f"bounce {i}" for i in range(1, 5)])
 axes.set(xlabel="patches, about", ylabel="relative error of the picture's mean", title="Discretisation and sampling of K")
-axes.legend(fontsize=8)
+axes.legend()
 plt.show()
 
 # %%
@@ -120,11 +122,12 @@ assert (
 )
 modes = [np.real(v / v[np.argmax(np.abs(v))]) for v in vectors.T]
 assert modes[0].min() >= -1e-9, "the leading one has one sign"
-figure, axes = plt.subplots(1, 4, figsize=(9, 2.7))
-for axis, mode, value in zip(axes, modes, values):
-    axis.imshow(M.picture(mode, spp=4), cmap="RdBu", vmin=-1, vmax=1)
-    axis.set_title(rf"$\lambda$ = {value.real:.3f}" + (f" + {value.imag:.3f}i" if abs(value.imag) > 1e-9 else ""), fontsize=10)
+figure, axes = plots(2, 2)
+for axis, mode, value in zip(axes.flat, modes, values):
+    image = axis.imshow(M.picture(mode, spp=4), cmap="RdBu", vmin=-1, vmax=1)
+    axis.set_title(rf"$\lambda$ = {value.real:.3f}" + (f" + {value.imag:.3f}i" if abs(value.imag) > 1e-9 else ""))
     axis.axis("off")
+figure.colorbar(image, ax=axes, label="over the largest value", shrink=0.6)
 plt.show()
 
 # %% [markdown]
@@ -144,31 +147,43 @@ for i in range(25):
     after = K @ t
     ratios.append((M.measure @ after) / (M.measure @ t))
     t = after
-figure, axes = plt.subplots(1, 2, figsize=(9, 3.3))
-axes[0].semilogy(angles, ".-", label="sine of the angle between $K^n L_e$ and $v_1$")
+figure, axes = plots(1, 2)
+axes[0].semilogy(angles, ".-", label="$K^n L_e$")
 axes[0].semilogy(
-    range(5, 25),
-    angles[5] * np.abs(values[1] / values[0]) ** np.arange(20),
-    "--",
-    color="grey",
-    label=r"$\times\,|\lambda_2 / \lambda_1|$ an iteration",
+    range(5, 25), angles[5] * np.abs(values[1] / values[0]) ** np.arange(20), "--", color="grey", label=r"$|\lambda_2 / \lambda_1|^n$"
 )
-axes[1].plot(ratios, ".-", label="power of bounce $n+1$ over bounce $n$")
+axes[0].set(ylabel="sine of the angle to $v_1$")
+axes[1].plot(ratios, ".-", label="$K^n L_e$")
 axes[1].axhline(values[0].real, color="grey", ls="--", label=r"$\lambda_1$")
+axes[1].set(ylabel="power of bounce $n + 1$ over $n$")
 for axis in axes:
     axis.set_xlabel("bounce $n$")
-    axis.legend(fontsize=8)
+    axis.legend()
 plt.show()
+
+
+# %%
+def show(bounce):
+    """A bounce beside the leading eigenvector."""
+    t = M.Le
+    for _ in range(bounce):
+        t = K @ t
+    pictures([M.picture(t, spp=4), M.picture(modes[0], spp=4)], [f"bounce {bounce}", "$v_1$"], unit=f"{radiance_unit}; $v_1$ has no unit")
+    plt.show()
+
+
+explore(show, bounce=(0, 24, 8))
 
 # %%
 assert abs(ratios[-1] / values[0].real - 1) < 1e-3 and angles[-1] < 0.05
 print(f"ratio of bounce 25 to bounce 24: {ratios[-1]:.5f}; λ₁ = {values[0].real:.5f}")
 
 # %% [markdown]
-# The figure: bounces turn towards the leading eigenvector, whatever the lamp was like (A2: the same both times, but for
-# brightness), and the ratio of their powers goes to $\lambda_1$. That is why the lines of lesson 2 became straight. How fast they
-# turn is a matter of $|\lambda_2/\lambda_1|$, and that is a delicate number: where surfaces meet in an edge, $K$ has a whole
-# continuum of light going to and fro in the corner, so $\lambda_2$ belongs to the mesh as much as to the scene.
+# The figures: bounces turn towards the leading eigenvector, whatever the lamp was like (A2: the same both times, but for
+# brightness; bounce 8 looks like it already), and the ratio of their powers goes to $\lambda_1$. That is why the lines of lesson 2
+# became straight. How fast they turn is a matter of $|\lambda_2/\lambda_1|$, and that is a delicate number: where surfaces meet in
+# an edge, $K$ has a whole continuum of light going to and fro in the corner, so $\lambda_2$ belongs to the mesh as much as to the
+# scene.
 #
 # ## Solvers against the plain series
 # The cube of lesson 2, $16 \times 16$ patches a face, albedo 0.99, the ceiling shines. The plain series needs 682 bounces to be
@@ -212,17 +227,17 @@ for name in names:
     )
     histories[name] = result.history[result.history["applications"] >= result.setup_applications]
 counts = {name: [applications(h, goal) for goal in goals] for name, h in histories.items()}
-figure, axes = plt.subplots(figsize=(6.4, 4))
+figure, axes = plt.subplots()
 for name, history in histories.items():
     axes.loglog(np.maximum(history["applications"], 1), history["error"], label=f"{neumann.SOLVERS[name]}: {counts[name][0]:.0f}")
-axes.axhline(1e-3, color="grey", lw=0.8)
+axes.axhline(1e-3, color="grey")
 axes.set(
     xlabel="applications of $K$",
     ylabel=r"$\Vert x - L\Vert _\infty / \Vert L\Vert _\infty$",
     title="Cube, albedo 0.99",
-    ylim=(1e-10, 2),
+    ylim=(1e-15, 2),
 )
-axes.legend(title="applications until $10^{-3}$", fontsize=8)
+axes.legend(title="applications until $10^{-3}$")
 plt.show()
 
 # %% [markdown]

@@ -7,7 +7,7 @@
 # they branch (paths or trees).
 
 # %%
-from lesson import limit, pictures, scene, seed
+from lesson import explore, limit, pictures, plots, scene, seed
 import warnings
 
 import matplotlib.pyplot as plt
@@ -75,11 +75,11 @@ deviation = np.abs(1 - 2 * p) * np.sqrt(p * (1 - p) / walks) * rho ** (2 * np.ar
 assert (np.abs(measured - predicted) <= limit() * deviation + 2 / walks * predicted).all()  # six: as above
 
 sizes = 2 ** np.arange(4, 13)
-figure, axes = plt.subplots(figsize=(5.6, 3.7))
+figure, axes = plt.subplots()
 for i in (0, 1, 4):
     spread = [scores[i][: walks // size * size].reshape(-1, size).mean(axis=1) - exact[i] for size in sizes]
     axes.loglog(sizes, [np.sqrt(np.mean(s**2)) for s in spread], "o", label=f"bounce {i + 1}")
-    axes.loglog(sizes, np.sqrt(predicted[i] / sizes), "-", color="grey", lw=0.8)
+    axes.loglog(sizes, np.sqrt(predicted[i] / sizes), "-", color="grey")
 axes.set(xlabel="walks $N$", ylabel="root of the mean squared error", title=r"Error of a mean of $N$ walks; lines: $\sqrt{V/N}$")
 axes.legend()
 plt.show()
@@ -95,18 +95,18 @@ plt.show()
 # by multiple importance sampling (`mis`).
 
 # %%
-room = scene("cornell-box", res=48)
+room, spp = scene("cornell-box", res=256), 16
 strategies = ("hemisphere", "cosine", "light", "mis")
-direct = {how: room.render(bounces=3, spp=64, direct=how, sampler="independent", seed=seed, quiet=True) for how in strategies}
-pictures([direct[how].terms[1] for how in strategies], strategies, white=0.7)
+direct = {how: room.render(bounces=3, spp=spp, direct=how, sampler="independent", seed=seed, quiet=True) for how in strategies}
+pictures([direct[how].terms[1] for how in strategies], strategies, white=0.35)
 plt.show()
 
 # %%
 print("variance of one sample, mean over pixels and channels, and rays a sample")
 variance = {}
 for how in strategies:
-    variance[how] = [64 * np.mean(np.square(direct[how].terms_stderr[i], dtype=float)) for i in (1, 2, 3)]
-    rays = direct[how].run.timing.rays / (48 * 48 * 64)
+    variance[how] = [spp * np.mean(np.square(direct[how].terms_spread[i], dtype=float)) for i in (1, 2, 3)]
+    rays = direct[how].run.timing.rays / (256 * 256 * spp)
     print(f"{how:12s}" + "".join(f"   bounce {i}: {v:9.2e}" for i, v in zip((1, 2, 3), variance[how])) + f"   {rays:.1f} rays")
 assert variance["mis"][0] < 0.1 * variance["cosine"][0] < variance["hemisphere"][0]
 for i in (1, 2, 3):
@@ -117,7 +117,25 @@ for i in (1, 2, 3):
         assert abs(b.mean - truth.mean) <= limit(min(b.degrees_of_freedom, truth.degrees_of_freedom)) * both  # six comparisons
 
 # %% [markdown]
-# The figure: bounce 1 by four strategies with 64 samples a pixel, at one exposure. The mean is the same, the noise is not.
+# The figure: bounce 1 by four strategies with 16 samples a pixel, at one exposure. The mean is the same, the noise is not.
+#
+# How noisy a pixel is, a render says itself: each has a standard error, estimated from its own samples. Where ipywidgets is installed,
+# a slider doubles them.
+
+
+# %%
+def show(doublings):
+    """Bounce 2 of 2^doublings samples a pixel, and its standard error."""
+    made = room.render(bounces=2, spp=2**doublings, method="walk", sampler="independent", seed=seed, quiet=True)
+    pictures([made.terms[2], made.terms_stderr[2]], [f"bounce 2, {2**doublings} samples", "standard error"], white=0.15)
+    plt.show()
+
+
+explore(show, doublings=(1, 7, 4))
+
+# %% [markdown]
+# The figure: bounce 2, and how far each of its pixels may be off. The error is not the same everywhere: it follows the light. Four
+# times the samples, and it is half.
 #
 # **Q2.** The lamp covers a small part of what a point of the floor sees, say $p$. By which factor does asking the lamp reduce the
 # variance of bounce 1, roughly? **Q3.** When would directions do better than points on lamps? (A3: a lamp that touches the wall,
@@ -129,10 +147,10 @@ for i in (1, 2, 3):
 # from nested functions $T$ and $R$, exactly as on a lecture's slide. All estimate the same integral.
 
 # %%
-panels = scene("floating-panels", res=32)
+panels = scene("floating-panels", res=256)
 methods = ("walk", "pointwise", "surface", "light", "bidirectional")
 made = {
-    m: panels.render(bounces=3, spp=64, method=m, sampler="independent", seed=seed + 10 * k, quiet=True)
+    m: panels.render(bounces=3, spp=spp, method=m, sampler="independent", seed=seed + 10 * k, quiet=True)
     for k, m in enumerate(methods)
 }
 pictures([made[m].terms[2] for m in methods], methods, white=np.percentile(made["walk"].terms[2], 99))
@@ -165,17 +183,17 @@ for i in (1, 2, 3):
 
 print("\n1 / (variance of a pixel × rays), over that of the walk")
 efficiency = {
-    m: [1 / (np.mean(np.square(made[m].terms_stderr[i], dtype=float)) * made[m].run.timing.rays) for i in (1, 2, 3)]
+    m: [1 / (np.mean(np.square(made[m].terms_spread[i], dtype=float)) * made[m].run.timing.rays) for i in (1, 2, 3)]
     for m in methods
 }
 for m in methods:
     print(f"{m:14s}" + "".join(f"{e / w:8.2f}" for e, w in zip(efficiency[m], efficiency["walk"])))
 
 # %% [markdown]
-# The figure: bounce 2 of the floating panels by five generators, with 64 samples a pixel. The table counts what the noise costs
+# The figure: bounce 2 of the floating panels by five generators, with 16 samples a pixel. The table counts what the noise costs
 # in rays.
 #
-# **Q4.** In bounce 1 the noise of `light` costs ten times as many rays as that of `walk`, in bounce 3 less than twice as many,
+# **Q4.** In bounce 1 the noise of `light` costs some twenty times as many rays as that of `walk`, in bounce 3 hardly more,
 # although it is the same walk from the other end. Which of its rays are of no use to bounce 1? And in what does its noise differ,
 # to the eye?
 #
@@ -189,23 +207,23 @@ for m in methods:
 # \qquad k(d) = \frac{2}{\pi r^2}\Bigl(1 - \frac{d^2}{r^2}\Bigr).$$
 
 # %%
-ball = scene("glass-ball", res=96)
+ball = scene("glass-ball", res=256)
 photons = ball.photons(100_000, bounces=3, seed=seed)
-figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4))
+figure, axes = plots(1, 3)
 for axis, j in zip(axes, (1, 2, 3)):
     of = photons.bounce == j
     seen = of & ~np.isnan(photons.pixel[:, 0])
     for caustic, color in ((False, "C0"), (True, "C1")):
         points = photons.pixel[seen & (photons.caustic == caustic)]
         axis.plot(points[:, 0], points[:, 1], ",", color=color)
-    axis.set(xlim=(0, 96), ylim=(96, 0), xticks=[], yticks=[], aspect="equal", title=f"bounce {j}: {of.sum()} photons")
+    axis.set(xlim=(0, 256), ylim=(256, 0), xticks=[], yticks=[], aspect="equal", title=f"bounce {j}: {of.sum()}")
 plt.show()
 power = [photons.power[photons.bounce == j].sum(axis=0).mean() for j in (1, 2, 3)]
 print("power that arrives, W:", *(f"bounce {j}: {w:.3f}" for j, w in zip((1, 2, 3), power)))
 
 # %% [markdown]
-# The figure: what the camera sees of 100 000 paths' photons; orange ones came by way of the glass alone. In bounce 3 they crowd
-# in the focus: a walk from the camera would have to meet the small lamp through the glass by chance.
+# The figure: what the camera sees of 100 000 paths' photons, and how many there are in all; orange ones came by way of the glass
+# alone. In bounce 3 they crowd in the focus: a walk from the camera would have to meet the small lamp through the glass by chance.
 #
 # **Q5.** The glass ball itself has no photons. Why not? And why are there fewer of them with every bounce, although no path has
 # been ended by roulette?
@@ -236,14 +254,14 @@ for i in (1, 2, 3):
 # may stand.
 
 # %%
-cornell = scene("cornell-box", res=96)
+cornell = scene("cornell-box", res=256)
 records = cornell.records(bounces=2, seed=seed)
 shown = records.seen & ~np.isnan(records.pixel[:, 0])
-figure, axes = plt.subplots(1, 2, figsize=(9.6, 4.8))
+figure, axes = plots(1, 2)
 for axis, k in zip(axes, (1, 2)):
     E = records.irradiance[shown, k - 1]
     axis.scatter(*records.pixel[shown].T, s=9, c=np.clip(E / np.quantile(E, 0.98), 0, 1) ** (1 / 2.2), edgecolors="black", linewidths=0.2)
-    axis.set(xlim=(0, 96), ylim=(96, 0), xticks=[], yticks=[], aspect="equal", facecolor="0.5", title=f"$E_{k}$ of {shown.sum()} records")
+    axis.set(xlim=(0, 256), ylim=(256, 0), xticks=[], yticks=[], aspect="equal", facecolor="0.5", title=f"$E_{k}$ of {shown.sum()} records")
 plt.show()
 print(records)
 print("radius: least {:.3g}, median {:.3g}, largest {:.3g}".format(*np.quantile(records.radius, (0, 0.5, 1))))
@@ -265,7 +283,7 @@ by_walks = small.render(bounces=3, spp=256, method="walk", seed=seed + 1, quiet=
 for i in (2, 3):
     a, b = by_records.run.bounces[i], by_walks.run.bounces[i]
     wrong = np.mean(by_records.terms_discretisation[i])
-    noise = [np.mean(np.square(x.terms_stderr[i], dtype=float)) ** 0.5 for x in (by_records, by_walks)]
+    noise = [np.mean(np.square(x.terms_spread[i], dtype=float)) ** 0.5 for x in (by_records, by_walks)]
     print(f"bounce {i}: records {a.mean:.5f} ± {a.stderr:.5f}, wrong by up to {wrong:.5f}; walks {b.mean:.5f} ± {b.stderr:.5f}")
     print(f"          noise of a pixel: {noise[0]:.5f}, walks {noise[1]:.5f}")
     both = np.hypot(a.stderr, b.stderr)
@@ -284,7 +302,7 @@ for i in (2, 3):
 
 # %%
 rho, count = 0.9, 200_000
-figure, axes = plt.subplots(figsize=(6.2, 3.8))
+figure, axes = plt.subplots()
 for q in (0.95, 0.9, 0.85, 0.7):
     weight = rho / q
     length = rng.geometric(1 - q, size=count) - 1  # P(N ≥ k) = q^k
@@ -301,9 +319,9 @@ for q in (0.95, 0.9, 0.85, 0.7):
             f"q = {q}: variance infinite; the sample shows {score.var():.0f}, "
             f"its largest score {score.max():.3g}, the mean is off by {score.mean() - 10:+.2f}"
         )
-axes.axhline(10, color="black", lw=0.8)
+axes.axhline(10, color="black")
 axes.set(xlabel="walks", ylabel="mean so far", ylim=(8, 12), title=r"Roulette in a furnace of albedo 0.9; truth $1/(1-\rho) = 10$")
-axes.legend(fontsize=8)
+axes.legend()
 plt.show()
 
 # %% [markdown]
@@ -332,14 +350,15 @@ for q in ("albedo", 0.7):
 
 # %%
 splits = {(1, 1): 64, (4, 1): 32, (1, 4): 20, (4, 4): 16, (16, 16): 4}
-trees = {s: room.render(bounces=3, spp=n, split=s, sampler="independent", seed=seed, quiet=True) for s, n in splits.items()}
-figure, axes = plt.subplots(figsize=(6.2, 3.6))
+few = scene("cornell-box", res=48)
+trees = {s: few.render(bounces=3, spp=n, split=s, sampler="independent", seed=seed, quiet=True) for s, n in splits.items()}
+figure, axes = plt.subplots()
 for s, tree in trees.items():
     rays = tree.run.timing.rays / (48 * 48)
-    noise = [np.mean(np.square(tree.terms_stderr[i], dtype=float)) * rays for i in (1, 2, 3)]
+    noise = [np.mean(np.square(tree.terms_spread[i], dtype=float)) * rays for i in (1, 2, 3)]
     axes.semilogy((1, 2, 3), noise, "o-", label=f"{s[0]} light samples, {s[1]} walks: {rays / splits[s]:.0f} rays a sample")
 axes.set(xlabel="bounce", ylabel="variance of a pixel × rays", xticks=(1, 2, 3), title="Cornell box: less is better")
-axes.legend(fontsize=8)
+axes.legend()
 plt.show()
 
 # %% [markdown]

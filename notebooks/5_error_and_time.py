@@ -7,7 +7,7 @@
 # methods really differ.
 
 # %%
-from lesson import limit, pictures, scene, seed
+from lesson import limit, plots, radiance_unit, scene, seed
 import os
 import tempfile
 
@@ -49,7 +49,7 @@ known = scene("furnace", albedo=rho, res=8).study(
     seed=seed,
     quiet=True,
 )
-figure, axes = plt.subplots(figsize=(5.8, 4))
+figure, axes = plt.subplots()
 for method, label in ((independent, "independent samples"), (sobol, "Sobol' points")):
     for i, marker in ((1, "o"), (3, "s")):
         curve = known.curve(method, i)
@@ -58,10 +58,10 @@ for method, label in ((independent, "independent samples"), (sobol, "Sobol' poin
         )
 for i in (1, 3):
     axes.loglog(
-        samples, rho**i / np.sqrt(3 * np.array(samples)), color="grey", lw=1, label=r"$\rho^i / \sqrt{3N}$" if i == 1 else None
+        samples, rho**i / np.sqrt(3 * np.array(samples)), color="grey", label=r"$\rho^i / \sqrt{3N}$" if i == 1 else None
     )
-axes.set(xlabel="samples a pixel $N$", ylabel="RMSE, W·m$^{-2}$·sr$^{-1}$", title="A furnace, by uniform directions")
-axes.legend(fontsize=8)
+axes.set(xlabel="samples a pixel $N$", ylabel=f"RMSE, {radiance_unit}", title="A furnace, by uniform directions")
+axes.legend()
 plt.show()
 
 # %% [markdown]
@@ -112,7 +112,7 @@ study = door.study(
 study
 
 # %%
-figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.7), sharey=True)
+figure, axes = plots(1, 3, height=0.6, sharey=True)
 for axis, i in zip(axes, (1, 2, 3)):
     for k, method in enumerate(methods):
         curve = study.curve(method, i)
@@ -135,8 +135,8 @@ for axis, i in zip(axes, (1, 2, 3)):
     )
     axis.set(title=f"bounce {i}", xlabel="seconds", xscale="log", yscale="log")
 errors = [study.curve(method, i)["rmse"] for method in methods for i in (1, 2, 3)]
-axes[0].set(ylabel="RMSE, W·m$^{-2}$·sr$^{-1}$", ylim=(0.6 * np.nanmin(errors), 2 * np.nanmax(errors)))
-axes[2].legend(fontsize=8)
+axes[0].set(ylabel=f"RMSE, {radiance_unit}", ylim=(0.06 * np.nanmin(errors), 2 * np.nanmax(errors)))
+axes[0].legend(loc="lower left")
 plt.show()
 
 # %% [markdown]
@@ -171,6 +171,65 @@ share = {
 assert share[methods[2]] > 0.3 > max(share[methods[0]], share[methods[1]]), "patches are biased, paths are not"
 
 # %% [markdown]
+# ## Yours beside ours
+# A study takes an estimator of your own: a function of camera rays, the last bounce $N$ and random numbers, that returns a sample of
+# every $K^i L_e$ along every ray. It works on all rays at once, and asks the scene for what it needs: `intersect` is
+# $\mathrm{tr}(x, \omega)$, `visible` is $V(x, y)$, and `sample_lights` is a point $y$ on a lamp with $L_e/\mathrm{pdf}$. This is a path
+# tracer of diffuse scenes, whole:
+
+# %%
+box = scene("cornell-box", res=16)
+
+
+def mine(rays, N, rng):
+    """Walks from the camera that ask for light at every stop."""
+    samples = np.zeros((len(rays.origin), N + 1, 3))
+    x = box.intersect(rays.origin, rays.direction, rays.length)
+    samples[:, 0] = x.emission
+    walk, beta = np.arange(len(x)), np.ones((len(x), 3))
+    for i in range(1, N + 1):
+        walk, beta, x = walk[x.hit], beta[x.hit] * x.reflectance[x.hit], x[x.hit]
+        y = box.sample_lights(x, rng.random((len(x), 2)))
+        cosine = np.maximum(np.sum(x.normal * y.direction, axis=1), 0) * box.visible(x, y)
+        samples[walk, i] = beta / np.pi * y.weight * cosine[:, None]
+        sphere = rng.normal(size=(len(x), 3))
+        sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+        x = box.intersect(x, x.normal + sphere)  # with the pdf cosθ/π: of fs cosθ / pdf only ρ is left
+    return samples
+
+
+# %% [markdown]
+# First: is it right? Then: what is it worth?
+
+# %%
+rays = box.camera_rays(1024, seed=seed)
+groups = mine(rays, 3, np.random.default_rng(seed)).reshape(64, -1, 4, 3).mean(axis=(1, 3))  # 64 groups of samples
+ours = box.render(bounces=3, spp=1024, method="walk", sampler="independent", seed=seed + 1, quiet=True).run.bounces
+for i in (1, 2, 3):
+    both = np.hypot(groups[:, i].std(ddof=1) / 8, ours[i].stderr)
+    off = (groups[:, i].mean() - ours[i].mean) / both
+    print(f"bounce {i}: mine {groups[:, i].mean():.5f}, walk {ours[i].mean:.5f}, {off:+.1f} standard errors of both")
+    assert abs(off) <= limit(min(63, ours[i].degrees_of_freedom))  # three: false alarm in 50 000 seeds
+
+truth = box.render(bounces=3, spp=8192, method="walk", sampler="independent", seed=seed + 7, quiet=True)
+truth.save(os.path.join(folder.name, "box"))
+both = [mine, "walk:direct=light:sampler=independent"]
+against = box.study(both, samples=[4, 16, 64], repeats=8, bounces=3, reference=os.path.join(folder.name, "box"), seed=seed, quiet=True)
+figure, axes = plots(1, 2, sharey=True)
+for name in against.methods:
+    curve = against.curve(name, 2)
+    for axis, x in zip(axes, ("samples", "seconds")):
+        axis.errorbar(curve[x], curve["rmse"], yerr=2 * curve["rmse_stderr"], fmt="o-", capsize=2, label=name.split(":")[0])
+axes[0].set(xscale="log", yscale="log", xlabel="samples a pixel", ylabel=f"RMSE, {radiance_unit}")
+axes[1].set(xscale="log", xlabel="seconds")
+axes[0].legend()
+plt.show()
+
+# %% [markdown]
+# The figure: RMSE of bounce 2 against samples and against time. They are the same estimator, so their errors are the
+# same sample for sample; what differs is what a sample costs. **Q4.** Sample the lamp in proportion to the cosine at $x$: on which of
+# the two plots must it show before it is worth anything?
+#
 # ## Samples that know each other
 # $V \propto 1/N$ holds for independent samples. A **Markov chain** makes each path from the one before: it moves the path's random
 # numbers a little, and goes there with probability $\min(1, f'/f)$, $f$ being what the path brings (Metropolis; Veach and Guibas
@@ -183,7 +242,7 @@ assert share[methods[2]] > 0.3 > max(share[methods[0]], share[methods[1]]), "pat
 # door that is ajar, in bounce 2.
 
 # %%
-chain = scene("door-ajar", res=64).chain(2, states=20_000, seed=seed)
+chain = scene("door-ajar", res=256).chain(2, states=20_000, seed=seed)
 x, y = (chain.position - chain.position.mean(axis=0)).T
 
 
@@ -192,12 +251,12 @@ def correlation(x, most):
     return np.fft.irfft(spectrum)[:most] / np.fft.irfft(spectrum)[0]
 
 
-figure, (film, decay) = plt.subplots(1, 2, figsize=(9.6, 4))
+figure, (film, decay) = plots(1, 2)
 film.plot(*chain.position[:1500].T, lw=0.5, color="0.7")
 large = chain.accepted & chain.large
-film.plot(*chain.position[:1500].T, ".", ms=3)
-film.plot(*chain.position[:1500][large[:1500]].T, "o", ms=5, color="C1", label="new numbers")
-film.set(xlim=(0, 64), ylim=(64, 0), aspect="equal", title="1500 states on the film")
+film.plot(*chain.position[:1500].T, ".", ms=4)
+film.plot(*chain.position[:1500][large[:1500]].T, "o", ms=7, color="C1", label="new numbers")
+film.set(xlim=(0, 256), ylim=(256, 0), aspect="equal", title="1500 states on the film", xlabel="x, pixels", ylabel="y, pixels")
 film.legend(loc="upper right")
 for name, values in (("x", x), ("y", y)):
     decay.plot(correlation(values, 600), label=name)
@@ -212,7 +271,7 @@ print(f"{chain}; tau is about {tau:.0f}: {len(chain)} states are worth {len(chai
 # %% [markdown]
 # The figure: small steps wander (blue), and now and then all numbers are drawn anew (orange).
 #
-# **Q4.** Most large steps are refused. Why does the chain need them all the same? (A4: small steps cannot leave an island of paths
+# **Q5.** Most large steps are refused. Why does the chain need them all the same? (A5: small steps cannot leave an island of paths
 # that bring light, and all others are not found without luck.)
 #
 # `method="metropolis"` runs thousands of such chains for each bounce, from starts that independent paths have found, and its error

@@ -25,7 +25,7 @@ import neumann
 # $K^* = M^{-1} K^{\mathsf T} M$ with $M = \mathrm{diag}(m)$.
 
 # %%
-room = scene("cornell-box", res=64)
+room = scene("cornell-box", res=256)
 patches = room.matrices(patches=1500, directions=1024, channel="g", seed=seed, quiet=True)
 K, Le, m = patches.K, patches.Le, patches.measure
 M, inverse = scipy.sparse.diags(m), scipy.sparse.diags(1 / m)
@@ -77,7 +77,7 @@ for i in range(7):
 
 # %%
 shown = room.render(method="patches", importance=True, bounces=4, spp=4, patches=1500, seed=seed, quiet=True)
-pictures(shown.terms, [f"$K^{{*{i}}} W_e$" if i else "$W_e$" for i in range(5)])
+pictures(shown.terms, [f"$K^{{*{i}}} W_e$" if i else "$W_e$" for i in range(5)], unit="m$^{-2}$·sr$^{-1}$")
 plt.show()
 
 # %% [markdown]
@@ -90,7 +90,7 @@ plt.show()
 # %%
 assert shown.run.quantity.unit == "m^-2 sr^-1"
 red, green = shown.terms[1][..., 0], shown.terms[1][..., 1]
-left, right = (slice(20, 44), slice(2, 6)), (slice(20, 44), slice(58, 62))  # of the red and the green wall
+left, right = (slice(80, 176), slice(8, 24)), (slice(80, 176), slice(232, 248))  # of the red and the green wall
 on_left, on_right = (red[wall].mean() / green[wall].mean() for wall in (left, right))
 print(f"importance in red over that in green, bounce 1: {on_left:.2f} on the red wall, {on_right:.2f} on the green one")
 assert on_left < 1 < on_right, "a glow on the red wall is passed on by others, of which the green one swallows red"
@@ -112,9 +112,9 @@ ceiling = np.abs(patches.patches["ny"] + 1) < 1e-6  # normals down
 table = patches.patches[ceiling & (patches.patches["y"] > 540)]
 u = table["unknown"]
 unseen = W[u] - We[u]  # light that the camera would see directly does not count
-figure, axes = plt.subplots(figsize=(5.6, 4.2))
+figure, axes = plt.subplots()
 dots = axes.scatter(table["x"], table["z"], c=unseen * 1e6 * np.pi, s=np.maximum(table["area"] / 25, 6), marker="s")
-axes.plot([213, 343, 343, 213, 213], [227, 227, 332, 332, 227], "k--", lw=1)
+axes.plot([213, 343, 343, 213, 213], [227, 227, 332, 332, 227], "k--")
 axes.set(
     xlabel="x, mm",
     ylabel="z, mm (the camera is at $z = -800$)",
@@ -148,15 +148,14 @@ assert table["z"][np.argmax(unseen)] > 500, "at the back wall, which fills the p
 # it. Its bounces are those of `walk`, with noise of another kind.
 
 # %%
-walk = room.render(bounces=3, spp=64, sampler="independent", seed=seed, quiet=True)
-traced = room.render(bounces=3, spp=64, sampler="independent", method="light", seed=seed + 1, quiet=True)
-both = room.render(bounces=3, spp=16, sampler="independent", method="bidirectional", ways=2, seed=seed + 2, quiet=True)
-white = 0.3 * walk.terms[2].max()
+walk = room.render(bounces=3, spp=16, method="walk", sampler="independent", seed=seed, quiet=True)
+traced = room.render(bounces=3, spp=16, sampler="independent", method="light", seed=seed + 1, quiet=True)
+both = room.render(bounces=3, spp=4, sampler="independent", method="bidirectional", ways=2, seed=seed + 2, quiet=True)
+white = 2 * np.percentile(walk.terms[2], 90)
 pictures(
     [walk.terms[2], traced.terms[2], both.terms[2]],
-    ["from the camera, 64 samples", "from the lamp, 64 samples", "from both ends, 16 samples"],
+    ["camera, 16 samples", "lamp, 16 samples", "both ends, 4 samples"],
     white=white,
-    size=2.6,
 )
 plt.show()
 
@@ -212,7 +211,7 @@ assert np.allclose(
 # that way. The program says so:
 
 # %%
-mirrors = scene("facing-mirrors", res=64)
+mirrors = scene("facing-mirrors", res=256)
 seen, lost = (mirrors.render(bounces=2, spp=16, method=method, seed=seed, quiet=True) for method in ("walk", "light"))
 pictures(
     [seen.terms[1], lost.terms[1], seen.terms[2], lost.terms[2]],
@@ -222,8 +221,8 @@ pictures(
 plt.show()
 print("light:", lost.run.paths)
 assert lost.run.paths != "all" and seen.run.paths == "all"
-floor = slice(50, 60), slice(15, 50)
-noise = [np.mean(np.square(s.terms_stderr[2][floor], dtype=float)) for s in (seen, lost)]
+floor = slice(200, 240), slice(60, 200)
+noise = [np.mean(np.square(s.terms_spread[2][floor], dtype=float)) for s in (seen, lost)]
 print(f"variance of bounce 2 on the floor: {noise[0] / noise[1]:.0f} times as large by the walk")
 assert noise[0] > 2 * noise[1]
 assert np.all(lost.terms[1].mean(axis=(0, 1)) < seen.terms[1].mean(axis=(0, 1)))
@@ -248,8 +247,8 @@ assert np.all(lost.terms[1].mean(axis=(0, 1)) < seen.terms[1].mean(axis=(0, 1)))
 # $T^{-1} = (T^1)^{-1} (I - A)$ has $1 / T^1_{rr}$ on its diagonal.
 
 # %%
-corner = neumann.load(scenes.parent / "notebooks" / "corner.xml", res=32)
-lit = corner.under_lights((8, 8), spp=64, bounces=4, seed=seed, quiet=True)
+corner = neumann.load(scenes.parent / "notebooks" / "corner.xml", res=64)
+lit = corner.under_lights((8, 8), spp=32, bounces=4, seed=seed, quiet=True)
 flooded = lit.pictures.sum(axis=0)
 found = lit.unbounce(quiet=True)
 bright = np.percentile(flooded, 99)
@@ -258,7 +257,6 @@ pictures(
     [flooded, lit.pictures[block], 20 * (lit.pictures[block] - lit.direct[block])],
     ["all 64 blocks", f"block {block} alone", "20 × its bounces 2, 3, …"],
     white=bright,
-    size=2.4,
 )
 plt.show()
 
@@ -308,7 +306,7 @@ assert np.allclose(A, found.A[1], atol=1e-9 * np.abs(A).max()) and np.allclose(C
 
 R = T / np.diag(T) - identity
 forward_radius, backward_radius = (np.abs(np.linalg.eigvals(M)).max() for M in (A, R))
-figure, axes = plt.subplots(figsize=(5.6, 3.4))
+figure, axes = plt.subplots()
 for name, M, exact, color in (
     (r"$I + A + A^2 + \dots$", A, np.linalg.inv(identity - A), "C0"),
     (r"$I - R + R^2 - \dots$", -R, np.linalg.inv(identity + R), "C3"),
@@ -326,7 +324,7 @@ for name, M, exact, color in (
             label = f"{name}, {'too much' if above else 'too little'}"
             axes.semilogy(where, np.abs(errors[where]), "^" if above else "v", color=color, label=label)
 axes.set(xlabel="last power", ylabel="relative error of the sum", title="Forward and backward, term by term")
-axes.legend(fontsize=8)
+axes.legend()
 plt.show()
 print(f"spectral radius of A {forward_radius:.3f}, of R {backward_radius:.3f}; λ/(1 − λ) = {forward_radius / (1 - forward_radius):.3f}")
 assert forward_radius < backward_radius < 1 and abs(found.channels[1].inverse_series_radius / backward_radius - 1) < 1e-3

@@ -6,7 +6,7 @@
 # light dies at two speeds at once; and how to read a health report, which tells a picture that is noisy from one that is sick.
 
 # %%
-from lesson import pictures, scene, scenes, seed
+from lesson import pictures, plots, scene, scenes, seed
 import tempfile
 import warnings
 from pathlib import Path
@@ -37,7 +37,7 @@ def add_up(rho, count):
     return naive, total, exact
 
 
-figure, axes = plt.subplots(figsize=(6, 3.8))
+figure, axes = plt.subplots()
 known = {
     0.9: (219, -4.290678287496755e-07, 138),
     0.99: (2521, -2.0980725878707618e-06, 1241),
@@ -131,11 +131,11 @@ rules = {
     r"$\varepsilon = 10^{-4}$": lambda r: 1e-4,
     r"$\varepsilon = 32 \cdot 2^{-24}\, r$": lambda r: 32 * 2.0**-24 * r,
 }
-figure, axes = plt.subplots(figsize=(6, 3.6))
+figure, axes = plt.subplots()
 shares = {name: np.array([again(r, rule(r)) for r in radii]) for name, rule in rules.items()}
 for name, share in shares.items():
     axes.semilogx(radii, 100 * share, "o-", label=name)
-axes.set(xlabel="radius of the ball", ylabel="rays that hit it again, %", title="A convex ball, in float: the truth is 0")
+axes.set(xlabel="radius of the ball, scene units", ylabel="rays that hit it again, %", title="A convex ball, in float: the truth is 0")
 axes.legend()
 plt.show()
 
@@ -207,14 +207,14 @@ for _ in range(62):
     middle = (low + high) / 2
     low, high = (middle, high) if bounce(np.longdouble, 0.01, middle, 60)[-1] < 0 else (low, middle)
 truth, double, single = (bounce(real, 0.01, low, 40) for real in (np.longdouble, np.float64, np.float32))
-figure, axes = plt.subplots(figsize=(6, 3.6))
+figure, axes = plt.subplots()
 growth = 2 + np.sqrt(3)
 for heights, label in ((single, "float"), (double, "double")):
     n = min(len(heights), len(truth))
     axes.semilogy(range(1, n + 1), np.maximum(np.abs(heights[:n] - truth[:n]), 1e-20), "o-", label=label)
 n = np.arange(1, 30)
 axes.semilogy(n, 1e-9 * growth**n, "--", color="grey", label=r"$\times\, 3.73$ a bounce")
-axes.set(xlabel="bounce", ylabel="error of the hit point", ylim=(1e-18, 3), title="A ray between two convex mirrors")
+axes.set(xlabel="bounce", ylabel="error of the hit point, in radii", ylim=(1e-18, 3), title="A ray between two convex mirrors")
 axes.legend()
 plt.show()
 
@@ -263,28 +263,28 @@ for i in range(61):
     share.append(m[in_gap] @ t[in_gap] / power[-1])
     t = K @ t
 power = np.array(power)
-figure, axes = plt.subplots(1, 2, figsize=(9.4, 3.6))
-axes[0].semilogy(power / power[0], label="power of bounce $n$ in the scene")
+figure, axes = plots(1, 2)
+axes[0].semilogy(power / power[0], label="bounce $n$")
 n = np.arange(61)
 axes[0].semilogy(
-    n, power[12] / power[0] * without ** (n - 12), "--", color="grey", label=f"{without:.3f}$^n$: the room without the gap"
+    n, power[12] / power[0] * without ** (n - 12), "--", color="grey", label=f"{without:.3f}$^n$"
 )
 axes[0].semilogy(
     n,
     power[60] / power[0] * found.spectral_radius ** (n - 60),
     ":",
     color="grey",
-    label=rf"{found.spectral_radius:.3f}$^n$: $\lambda_1$",
+    label=f"{found.spectral_radius:.3f}$^n$",
 )
-axes[0].set(xlabel="bounce $n$", ylabel="over that of bounce 0")
-axes[0].legend(fontsize=8)
+axes[0].set(xlabel="bounce $n$", ylabel="power over that of bounce 0")
+axes[0].legend()
 axes[1].plot(n, 100 * np.array(share))
-axes[1].set(xlabel="bounce $n$", ylabel="of the power, in the gap, %")
+axes[1].set(xlabel="bounce $n$", ylabel="of it in the gap, %")
 plt.show()
 
 # %% [markdown]
-# The figure: a *stiff* room. For fifteen bounces light falls as if there were no gap; then what is left is what crept in at its
-# edges, of which 0.91 are left with each bounce.
+# The figure: a *stiff* room. Dashed is the rate of the room without the gap, dotted $\lambda_1$. For fifteen bounces light falls
+# as if there were no gap; then what is left is what crept in at its edges, of which 0.91 are left with each bounce.
 #
 # **Q4.** The ratio of bounce 12 to bounce 11 is as settled as can be. What does it promise for bounce 40? **Q5.** Two eigenvalues
 # $\pm\lambda$: what does the light in the gap do from bounce to bounce?
@@ -310,14 +310,14 @@ assert share[2] < 0.001 and share[60] > 0.95 and abs(power[60] / power[58] / fou
 # %%
 with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
-    sick = scene("glass-ball", res=128).render(bounces=4, spp=16, seed=seed)
+    sick = scene("glass-ball", res=256).render(bounces=4, spp=16, method="walk", seed=seed)
 for warning in caught:
     print(f"{warning.category.__name__}: {warning.message}\n")
 health = sick.run.health
 worst = max(health.largest_samples, key=lambda s: s.fireflies)
 sample = next(s for s in health.samples if s.number == worst.number)
 x, y = sample.pixel
-figure = pictures([sick.terms[worst.bounce], sick.sums[4]], [f"bounce {worst.bounce}", "sum"], white=2.0, size=3)
+figure = pictures([sick.terms[worst.bounce], sick.sums[4]], [f"bounce {worst.bounce}", "sum"], white=2.0)
 for axis in figure.axes:
     axis.plot(x, y, "o", ms=12, mfc="none", mec="cyan")
 plt.show()
@@ -339,7 +339,7 @@ assert any(issubclass(w.category, neumann.HealthWarning) for w in caught)
 # %%
 books = health.energy_balance.from_the_camera
 rows = np.array([[b[name].mean for name in ("absorbed", "left_the_scene", "went_on")] for b in books.bounces])
-figure, axes = plt.subplots(figsize=(6, 3.4))
+figure, axes = plt.subplots()
 below = np.zeros(len(rows))
 for column, name in enumerate(("absorbed", "left the scene", "went on")):
     axes.bar(range(1, len(rows) + 1), rows[:, column], bottom=below, label=name, width=0.6)

@@ -35,6 +35,7 @@ def run_all(root, version, cache):
     import nbformat
 
     os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # the kernel's debugger is not used, and need not say so
+    os.environ["NEUMANN_SLIDERS"] = "0"  # a page has no kernel that could move them
     done = {}
     for path in files(root):
         key = hashlib.sha256(version.encode())
@@ -92,6 +93,6 @@ def write_lesson(site, page, notebook):
         shown = "\n".join(filter(None, map(output_as_html, cell.get("outputs", []))))
         if shown:
             out.append(f'<div class="out">{shown}</div>')
-    files_line = f'<p><a href="{name}.ipynb">{name}.ipynb</a>, the notebook {what}; <a href="{source}">{name}.py</a>, the lesson as a script</p>'
+    files_line = f'<p><a href="{name}.ipynb" download>{name}.ipynb</a>, the notebook {what}; <a href="{source}" download>{name}.py</a>, the lesson as a script</p>'
     body = "\n".join(out).replace("</h1>", f"</h1>\n{files_line}", 1)
     site.write(page, body)

@@ -1,5 +1,6 @@
 """Lessons become notebooks that Jupyter can open, and the first of them runs there: jupyter.py NOTEBOOKS"""
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -33,6 +34,7 @@ with tempfile.TemporaryDirectory() as folder:
         ]
         assert [line.removeprefix("#").strip() for line in lines if line.strip(" #")] == text
 
+    os.environ["NEUMANN_SLIDERS"] = "0"  # figures and not widgets, as in the site
     notebook = notebooks["1_operators"]
     nbclient.NotebookClient(notebook, timeout=100, kernel_name="python3", resources={"metadata": {"path": str(source)}}).execute()
     outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]

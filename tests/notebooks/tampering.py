@@ -17,7 +17,7 @@ broken = {
     ),
     "an error bar that is too small": (
         "4_monte_carlo.py",
-        "B.terms_stderr = property(lambda s, f=B.terms_stderr.fget: np.zeros_like(f(s)))",
+        "B.terms_spread = property(lambda s, f=B.terms_spread.fget: np.zeros_like(f(s)))",
     ),
 }
 before = """
