@@ -7,6 +7,7 @@
 #include "apps/commands/convert_command.h"
 #include "apps/commands/export_command.h"
 #include "apps/commands/merge_command.h"
+#include "apps/commands/page_command.h"
 #include "apps/commands/plan_command.h"
 #include "apps/commands/render_command.h"
 #include "apps/commands/replay_command.h"
@@ -57,6 +58,7 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
             command(app, line, add_conform, conform_command),
             command(app, line, add_study, study_command),
             command(app, line, add_replay, replay_command),
+            command(app, line, add_page, page_command),
             command(app, line, add_stress, stress_command),
             command(app, line, add_plan, plan_command),
             command(app, line, add_convert, convert_command),

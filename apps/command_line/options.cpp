@@ -86,10 +86,10 @@ CLI::Validator whole_part() {
 }
 
 void add_files(CLI::App& command, std::vector<std::string>& files, std::string& theme) {
-    command.add_option("--files", files, "What is written beside run.json; default all of these")
-        ->type_name("pictures,tables,sheets,strips,page")
+    command.add_option("--files", files, "What is written beside run.json; default all of these but layers, which is one file of all pictures")
+        ->type_name("pictures,tables,sheets,strips,page,layers")
         ->delimiter(',')
-        ->check(CLI::IsMember(file_groups()));
+        ->check(CLI::IsMember(all_file_groups()));
     command
         .add_option("--theme", theme,
                     "What the contact sheet, the strips and the GIFs are on: dark, or white for slides and papers")

@@ -12,11 +12,12 @@ namespace neumann {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, bool ChosenFiles::*>, 5> groups{{{"pictures", &ChosenFiles::pictures},
+constexpr std::array<std::pair<const char*, bool ChosenFiles::*>, 6> groups{{{"pictures", &ChosenFiles::pictures},
                                                                              {"tables", &ChosenFiles::tables},
                                                                              {"sheets", &ChosenFiles::sheets},
                                                                              {"strips", &ChosenFiles::strips},
-                                                                             {"page", &ChosenFiles::page}}};
+                                                                             {"page", &ChosenFiles::page},
+                                                                             {"layers", &ChosenFiles::layers}}};
 
 }  // namespace
 
@@ -25,12 +26,21 @@ const std::vector<std::string>& file_groups() {
     return all;
 }
 
+const std::vector<std::string>& all_file_groups() {
+    static const std::vector<std::string> all = [] {
+        std::vector<std::string> names;
+        for (const auto& group : groups) names.emplace_back(group.first);
+        return names;
+    }();
+    return all;
+}
+
 ChosenFiles choose_files(const std::vector<std::string>& names, bool white) {
-    ChosenFiles files{false, false, false, false, false, white};
+    ChosenFiles files{false, false, false, false, false, false, white};
     for (const std::string& wanted : names) {
         const auto found = std::ranges::find(groups, wanted, [](const auto& group) { return std::string(group.first); });
         if (found == groups.end())
-            throw InputError(fmt::format("--files: {} not in {{{}}}", wanted, fmt::join(file_groups(), ",")));
+            throw InputError(fmt::format("--files: {} not in {{{}}}", wanted, fmt::join(all_file_groups(), ",")));
         files.*(found->second) = true;
     }
     return files;

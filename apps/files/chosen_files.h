@@ -12,11 +12,13 @@ struct ChosenFiles {
     bool sheets = true;    // contact-sheet.png, bounces.gif, ways.png
     bool strips = true;    // strip-terms.png …
     bool page = true;      // index.html
+    bool layers = false;   // layers.exr, on request
     bool white = false;    // sheets and strips are on white, and not on black
 };
 
-// "pictures", "tables", "sheets", "strips", "page".
+// "pictures", "tables", "sheets", "strips", "page", which are written by default; and "layers" beside them.
 const std::vector<std::string>& file_groups();
+const std::vector<std::string>& all_file_groups();
 
 // Throws InputError for a name that is not one of them.
 ChosenFiles choose_files(const std::vector<std::string>& names, bool white = false);

@@ -90,7 +90,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
     static const std::map<std::string_view, std::vector<std::string_view>> names = {
         {"any", {"run.json", "index.html"}},
         {"render",
-         {"rest.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
+         {"rest.exr", "layers.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
           "strip-terms.gif", preview_file, unfinished_render_file, samples_file, "strip-sums.png", "strip-sums.gif",
           "strip-doubling.png", "strip-doubling.gif", "strip-terms.svg", "strip-sums.svg", "strip-doubling.svg",
           "strip-mixture.png"}},
@@ -273,6 +273,14 @@ void OutputFolder::commit() {
     if (is_new(last)) put(last);
     ::fsync(descriptor_);
     created_.clear();
+}
+
+std::vector<std::string> OutputFolder::add_to_others() {
+    std::vector<std::string> names = written_;
+    std::ranges::sort(names);
+    for (const std::string& name : names) put(name);
+    ::fsync(descriptor_);
+    return names;
 }
 
 }  // namespace neumann

@@ -60,6 +60,9 @@ public:
     // has pictures but no run.json, commit() was interrupted.
     void commit();
 
+    // Puts all files in place beside those of the earlier run that is there, and returns their names in order.
+    std::vector<std::string> add_to_others();
+
     const std::filesystem::path& path() const { return path_; }
 
 private:

@@ -27,9 +27,10 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     Warnings warnings = rendering.warnings();
     PackedSeries packed(film.crop_width, film.crop_height, series.report.bounces.size() + (series.rest ? 1 : 0));
     const ChosenFiles& files = rendering.files;
-    const WrittenPictures written = write_pictures(folder, series, files, *rendering.scene, packed);
+    const ShownPictures written = write_pictures(folder, series, files, *rendering.scene, packed);
     if (!written.warning.empty()) warnings.add(written.warning);
     if (files.page && packed.factor() > 1) warnings.add(packed.reduction());
+    if (files.layers) folder.write("layers.exr", layers_exr(series, *rendering.scene));
     if (series.ways) write_ways(folder, *series.ways, files);
     const std::string convergence = convergence_table(series.convergence);
     if (files.tables) {

@@ -246,6 +246,8 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     if (!rendering.options.is_null()) json["request"] = rendering.options;
     json["scene"] = scene_json(scene, rendering.scene_file, rendering.definitions);
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
+    if (scene.film.crop_x != 0 || scene.film.crop_y != 0)
+        json["picture"].update({{"crop_x", scene.film.crop_x}, {"crop_y", scene.film.crop_y}});
     json["quantity"] = report.importance ? Json{{"name", "importance K*^i We, mean over directions"}, {"unit", "m^-2 sr^-1"}}
                                          : Json{{"name", "radiance K^i Le"}, {"unit", "W m^-2 sr^-1"}};
     json["options"] = options_json(series);
@@ -257,6 +259,8 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     json["timing"] = {
         {"sampling_seconds", series.seconds - series.setup_seconds}, {"total_seconds", seconds_total}, {"rays", series.rays}};
     if (series.setup_seconds > 0.0) json["timing"]["setup_seconds"] = series.setup_seconds;
+    json["timing"]["seconds_of_bounces"] = Json::array();
+    for (const BounceReport& b : report.bounces) json["timing"]["seconds_of_bounces"].push_back(b.seconds);
     if (rendering.processes > 1)
         json["processes"] = {
             {"count", rendering.processes}, {"messages", rendering.traffic.messages}, {"bytes", rendering.traffic.bytes}};

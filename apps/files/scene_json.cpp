@@ -12,11 +12,11 @@ nlohmann::ordered_json scene_json(const Scene& scene, const std::string& file,
     return json;
 }
 
-std::string lenient_note(const Scene& scene) {
-    if (scene.replaced.empty()) return "";
-    return fmt::format("not the scene as it is written: it was read with --lenient\n{}", fmt::join(scene.replaced, "\n"));
+std::string lenient_note(const std::vector<std::string>& replaced) {
+    if (replaced.empty()) return "";
+    return fmt::format("not the scene as it is written: it was read with --lenient\n{}", fmt::join(replaced, "\n"));
 }
 
-std::string lenient_label(const Scene& scene) { return scene.replaced.empty() ? "" : ", lenient"; }
+std::string lenient_label(const std::vector<std::string>& replaced) { return replaced.empty() ? "" : ", lenient"; }
 
 }  // namespace neumann

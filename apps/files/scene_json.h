@@ -7,6 +7,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
@@ -15,8 +16,10 @@ nlohmann::ordered_json scene_json(const Scene& scene, const std::string& file,
                                   const std::map<std::string, std::string>& definitions);
 
 // For pictures of a scene that a lenient reader changed: what their headers say, and what is appended to their labels; both are
-// empty for other scenes.
-std::string lenient_note(const Scene& scene);
-std::string lenient_label(const Scene& scene);
+// empty for other scenes. `replaced`: Scene::replaced.
+std::string lenient_note(const std::vector<std::string>& replaced);
+std::string lenient_label(const std::vector<std::string>& replaced);
+inline std::string lenient_note(const Scene& scene) { return lenient_note(scene.replaced); }
+inline std::string lenient_label(const Scene& scene) { return lenient_label(scene.replaced); }
 
 }  // namespace neumann

@@ -3,6 +3,7 @@
 #include "apps/files/rendered_picture.h"
 #include "apps/files/scene_json.h"
 #include "core/base/error.h"
+#include "core/image/exr_parts.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
@@ -37,31 +38,56 @@ std::string power(const BounceSeries& series, const std::string& n) {
     return series.report.importance ? "K*^" + n + " We" : "K^" + n + " Le";
 }
 
+Attributes of_term(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& term) {
+    return attributes_of(series, scene, power(series, "i"), i, term, series.means_of_term(i),
+                         series.report.bounces[i].infinite_variance);
+}
+
+Attributes of_sum(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum) {
+    const auto infinite = [](const BounceReport& bounce) { return bounce.infinite_variance; };
+    return attributes_of(series, scene, "sum of " + power(series, "k") + " for k <= i", i, sum, series.means_of_sum(i),
+                         std::ranges::any_of(std::span(series.report.bounces).first(i + 1), infinite));
+}
+
+Attributes of_rest(const BounceSeries& series, const Scene& scene) {
+    return attributes_of(series, scene, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1, *series.rest,
+                         *series.means_of_rest, series.report.rest_infinite_variance);
+}
+
 }  // namespace
 
 std::string term_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& term) {
-    return encode_exr(term, attributes_of(series, scene, power(series, "i"), i, term, series.means_of_term(i),
-                                          series.report.bounces[i].infinite_variance));
+    return encode_exr(term, of_term(series, scene, i, term));
 }
 
 std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum) {
-    const auto infinite = [](const BounceReport& bounce) { return bounce.infinite_variance; };
-    return encode_exr(sum,
-                      attributes_of(series, scene, "sum of " + power(series, "k") + " for k <= i", i, sum, series.means_of_sum(i),
-                                    std::ranges::any_of(std::span(series.report.bounces).first(i + 1), infinite)));
+    return encode_exr(sum, of_sum(series, scene, i, sum));
 }
 
-std::string rest_exr(const BounceSeries& series, const Scene& scene) {
-    return encode_exr(*series.rest,
-                      attributes_of(series, scene, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1,
-                                    *series.rest, *series.means_of_rest, series.report.rest_infinite_variance));
+std::string rest_exr(const BounceSeries& series, const Scene& scene) { return encode_exr(*series.rest, of_rest(series, scene)); }
+
+std::string layers_exr(const BounceSeries& series, const Scene& scene) {
+    const std::size_t bounces = series.report.bounces.size();
+    return encode_exr_parts(bounces + (series.rest ? 2 : 1), [&](std::size_t i) -> ExrPart {
+        if (i > bounces) return {"rest", *series.rest, of_rest(series, scene)};
+        if (i == bounces) {
+            PixelEstimate sum = series.sum(bounces - 1);
+            Attributes attributes = of_sum(series, scene, bounces - 1, sum);
+            return {"sum", std::move(sum), std::move(attributes)};
+        }
+        PixelEstimate term = series.term(i);
+        Attributes attributes = of_term(series, scene, i, term);
+        return {fmt::format("bounce_{:03}", i), std::move(term), std::move(attributes)};
+    });
 }
 
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files) {
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height, pictures = 2.0 * bounces + 3.0;
     const double exr = pictures * pixels * sizeof(float) * (has_discretisation ? 9.0 : 6.0);
     // index.html holds half floats; the size of the slides and of the page's code does not depend on the film.
-    return ((files.pictures ? 1.0 : 0.0) + (files.page ? 0.25 : 0.0)) * exr + 0x1p20;
+    // layers.exr has each bounce, their sum and the rest.
+    return ((files.pictures ? 1.0 : 0.0) + (files.layers ? (bounces + 3.0) / pictures : 0.0) + (files.page ? 0.25 : 0.0)) * exr +
+           0x1p20;
 }
 
 std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series, const Scene& scene) {

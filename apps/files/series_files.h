@@ -3,7 +3,7 @@
 
 #include "apps/files/chosen_files.h"
 #include "apps/files/output_folder.h"
-#include "apps/pages/packed_pictures.h"
+#include "apps/files/shown_series.h"
 #include "core/scene/scene.h"
 #include "operators/methods/bounce_series.h"
 
@@ -13,20 +13,18 @@
 
 namespace neumann {
 
-struct WrittenPictures {
-    std::string warning;    // says that labels were left out; empty otherwise
-    double exposure = 1.0;  // of the contact sheet, the strips and the flip-book
-};
-
 // Writes bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png …, and packs the pictures for
 // index.html; what is chosen of them.
-WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
-                               PackedSeries& packed);
+ShownPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
+                             PackedSeries& packed);
 
 // The contents of bounce_000.exr …, sum_000.exr … and rest.exr.
 std::string term_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& term);
 std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum);
 std::string rest_exr(const BounceSeries& series, const Scene& scene);
+
+// The contents of layers.exr: a part for each bounce, as in its own file, for their sum and for the rest.
+std::string layers_exr(const BounceSeries& series, const Scene& scene);
 
 // Approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files);

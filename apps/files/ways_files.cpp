@@ -2,8 +2,11 @@
 
 #include "apps/files/rendered_picture.h"
 #include "apps/sheets/contact_sheet.h"
+#include "core/image/in_file.h"
 
 #include <fmt/format.h>
+
+#include <deque>
 
 namespace neumann {
 
@@ -11,6 +14,17 @@ namespace {
 
 std::string file_of(const Way& way, bool weighted) {
     return fmt::format("way_s{}_t{}{}.exr", way.s, way.t, weighted ? "" : "_unweighted");
+}
+
+std::string label_of(const Way& way) { return fmt::format("s = {}, t = {}", way.s, way.t); }
+
+void write_sheet(OutputFolder& folder, int bounce, const std::vector<LabelledPicture>& weighted,
+                 const std::vector<LabelledPicture>& unweighted) {
+    Image sum = *weighted.front().picture;
+    for (std::size_t i = 1; i < weighted.size(); ++i)
+        for (std::size_t k = 0; k < sum.pixels.size(); ++k) sum.pixels[k] += weighted[i].picture->pixels[k];
+    folder.write("ways.png", contact_sheet(weighted, unweighted, exposure_for(sum, sum), find_label_font(),
+                                           {fmt::format("bounce {} by each way, weighted", bounce), "each by itself, unweighted"}));
 }
 
 std::string with_interval(const WayPicture& p) {
@@ -22,6 +36,7 @@ std::string with_interval(const WayPicture& p) {
 
 void write_ways(OutputFolder& folder, const Ways& ways, const ChosenFiles& files) {
     std::vector<LabelledPicture> weighted, unweighted;
+    std::deque<Image> means;
     for (const Way& way : ways.ways)
         for (const bool is_weighted : {true, false}) {
             const WayPicture& p = is_weighted ? way.weighted : way.unweighted;
@@ -35,15 +50,24 @@ void write_ways(OutputFolder& folder, const Ways& ways, const ChosenFiles& files
                 {"neumann:pixels", std::string("correlated: their errors go together")}};
             attributes.merge(mean_attributes(p.means));
             if (files.pictures) folder.write(file_of(way, is_weighted), encode_exr(p.picture, attributes));
-            (is_weighted ? weighted : unweighted).push_back({fmt::format("s = {}, t = {}", way.s, way.t), &p.picture.mean});
+            (is_weighted ? weighted : unweighted).push_back({label_of(way), &means.emplace_back(as_in_file(p.picture).mean)});
         }
-    if (!files.sheets) return;
-    Image sum = ways.ways.front().weighted.picture.mean;
-    for (std::size_t i = 1; i < ways.ways.size(); ++i)
-        for (std::size_t k = 0; k < sum.pixels.size(); ++k) sum.pixels[k] += ways.ways[i].weighted.picture.mean.pixels[k];
-    folder.write("ways.png",
-                 contact_sheet(weighted, unweighted, exposure_for(sum, sum), find_label_font(),
-                               {fmt::format("bounce {} by each way, weighted", ways.bounce), "each by itself, unweighted"}));
+    if (files.sheets) write_sheet(folder, ways.bounce, weighted, unweighted);
+}
+
+void write_sheet_of_ways(OutputFolder& folder, const RenderedFolder& rendered) {
+    const auto ways = rendered.run().find("ways");
+    if (ways == rendered.run().end()) return;
+    std::vector<LabelledPicture> weighted, unweighted;
+    std::deque<Image> means;
+    for (const auto& of : ways->at("ways")) {
+        const Way way{of.at("s"), of.at("t"), {}, {}};
+        for (const bool is_weighted : {true, false}) {
+            Image& mean = means.emplace_back(rendered.picture(file_of(way, is_weighted)).mean);
+            (is_weighted ? weighted : unweighted).push_back({label_of(way), &mean});
+        }
+    }
+    write_sheet(folder, ways->at("bounce"), weighted, unweighted);
 }
 
 std::string ways_table(const Ways& ways) {

@@ -1,143 +1,42 @@
-#include "apps/files/jobs.h"
-#include "apps/files/rendered_picture.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
-#include "apps/sheets/contact_sheet.h"
-#include "apps/sheets/flip_book.h"
-#include "apps/sheets/strip_svg.h"
-#include "apps/sheets/strips.h"
-#include "core/image/image_io.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
+#include "apps/files/shown_series.h"
+#include "core/image/in_file.h"
 
 namespace neumann {
 
-namespace {
-
-using Jobs = std::vector<std::function<void()>>;
-
-// What is in hand for a picture that is written: its estimates in double, their floats, the file.
-constexpr double bytes_a_pixel = 200.0, bytes_in_hand = 0x1p31;
-constexpr std::size_t most_in_hand = 64;
-
-std::size_t pictures_at_once(const Film& film) {
-    const double bytes = bytes_a_pixel * film.crop_width * film.crop_height;
-    return static_cast<std::size_t>(std::clamp(bytes_in_hand / bytes, 1.0, double{most_in_hand}));
-}
-
-// The means of all pictures: the terms, with the rest as the last, and the sums.
-struct Means {
-    std::vector<Image> terms, sums;
-};
-
-// Each picture is estimated once, for its file, for the page and for the sheets.
-Means write_estimates(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
-                      PackedSeries& packed) {
-    const std::size_t bounces = series.report.bounces.size();
-    Means means{std::vector<Image>(bounces + (series.rest ? 1 : 0)), std::vector<Image>(bounces)};
-    Jobs jobs;
-    for (std::size_t i = 0; i < bounces; ++i)
-        jobs.emplace_back([&, i] {
-            {
-                PixelEstimate term = series.term(i);
-                if (files.pictures) folder.write(bounce_file(i), term_exr(series, scene, i, term));
-                if (files.page) packed.add_term(i, term);
-                means.terms[i] = std::move(term.mean);
-            }
-            {
-                PixelEstimate sum = series.sum(i);
-                if (files.pictures) folder.write(sum_file(i), sum_exr(series, scene, i, sum));
-                if (files.page) packed.add_sum(i, sum);
-                means.sums[i] = std::move(sum.mean);
-            }
-        });
-    if (series.rest)
-        jobs.emplace_back([&] {
-            if (files.pictures) folder.write("rest.exr", rest_exr(series, scene));
-            means.terms.back() = series.rest->mean;
-            if (files.page) packed.add_term(bounces, *series.rest);
-        });
-    run_jobs(jobs, pictures_at_once(scene.film));
-    if (files.page) packed.pack();
-    return means;
-}
-
-}  // namespace
-
-WrittenPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
-                               PackedSeries& packed) {
-    const SeriesReport& report = series.report;
-    const std::size_t N = report.bounces.size() - 1;
+ShownPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
+                             PackedSeries& packed) {
     if (!files.pictures && !files.page && !files.sheets && !files.strips) return {};
-    const auto [terms, sums] = write_estimates(folder, series, files, scene, packed);
-
-    const std::string lenient = lenient_label(scene), note = lenient_note(scene);
-    const std::string kind = (report.importance ? ", importance" : series.paths == Paths::all ? "" : ", some paths") + lenient;
-    std::vector<std::string> term_names;
-    std::vector<LabelledPicture> term_pictures, sum_pictures;
-    for (std::size_t i = 0; i < terms.size(); ++i)
-        term_names.push_back((i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + kind, &sums[i]});
-    // For importance all visible surfaces are "emitters", so the sum is used.
-    const Image& emission = report.importance ? sums.back() : terms.front();
-    const double exposure = exposure_for(sums.back(), emission);
-    if (!files.sheets && !files.strips) return {"", exposure};
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-        const double factor = brightening(terms[i], emission, exposure);
-        term_pictures.push_back({term_names[i] + (factor == 1.0 ? "" : fmt::format(" ×{:.6g}", factor)), &terms[i], factor});
-    }
-
-    Image limit = sums.back();
-    for (std::size_t p = 0; series.rest && p < limit.pixels.size(); ++p) limit.pixels[p] += series.rest->mean.pixels[p];
-    const SeriesPictures pictures{std::span(terms).first(N + 1),
-                                  sums,
-                                  series.rest ? &terms.back() : nullptr,
-                                  series.rest ? &limit : nullptr,
-                                  report.importance ? "K*" : "K",
-                                  report.importance ? "We" : "Le",
-                                  (series.paths == Paths::all ? "" : ", some paths") + lenient};
-    const Strip of_terms = strip_of_terms(pictures, emission, exposure), of_sums = strip_of_sums(pictures),
-                doubling = strip_of_doubling(pictures);
-    const SheetStyle style(find_label_font(), files.white ? white_theme : dark_theme);
-    Jobs jobs;
-    const auto add = [&](const std::string& name, const std::function<std::string()>& make) {
-        jobs.emplace_back([&folder, name, make] { folder.write(name, make()); });
-    };
-    jobs.emplace_back([&] {
-        const FlipBook book(pictures.all(), exposure, style);
-        if (files.sheets) folder.write("bounces.gif", book.gif());
-        if (!files.strips) return;
-        folder.write("strip-sums.gif", book.gif(of_sums.front()));
-        if (!doubling.empty()) folder.write("strip-doubling.gif", book.gif(doubling.front()));
-    });
-    if (files.sheets)
-        add("contact-sheet.png", [&] { return contact_sheet(term_pictures, sum_pictures, exposure, style, {.comment = note}); });
-    if (files.strips) {
-        add("strip-terms.gif", [&] { return strip_gif(of_terms, exposure, style); });
-        add("strip-terms.png", [&] { return strip_png(of_terms, exposure, style, note); });
-        add("strip-sums.png", [&] { return strip_png(of_sums, exposure, style, note); });
-        add("strip-terms.svg", [&] { return strip_svg(of_terms, exposure, style.theme, note); });
-        add("strip-sums.svg", [&] { return strip_svg(of_sums, exposure, style.theme, note); });
-        if (!doubling.empty()) {
-            add("strip-doubling.png", [&] { return strip_png(doubling, exposure, style, note); });
-            add("strip-doubling.svg", [&] { return strip_svg(doubling, exposure, style.theme, note); });
+    const std::size_t bounces = series.report.bounces.size();
+    const auto* paths = std::get_if<PathRecord>(&series.record);
+    ShownSeries shown{bounces,
+                      series.rest.has_value(),
+                      series.report.importance,
+                      series.paths != Paths::all,
+                      scene.film.crop_width,
+                      scene.film.crop_height,
+                      lenient_label(scene),
+                      lenient_note(scene),
+                      paths ? paths->mixture.get() : nullptr,
+                      {},
+                      {}};
+    // Each picture is estimated once, for its file and for what is shown.
+    shown.term = [&](std::size_t i) {
+        if (i == bounces) {
+            if (files.pictures) folder.write("rest.exr", rest_exr(series, scene));
+            return as_in_file(*series.rest);
         }
-    }
-    std::vector<Image> maps;
-    Strip of_mixture;
-    if (const auto* paths = std::get_if<PathRecord>(&series.record); files.strips && paths && paths->mixture) {
-        of_mixture = strip_of_mixture(*paths->mixture, maps);
-        add("strip-mixture.png", [&] { return strip_png(of_mixture, 1.0, style, note); });
-    }
-    run_jobs(jobs, jobs.size());
-    return {style.font
-                ? ""
-                : "no font for labels was found (DejaVu Sans, Debian's fonts-dejavu-core): contact-sheet.png, the strips and "
-                  "bounces.gif are unlabelled",
-            exposure};
+        PixelEstimate term = series.term(i);
+        if (files.pictures) folder.write(bounce_file(i), term_exr(series, scene, i, term));
+        return as_in_file(std::move(term));
+    };
+    shown.sum = [&](std::size_t i) {
+        PixelEstimate sum = series.sum(i);
+        if (files.pictures) folder.write(sum_file(i), sum_exr(series, scene, i, sum));
+        return as_in_file(std::move(sum));
+    };
+    return show_series(folder, shown, files, packed);
 }
 
 }  // namespace neumann

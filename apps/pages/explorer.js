@@ -4,7 +4,7 @@
 // Plots.
 const goTo = i => { stop(); set({ i: Math.round(i) }); };
 const last = Math.max(...all.map(s => s.last)), anyRest = all.some(s => s.hasRest);
-const radiance = `${first.importance ? "importance" : "radiance"} / ${first.unit}`;
+const radiance = radianceOf(first);
 const placeOfBounce = () => state.i > series().last ? last + 1 : state.i;
 const energyPlot = plot("energy", bounceAxis(last, anyRest), `mean ${radiance}`, [here(placeOfBounce), intervals(() => true)], goTo);
 const pixelPlot = plot("pixel", bounceAxis(last, anyRest), radiance, [here(placeOfBounce), intervals(() => true)], goTo);
@@ -76,8 +76,8 @@ const draw = () => {
   drawHistogram();
   drawSlide();
   placeSheet();
-  const key = JSON.stringify([state.i, state.sum, state.run, state.pixel, all.map(s => Object.keys(s.planes).length)]);
-  if (drawn.plots !== key) { drawn.plots = key; drawPlots(); }
+  const key = JSON.stringify([state.i, state.sum, state.run, state.pixel, state.path, state.asking, all.map(s => Object.keys(s.planes).length)]);
+  if (drawn.plots !== key) { drawn.plots = key; drawPlots(); drawPaths(); }
 };
 let asked = false;
 const redraw = () => {
@@ -140,6 +140,9 @@ const keys = [
   ["d", "dark or white slides", ["d"], () => { if (state.slide) set({ slide: state.slide === "dark" ? "white" : "dark" }); }],
   ["a", "a rectangle from the chosen pixel on, by the arrow keys, until a is pressed again; with the mouse, Shift and a drag", ["a"], spanRect],
   ["Esc", "leave the slides, or let go of the chosen pixel and the rectangle", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null, rect: null, corner: null, picking: false }); }],
+  ...(all.some(pathsOf) ? [["j  k", "the next path of the pixel, the one before", ["j", "k"], key => stepPath(key === "j" ? 1 : -1)],
+    ["o", "paths over the picture", ["o"], () => set({ pathShown: !state.pathShown })],
+    ["h", "rays that ask for light", ["h"], () => set({ asking: !state.asking })]] : []),
   ["i", "save the picture as PNG", ["i"], () => savePicture()],
   ["y", "copy the values of the chosen pixel", ["y"], () => copyPixel()],
   ["?", "these keys", ["?"], () => $("help").showModal()]];

@@ -33,6 +33,9 @@ const addressed = {
   wipe: ["wipe", Number, flag],
   edge: ["edge", v => +v.toFixed(3), within(0, 1)],
   b: ["other", String, chosen("other")],
+  path: ["path", String, text => /^\d+$/.test(text) ? text : undefined],
+  asking: ["asking", Number, flag],
+  paths: ["pathShown", Number, flag],
   slide: ["slide", String, oneOf(() => ["dark", "white"])]
 };
 const beginning = { ...state };

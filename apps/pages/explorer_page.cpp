@@ -48,6 +48,7 @@ std::string explorer_page(const std::vector<const ExploredRun*>& runs, const Jso
         packed["heads"] = heads;
         all["runs"].push_back(
             {{"run", run.run}, {"convergence", run.convergence}, {"decay", decay(run.run)}, {"pictures", packed}});
+        if (!run.paths.is_null()) all["runs"].back()["paths"] = run.paths;
     }
     const std::string data = fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n", for_script(all));
     pictures.insert(pictures.begin(), data);

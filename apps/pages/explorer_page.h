@@ -14,6 +14,7 @@ struct ExploredRun {
     double exposure = 1.0;       // initial exposure of the page
     PackedSeries pictures;       // packed: bounces 0 … N, and the rest if `has_rest`
     bool has_rest = false;
+    nlohmann::ordered_json paths = nullptr;  // of some pixels (paths_json.h)
 };
 
 // `runs`: one run, or A and B; `comparison`: for two runs, the output of `neumann compare --json`.

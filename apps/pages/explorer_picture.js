@@ -85,6 +85,7 @@ const placeSheet = () => {
   const r = state.rect;
   $("rect").hidden = !r;
   if (r) Object.assign($("rect").style, { left: `${state.left + r.x0 * side}px`, top: `${state.top + r.y0 * side}px`, width: `${(r.x1 - r.x0 + 1) * side}px`, height: `${(r.y1 - r.y0 + 1) * side}px` });
+  drawOnPicture();
   keepAddress();
   $("zoom-text").textContent = `1 pixel on ${number(state.fitScale * state.zoom * devicePixelRatio, 2)}`;
 };

@@ -18,6 +18,7 @@ const here = at => ({
     ctx.restore();
   }
 });
+const radianceOf = s => `${s.importance ? "importance" : "radiance"} / ${s.unit}`;
 const positive = p => p.y > 0 && Number.isFinite(p.y);
 // `all` is for the CSV: a logarithmic axis has no place for zero and less.
 const line = (label, all, colour, more = {}) => ({ label, all, data: all.filter(positive), showLine: true, borderColor: colour, backgroundColor: colour, borderWidth: 1.6, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });

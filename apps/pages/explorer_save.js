@@ -41,7 +41,8 @@ const copyPixel = async () => {
   }
 };
 
-for (const [id, chart, what] of [["energy", energyPlot, "energy of each bounce"], ["pixel", pixelPlot, "the chosen pixel"], ["error", errorPlot, "error against time"]]) {
+for (const [id, chart, what] of [["energy", energyPlot, "energy of each bounce"], ["pixel", pixelPlot, "the chosen pixel"], ["error", errorPlot, "error against time"],
+                               ["history", historyPlot, "the pixel against samples"], ["pixel-error", pixelErrorPlot, "the pixel's error against samples"]]) {
   const row = element("div", undefined, "line saves"), name = `${id}-plot`;
   row.append(...savingPlot(name, what, () => svgPlot(chart), () => csvPlot(chart)));
   $(id).parentElement.after(row);
@@ -51,4 +52,7 @@ for (const [id, chart, what] of [["energy", energyPlot, "energy of each bounce"]
     row.append(button("Copy values", "Copy the values of the chosen pixel", copyPixel), copied);
   }
 }
+const pathSaves = element("div", undefined, "line saves");
+pathSaves.append(...savingPlot("path", "the path from above", planText, () => csvOf([rayHead, ...shownPath().rays.map(rayCells)])));
+$("plan").after(pathSaves);
 $("save-picture").onclick = savePicture;

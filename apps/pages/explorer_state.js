@@ -11,6 +11,7 @@ const state = {
   rect: null,  // { x0, y0, x1, y1 }, all within
   picking: false, corner: null,  // a drag makes a rectangle; the arrow keys do, from this corner
   zoom: 1, left: 0, top: 0,  // of the picture in the stage, in CSS pixels
+  path: "", asking: true, pathShown: true,  // the sample whose path is shown; "": the largest
   slide: "",  // dark or white
   wipe: all.length > 1, edge: .5, other: all.length > 1 ? "run" : "next"
 };

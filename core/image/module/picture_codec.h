@@ -1,6 +1,7 @@
 // What the modules of pictures offer: the functions of image_io.h.
 #pragma once
 
+#include "core/image/exr_parts.h"
 #include "core/image/image_io.h"
 
 namespace neumann {
@@ -15,6 +16,7 @@ struct PictureReader {
 
 struct PictureWriter {
     decltype(&neumann::encode_exr) encode_exr;
+    decltype(&neumann::encode_exr_parts) encode_exr_parts;
     decltype(&neumann::encode_png) encode_png;
     decltype(&neumann::encode_gif) encode_gif;
     decltype(&neumann::find_label_font) find_label_font;

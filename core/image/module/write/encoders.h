@@ -2,11 +2,13 @@
 // reads, they load in some milliseconds.
 #pragma once
 
+#include "core/image/exr_parts.h"
 #include "core/image/image_io.h"
 
 namespace neumann::encoders {
 
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes);
+std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part);
 std::string encode_png(const DisplayImage& picture, const std::string& comment);
 std::string encode_gif(const DisplayImage& picture);
 std::optional<std::string> find_label_font();

@@ -9,7 +9,10 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfIntAttribute.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStringAttribute.h>
 
 #include <fmt/format.h>
@@ -82,47 +85,101 @@ void set_attribute(Imf::Header& header, const std::string& name, const Attribute
     }
 }
 
-}  // namespace
-
-// By run lengths: most bits of a picture with errors are noise, so that zip makes 0.78 of it and run lengths 0.81, in a tenth of
-// the time.
-std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
-    std::vector<Layer> layers{{"", &picture.mean}};
-    const Image raised = picture.least_error.pixels.empty() ? Image() : picture.pixel_errors();
-    const bool is_raised = !raised.pixels.empty() && raised.pixels != picture.standard_error.pixels;
-    if (!picture.standard_error.pixels.empty()) layers.push_back({"stderr.", is_raised ? &raised : &picture.standard_error});
-    if (is_raised) layers.push_back({"spread.", &picture.standard_error});
-    if (!picture.discretisation.pixels.empty()) layers.push_back({"discretisation.", &picture.discretisation});
-    const int width = picture.mean.width, height = picture.mean.height;
-    Imf::Header header(std::max(1, width), std::max(1, height));
-    header.compression() = Imf::RLE_COMPRESSION;
-    for (const auto& [name, value] : attributes) set_attribute(header, name, value);
-
-    for (const Layer& layer : layers) {
-        if (layer.image->pixels.empty() || layer.image->width != width || layer.image->height != height)
-            throw std::invalid_argument("encode_exr: an empty picture, or errors of another size");
-        for (int c = 0; c < 3; ++c) header.channels().insert(channel(layer, c), Imf::Channel(Imf::FLOAT));
+// The channels of a picture, and its header. Refers to the picture.
+class Encoded {
+public:
+    Encoded(const PixelEstimate& picture, const Attributes& attributes)
+        : width(picture.mean.width), height(picture.mean.height), header(std::max(1, width), std::max(1, height)) {
+        if (!picture.least_error.pixels.empty()) raised_ = picture.pixel_errors();
+        const bool is_raised = !raised_.pixels.empty() && raised_.pixels != picture.standard_error.pixels;
+        layers_.push_back({"", &picture.mean});
+        if (!picture.standard_error.pixels.empty()) layers_.push_back({"stderr.", is_raised ? &raised_ : &picture.standard_error});
+        if (is_raised) layers_.push_back({"spread.", &picture.standard_error});
+        if (!picture.discretisation.pixels.empty()) layers_.push_back({"discretisation.", &picture.discretisation});
+        // By run lengths: most bits of a picture with errors are noise, so that zip makes 0.78 of it and run lengths 0.81, in a
+        // tenth of the time.
+        header.compression() = Imf::RLE_COMPRESSION;
+        for (const auto& [name, value] : attributes) set_attribute(header, name, value);
+        for (const Layer& layer : layers_) {
+            if (layer.image->pixels.empty() || layer.image->width != width || layer.image->height != height)
+                throw std::invalid_argument("encode_exr: an empty picture, or errors of another size");
+            for (int c = 0; c < 3; ++c) header.channels().insert(channel(layer, c), Imf::Channel(Imf::FLOAT));
+        }
     }
+    Encoded(const Encoded&) = delete;
+    Encoded& operator=(const Encoded&) = delete;
+
+    std::size_t bytes() const {
+        return 3 * layers_.size() * layers_.front().image->pixels.size() * sizeof(float) + 16 * static_cast<std::size_t>(height) +
+               0x4000;
+    }
+    // Into an Imf::OutputFile, or a part of a file.
+    template <class File>
+    void write(File& file) const {
+        constexpr int rows_at_once = 16;  // as floats, they stay in the cache
+        std::vector<float> values(3 * layers_.size() * rows_at_once * static_cast<std::size_t>(width));
+        for (int y = 0; y < height; y += rows_at_once) {
+            const int rows = std::min(rows_at_once, height - y);
+            file.setFrameBuffer(floats(layers_, y, rows, values.data()));
+            file.writePixels(rows);
+        }
+    }
+
+    const int width, height;
+    Imf::Header header;
+
+private:
+    Image raised_;
+    std::vector<Layer> layers_;
+};
+
+// write(memory) in memory; OpenEXR's exceptions become RunError.
+template <class Write>
+std::string written(int width, int height, const Write& write) {
     try {
         Memory memory;
-        memory.reserve(3 * layers.size() * picture.mean.pixels.size() * sizeof(float) + 16 * static_cast<std::size_t>(height) +
-                       0x4000);
-        {
-            Imf::OutputFile file(memory, header, 0);
-            constexpr int rows_at_once = 16;  // as floats, they stay in the cache
-            std::vector<float> values(3 * layers.size() * rows_at_once * static_cast<std::size_t>(width));
-            for (int y = 0; y < height; y += rows_at_once) {
-                const int rows = std::min(rows_at_once, height - y);
-                file.setFrameBuffer(floats(layers, y, rows, values.data()));
-                file.writePixels(rows);
-            }
-        }
+        write(memory);
         return memory.take();
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
         throw RunError(fmt::format("OpenEXR cannot write a picture of {}×{}: {}", width, height, error.what()));
     }
+}
+
+}  // namespace
+
+std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
+    const Encoded encoded(picture, attributes);
+    return written(encoded.width, encoded.height, [&](Memory& memory) {
+        memory.reserve(encoded.bytes());
+        Imf::OutputFile file(memory, encoded.header, 0);
+        encoded.write(file);
+    });
+}
+
+std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part) {
+    std::vector<Imf::Header> headers;
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ExrPart of = part(i);
+        const Encoded encoded(of.picture, of.attributes);
+        headers.push_back(encoded.header);
+        headers.back().setName(of.name);
+        headers.back().setType(Imf::SCANLINEIMAGE);
+        bytes += encoded.bytes();
+    }
+    if (headers.empty()) throw std::invalid_argument("encode_exr_parts: no pictures");
+    const Imath::Box2i window = headers.front().dataWindow();
+    return written(window.max.x + 1, window.max.y + 1, [&](Memory& memory) {
+        memory.reserve(bytes);
+        Imf::MultiPartOutputFile file(memory, headers.data(), static_cast<int>(count), false, 0);
+        for (std::size_t i = 0; i < count; ++i) {
+            const ExrPart of = part(i);
+            Imf::OutputPart out(file, static_cast<int>(i));
+            Encoded(of.picture, of.attributes).write(out);
+        }
+    });
 }
 
 }  // namespace neumann::encoders

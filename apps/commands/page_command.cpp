@@ -1,0 +1,99 @@
+#include "apps/commands/page_command.h"
+
+#include "apps/commands/limits.h"
+#include "apps/files/rendered_folder.h"
+#include "apps/files/series_files.h"
+#include "apps/files/ways_files.h"
+#include "apps/pages/explorer_page.h"
+#include "apps/pages/paths_json.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+
+namespace neumann {
+
+namespace {
+
+std::string theme_of(const RenderedFolder& rendered) {
+    const auto request = rendered.run().find("request");
+    if (request == rendered.run().end() || !request->contains("--theme")) return "dark";
+    return request->at("--theme").at(0).get<std::string>();
+}
+
+ChosenPixels chosen_pixels(const std::vector<std::string>& texts) {
+    ChosenPixels chosen;
+    for (const std::string& text : texts) {
+        if (text == "named") {
+            chosen.named = true;
+            continue;
+        }
+        const char* const end = text.data() + text.size();
+        int x = 0, y = 0;
+        const auto [comma, no_x] = std::from_chars(text.data(), end, x);
+        const bool has_comma = no_x == std::errc() && comma != end && *comma == ',';
+        const auto [rest, no_y] = has_comma ? std::from_chars(comma + 1, end, y) : std::from_chars_result{comma, no_x};
+        if (!has_comma || no_y != std::errc() || rest != end)
+            throw InputError(fmt::format("--paths {}: expected a pixel, as 19,160, or the word named", text));
+        chosen.pixels.emplace_back(x, y);
+    }
+    return chosen;
+}
+
+nlohmann::ordered_json paths_of(const PageRequest& request) {
+    if (request.paths.empty()) return nullptr;
+    const ChosenPixels chosen = chosen_pixels(request.paths);
+    const RecordedRun run = read_recorded_run(request.folder);
+    return paths_json(run, read_scene_of(run), chosen);
+}
+
+}  // namespace
+
+const std::vector<std::string>& page_file_groups() {
+    static const std::vector<std::string> all{"tables", "sheets", "strips", "page"};
+    return all;
+}
+
+int page_command(const PageRequest& request) {
+    const ThreadLimit threads(request.threads);
+    const RenderedFolder rendered(request.folder);
+    ChosenFiles files = choose_files(request.files);
+    files.white = (request.theme.empty() ? theme_of(rendered) : request.theme) == "white";
+    if (!request.paths.empty() && !files.page) throw InputError("--paths: are for the page; expected page among --files");
+    const auto paths = paths_of(request);
+
+    OutputFolder folder(request.folder, "render");
+    std::vector<std::string> notes;
+    PackedSeries packed(rendered.size().width, rendered.size().height, rendered.pictures());
+    ShownPictures shown;
+    if (files.page || files.sheets || files.strips) shown = show_series(folder, rendered.series(), files, packed);
+    if (!shown.warning.empty()) notes.push_back(shown.warning);
+    if (files.strips && rendered.run().at("samples").contains("mixture"))
+        notes.emplace_back("strip-mixture.png stays as it is: no file has the weights that it shows");
+    if (files.sheets) write_sheet_of_ways(folder, rendered);
+    const auto convergence = rendered.text("convergence.csv");
+    if (files.tables) {
+        if (const auto report = rendered.report())
+            folder.write("series.csv", series_table(*report));
+        else
+            notes.emplace_back("series.csv stays as it is: run.json, of an earlier version, does not hold all of it");
+    }
+    if (!convergence && (files.page || files.tables))
+        notes.push_back(fmt::format("there is no convergence.csv, which nothing else holds{}",
+                                    files.page ? ": the page shows no errors against time" : ""));
+    if (files.page) {
+        if (packed.factor() > 1) notes.push_back(packed.reduction());
+        const ExploredRun explored{rendered.run(), convergence.value_or(""), shown.exposure, std::move(packed), rendered.has_rest(),
+                                   paths};
+        folder.write("index.html", explorer_page({&explored}));
+    }
+    const std::vector<std::string> written = folder.add_to_others();
+    if (request.quiet) return 0;
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    fmt::print("New in {}: {}\n", request.folder, fmt::join(written, ", "));
+    return 0;
+}
+
+}  // namespace neumann

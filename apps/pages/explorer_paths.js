@@ -1,0 +1,167 @@
+"use strict";
+// The paths of the chosen pixel: over the picture, from above, as a table; and how the pixel's mean came about.
+
+const pathsOf = s => data.runs[s.index].paths;
+const pathsOfPixel = () => state.pixel && pathsOf(series())?.pixels.find(({ picture: [x, y] }) =>
+  Math.floor(x / first.factor) === state.pixel.x && Math.floor(y / first.factor) === state.pixel.y);
+const shownPath = () => {
+  const all = pathsOfPixel()?.paths;
+  return all && (all.find(p => String(p.sample) === state.path) ?? mostOf(all));
+};
+const mostOf = paths => paths.reduce((a, b) => (b.part ?? 0) > (a.part ?? 0) ? b : a);
+// Rays that ask for light are not all wanted; the numbers are those of the table.
+const shownRays = path => path.rays.map((ray, k) => ({ ...ray, number: k + 1 })).filter(ray => state.asking || ray.kind !== "asks");
+
+const svg = (tag, attributes = {}, text) => {
+  const e = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
+  if (text !== undefined) e.textContent = text;
+  return e;
+};
+// A ray in two strokes, so that it is seen on dark and on bright pictures. `a`, `b`: its ends, pixels of the drawing.
+const stroke = (ray, [x1, y1, x2, y2], hidden) => {
+  const kind = `ray ${ray.of_light ? "of-light" : "of-camera"} ${ray.kind === "asks" ? "asks" : "goes"}${hidden ? " hidden-part" : ""}${ray.kind === "asks" && !ray.found ? " blocked" : ""}`;
+  return ["edge", "ink"].map(part => svg("line", { x1, y1, x2, y2, class: `${kind} ${part}`, "data-ray": ray.number }));
+};
+const numberAt = (ray, x, y) => [svg("circle", { cx: x, cy: y, r: 3, class: "vertex" }), svg("text", { x: x + 5, y: y - 5, class: "vertex-number" }, ray.number)];
+const isVertex = ray => ray.kind !== "asks" && ray.found && !ray.leaves;
+
+// Over the picture, in pixels of the screen: lines keep their width at any zoom.
+const drawOnPicture = () => {
+  const path = state.pathShown && shownPath(), box = $("rays"), side = state.fitScale * state.zoom / first.factor;
+  box.toggleAttribute("hidden", !path || !!state.slide);
+  if (!path) return;
+  const across = x => state.left + x * side, down = y => state.top + y * side, lines = [], marks = [];
+  for (const ray of shownRays(path)) {
+    for (const [x1, y1, x2, y2, hidden] of ray.film ?? []) lines.push(...stroke(ray, [across(x1), down(y1), across(x2), down(y2)].map(v => Math.max(-1e5, Math.min(1e5, v))), hidden));
+    const end = ray.film?.at(-1);
+    if (isVertex(ray) && end) marks.push(...numberAt(ray, across(end[2]), down(end[3])));
+    // The first ray is a point in the picture: the pixel itself.
+    if (isVertex(ray) && !ray.film) marks.push(...numberAt(ray, across(pathsOfPixel().picture[0] + .5), down(pathsOfPixel().picture[1] + .5)));
+  }
+  box.replaceChildren(...lines, ...marks);
+};
+
+// From above. What leaves the scene is cut off at the edge of the drawing.
+const planSize = 480;
+const planFrame = (outline, rays) => {
+  const xs = [], ys = [];
+  const add = ([x1, y1, x2, y2]) => { xs.push(x1, x2); ys.push(y1, y2); };
+  for (const line of outline) add(line);
+  for (const ray of rays) if (ray.above && !ray.leaves) add(ray.above);
+  const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)], size = Math.max(right - left, bottom - top) || 1;
+  const scale = (planSize - 40) / size, width = Math.max(120, (right - left) * scale + 40), height = Math.max(120, (bottom - top) * scale + 40);
+  return { width, height, place: ([x1, y1, x2, y2]) => [width / 2 + (x1 - (left + right) / 2) * scale, height / 2 + (y1 - (top + bottom) / 2) * scale,
+                                                         width / 2 + (x2 - (left + right) / 2) * scale, height / 2 + (y2 - (top + bottom) / 2) * scale] };
+};
+const drawPlan = path => {
+  const { outline, seen_along } = pathsOf(series()), rays = shownRays(path), { width, height, place } = planFrame(outline, rays), lines = [], marks = [];
+  for (const [x1, y1, x2, y2] of outline.map(place)) lines.push(svg("line", { x1, y1, x2, y2, class: "outline" }));
+  for (const ray of rays) {
+    if (!ray.above) continue;
+    const [x1, y1, x2, y2] = place(ray.above);
+    lines.push(...stroke(ray, [x1, y1, x2, y2], false));
+    if (isVertex(ray)) marks.push(...numberAt(ray, x2, y2));
+    if (ray.kind === "first") marks.push(svg("text", { x: x1 + 5, y: y1 + 12, class: "vertex-number" }, ray.of_light ? "light" : "camera"));
+  }
+  $("plan").setAttribute("viewBox", `0 0 ${width} ${height}`);
+  $("plan").replaceChildren(...lines, ...marks);
+  $("plan-note").textContent = `From above, along ${seen_along}; what the camera looks at lies up. Paths from the camera are orange, those from a light blue; thin lines ask for light, and are dotted where something hides it. Over the picture what is hidden from the camera is dashed, and what lies behind it is left out.`;
+};
+
+// The table: a row a ray.
+const sizeOf = rgb => rgb.every(Number.isFinite) ? number(luminance(...rgb)) : "not finite";
+const shapeName = meets => meets.shape.split(",")[0];
+const bounceName = i => i > series().last ? "rest" : `bounce ${i}`;
+const rayCells = (ray, k) => [String(k + 1), ray.ray, ray.meets ? shapeName(ray.meets) : ray.kind === "asks" ? (ray.found ? "nothing is in between" : "hidden, or nothing is there") : "nothing",
+  ray.throughput ? sizeOf(ray.throughput) : ray.power ? sizeOf(ray.power) : "", ray.pdf === undefined ? "" : ray.pdf === "delta" ? "the only direction" : number(ray.pdf),
+  (ray.brings ?? []).map(b => `${bounceName(b.bounce)}: ${sizeOf(b.value)}${b.film ? ` at ${number(b.film[0], 4)}, ${number(b.film[1], 4)}` : ""}`).join("; ")];
+const rayHead = ["", "ray", "meets", "throughput or power", "pdf / sr⁻¹", "brings"];
+const drawPathTable = path => {
+  const rows = path.rays.map(rayCells), made = table(rayHead, rows, [1, 2, 5]);
+  path.rays.forEach((ray, k) => {
+    const row = made.rows[k + 1], mark = on => document.querySelectorAll(`[data-ray="${k + 1}"]`).forEach(line => line.classList.toggle("chosen", on));
+    row.onmouseenter = () => mark(true);
+    row.onmouseleave = () => mark(false);
+  });
+  $("path-table").replaceChildren(made);
+  const lit = path.terms.map((rgb, i) => [i, rgb]).filter(([, rgb]) => rgb.some(v => v !== 0));
+  $("path-brings").textContent = (lit.length ? `To its own pixel this sample brings ${lit.map(([i, rgb]) => `${sizeOf(rgb)} in ${bounceName(i)}`).join(", ")}` : "To its own pixel this sample brings nothing") +
+    ` (luminance, ${series().unit}).` + (path.method ? ` Made by ${path.method}.` : "");
+};
+
+// The mean after 1, 2, 4, … replicates, and its error.
+const historyPlot = plot("history", logAxis("samples of the pixel"), radianceOf(first), [intervals(() => true)]);
+const pixelErrorPlot = plot("pixel-error", logAxis("samples of the pixel"), "relative standard error", []);
+const historySets = (history, i, sum) => ["red", "green", "blue"].map((name, c) => dots(name, history.samples.map((n, k) => {
+  const of = history[sum ? "sums" : "terms"][k][i];
+  return point(n, of[c], history.interval_factor[k] === null ? undefined : of[3 + c] * history.interval_factor[k]);
+}), channelColours()[c], marks[c]));
+const pixelErrorSets = (history, s, i, sum) => {
+  const of = (kind, q) => history.samples.map((n, k) => {
+    const v = history[kind][k][q];
+    return { x: n, y: Math.hypot(...v.slice(3)) / Math.hypot(...v.slice(0, 3)) };
+  }).filter(positive);
+  const sets = history.terms[0].map((_, q) => q).filter(q => sum || q !== i).map(q => line("", of("terms", q).map(p => ({ ...p, label: bounceName(q) })), color("faint")));
+  if (!sum || i > s.last) sets.push(dots(bounceName(i), of("terms", i), style(0).color, "circle"));
+  const upTo = sum ? i : s.last;
+  sets.push(dots(`sum of bounces 0 to ${upTo}`, of("sums", upTo), color("text"), "rect"));
+  return sets.filter(set => set.data.length > 0);
+};
+const drawHistory = ({ history, why_no_history }) => {
+  $("history-part").hidden = !history;
+  $("history-note").textContent = history
+    ? "The mean of the pixel's first samples, traced again, with 95% intervals from the spread of replicates; after the last one it is the picture's pixel. What few samples leave open, which the picture's errors count, is not in these."
+    : `There is no error against samples of this pixel: ${why_no_history}.`;
+  if (!history) return;
+  const sets = historySets(history, state.i, state.sum), errors = pixelErrorSets(history, series(), state.i, state.sum);
+  for (const [chart, all] of [[historyPlot, sets], [pixelErrorPlot, [...errors, ...slopeGuide(errors)]]]) {
+    chart.data.datasets = all;
+    range(chart.options.scales.x, history.samples);
+    fitRange(chart, all);
+    chart.update();
+  }
+  $("history-title").textContent = `${series().title(shown())} of the pixel against samples`;
+};
+
+const drawPaths = () => {
+  const pixel = pathsOfPixel(), path = shownPath(), s = series();
+  $("paths-part").hidden = !path;
+  $("paths-none").hidden = !!path || !state.pixel || all.length > 1;
+  if (!path) {
+    const given = pathsOf(s)?.pixels.map(p => p.pixel.join(",")) ?? [], at = state.pixel && [state.pixel.x, state.pixel.y].map(v => v * first.factor);
+    const { crop_x = 0, crop_y = 0 } = s.run.picture;
+    $("paths-none").textContent = !at ? "" : `The paths of this pixel are not in the page. neumann page DIR --paths ${at[0] + crop_x},${at[1] + crop_y} puts them in.` +
+      (given.length ? ` It has those of ${given.join(" and ")}.` : "");
+    return;
+  }
+  $("paths-title").textContent = `Paths of pixel ${pixel.pixel.join(", ")}` + (pixel.count ? `, ${whole(pixel.count)} samples` : "");
+  const options = pixel.paths.map(p => {
+    const o = element("option", `sample ${whole(p.sample)}` + (p.part === undefined ? "" : `, ${number(100 * p.part, 2)}% of the pixel`) + `: ${p.why}`);
+    o.value = p.sample;
+    return o;
+  });
+  $("path").replaceChildren(...options);
+  $("path").value = path.sample;
+  $("asking").checked = state.asking;
+  $("path-shown").checked = state.pathShown;
+  drawPlan(path);
+  drawPathTable(path);
+  drawHistory(pixel);
+};
+const stepPath = by => {
+  const all = pathsOfPixel()?.paths;
+  if (all) set({ path: String(all[(all.indexOf(shownPath()) + by + all.length) % all.length].sample) });
+};
+const planText = () => {
+  const { width, height } = $("plan").viewBox.baseVal, onWhite = $("plan").cloneNode(true);
+  Object.entries({ xmlns: "http://www.w3.org/2000/svg", width, height }).forEach(([name, value]) => onWhite.setAttribute(name, value));
+  onWhite.prepend(svg("style", {}, ".outline{stroke:#8a8a8a;stroke-width:.7}.ray{stroke-width:2}.asks{stroke-width:.8}.blocked{stroke-dasharray:1 3}.edge{display:none}.of-camera.ink{stroke:#b36b00}.of-light.ink{stroke:#0072b2}text{font:12px sans-serif}"),
+                  svg("rect", { width: "100%", height: "100%", fill: "#ffffff" }));
+  return onWhite.outerHTML;
+};
+$("path").onchange = e => set({ path: e.target.value });
+$("path-previous").onclick = () => stepPath(-1);
+$("path-next").onclick = () => stepPath(1);
+$("asking").onchange = e => set({ asking: e.target.checked });
+$("path-shown").onchange = e => set({ pathShown: e.target.checked });
