@@ -42,15 +42,14 @@ const drawOnPicture = () => {
   box.replaceChildren(...lines, ...marks);
 };
 
-// From above. What leaves the scene is cut off at the edge of the drawing.
-const planSize = 480;
+// From above. The edge of the drawing cuts off what leaves the scene, and the camera where it is far away.
+const planWidth = 480, planMargin = 20;
 const planFrame = (outline, rays) => {
   const xs = [], ys = [];
-  const add = ([x1, y1, x2, y2]) => { xs.push(x1, x2); ys.push(y1, y2); };
-  for (const line of outline) add(line);
-  for (const ray of rays) if (ray.above && !ray.leaves) add(ray.above);
+  for (const [x1, y1, x2, y2] of outline) { xs.push(x1, x2); ys.push(y1, y2); }
+  for (const ray of rays) if (ray.above && !ray.leaves) { xs.push(ray.above[2]); ys.push(ray.above[3]); }
   const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)], size = Math.max(right - left, bottom - top) || 1;
-  const scale = (planSize - 40) / size, width = Math.max(120, (right - left) * scale + 40), height = Math.max(120, (bottom - top) * scale + 40);
+  const width = planWidth, scale = (planWidth - 2 * planMargin) / size, height = Math.max(120, (bottom - top) * scale + 2 * planMargin);
   return { width, height, place: ([x1, y1, x2, y2]) => [width / 2 + (x1 - (left + right) / 2) * scale, height / 2 + (y1 - (top + bottom) / 2) * scale,
                                                          width / 2 + (x2 - (left + right) / 2) * scale, height / 2 + (y2 - (top + bottom) / 2) * scale] };
 };
@@ -71,7 +70,7 @@ const drawPlan = path => {
 
 // The table: a row a ray.
 const sizeOf = rgb => rgb.every(Number.isFinite) ? number(luminance(...rgb)) : "not finite";
-const shapeName = meets => meets.shape.split(",")[0];
+const shapeName = meets => meets.shape.replace(/^shape /, "").replace(/[^ ]*\//, "");
 const bounceName = i => i > series().last ? "rest" : `bounce ${i}`;
 const rayCells = (ray, k) => [String(k + 1), ray.ray, ray.meets ? shapeName(ray.meets) : ray.kind === "asks" ? (ray.found ? "nothing is in between" : "hidden, or nothing is there") : "nothing",
   ray.throughput ? sizeOf(ray.throughput) : ray.power ? sizeOf(ray.power) : "", ray.pdf === undefined ? "" : ray.pdf === "delta" ? "the only direction" : number(ray.pdf),
@@ -121,7 +120,7 @@ const drawHistory = ({ history, why_no_history }) => {
     fitRange(chart, all);
     chart.update();
   }
-  $("history-title").textContent = `${series().title(shown())} of the pixel against samples`;
+  $("history-title").textContent = `The pixel against samples: ${series().title(shown())}`;
 };
 
 const drawPaths = () => {
@@ -160,6 +159,11 @@ const planText = () => {
                   svg("rect", { width: "100%", height: "100%", fill: "#ffffff" }));
   return onWhite.outerHTML;
 };
+// A page that was made for a pixel shows it.
+{
+  const given = pathsOf(first)?.pixels[0];
+  if (given) state.pixel = { x: Math.floor(given.picture[0] / first.factor), y: Math.floor(given.picture[1] / first.factor) };
+}
 $("path").onchange = e => set({ path: e.target.value });
 $("path-previous").onclick = () => stepPath(-1);
 $("path-next").onclick = () => stepPath(1);

@@ -248,7 +248,7 @@ TEST_F(ExplorerCompare, RefusalsLoseNothing) {
     EXPECT_EQ(contents("."), before);
 
     std::filesystem::remove(path("b/run.json"));
-    EXPECT_EQ(refused({"compare", "a", "b", "-o", "c"}), "b/run.json: cannot be read; -o takes folders that render wrote\n");
+    EXPECT_EQ(refused({"compare", "a", "b", "-o", "c"}), "b/run.json: cannot be read; expected a folder that render wrote\n");
     write("b/run.json", "{}");
     EXPECT_TRUE(refused({"compare", "a", "b", "-o", "c"}).starts_with("b/run.json: not a run.json of this version: "));
     render("scene.xml", "wide", {"-n", "1", "--spp", "4", "-D", "height=6", "--quiet"});

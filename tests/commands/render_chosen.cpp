@@ -59,7 +59,7 @@ TEST_F(RenderChosen, AMisspeltGroupIsRefusedWithThoseThatThereAre) {
         EXPECT_FALSE(std::filesystem::exists(path("new")));
     }
     const Finished done = run({"render", "scene.xml", "-o", "new", "--files", "pages", "--spp", "1"});
-    for (const std::string& group : file_groups()) EXPECT_NE(done.err.find(group), std::string::npos) << done.err;
+    for (const std::string& group : all_file_groups()) EXPECT_NE(done.err.find(group), std::string::npos) << done.err;
     EXPECT_THROW(choose_files({"tables", "pages"}), InputError);
 }
 
@@ -72,6 +72,8 @@ TEST_F(RenderChosen, OnlyTheSpaceOfWhatIsChosenIsNeeded) {
     EXPECT_EQ(estimated_bytes(film, 1, true, choose_files({"pictures", "tables"})), pictures + rest);
     EXPECT_EQ(estimated_bytes(film, 1, true, choose_files({"page"})), 0.25 * pictures + rest);
     EXPECT_EQ(estimated_bytes(film, 1, true, choose_files({"sheets", "strips"})), rest);
+    // Two bounces, their sum and the rest.
+    EXPECT_EQ(estimated_bytes(film, 1, true, choose_files({"layers"})), 4 * 1e6 * 36 + rest);
 }
 
 }  // namespace neumann::render_chosen_test

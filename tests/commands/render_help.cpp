@@ -88,7 +88,7 @@ TEST_F(RenderHelp, TheCommands) {
     const std::string help = printed({"--help"});
     EXPECT_TRUE(help.starts_with("NAME\n  neumann - makes the bounces of light visible: ")) << help;
     for (const char* command : {"\n  render\n", "\n  compare\n", "\n  spectrum\n", "\n  solve\n", "\n  export\n", "\n  conform\n",
-                                "\n  study\n", "\n  replay\n", "\n  stress\n", "\n  plan\n", "\n  help\n"})
+                                "\n  study\n", "\n  replay\n", "\n  page\n", "\n  stress\n", "\n  plan\n", "\n  help\n"})
         EXPECT_NE(help.find(command), std::string::npos) << help;
     EXPECT_EQ(printed({"help"}), help);
 }
@@ -99,8 +99,8 @@ TEST_F(RenderHelp, UnknownCommands) {
     Finished done = run({"help", "rendr"});
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_EQ(done.err,
-              "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, stress, "
-              "plan, convert, merge, blame, unbounce, help; did you mean 'render'?\n");
+              "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, page, "
+              "stress, plan, convert, merge, blame, unbounce, help; did you mean 'render'?\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);
