@@ -16,7 +16,7 @@ CLI::App* add_page(CLI::App& app, PageRequest& request) {
         ->allow_extra_args(false)
         ->take_all();
     page->add_option("--files", request.files, "What is made; default all of these")
-        ->type_name("tables,sheets,strips,page")
+        ->type_name("WHAT")
         ->delimiter(',')
         ->check(CLI::IsMember(page_file_groups()));
     page->add_option("--theme", request.theme, "What slides and strips are on: dark or white; default that of the render")

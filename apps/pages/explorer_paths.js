@@ -42,13 +42,18 @@ const drawOnPicture = () => {
   box.replaceChildren(...lines, ...marks);
 };
 
-// From above. The edge of the drawing cuts off what leaves the scene, and the camera where it is far away.
-const planWidth = 480, planMargin = 20;
+// From above. The edge of the drawing cuts off what leaves the scene, the camera where it is far away, and of wide grounds what is
+// far from the path.
+const planWidth = 480, planMargin = 20, farFromPath = 2.5;
 const planFrame = (outline, rays) => {
-  const xs = [], ys = [];
-  for (const [x1, y1, x2, y2] of outline) { xs.push(x1, x2); ys.push(y1, y2); }
-  for (const ray of rays) if (ray.above && !ray.leaves) { xs.push(ray.above[2]); ys.push(ray.above[3]); }
-  const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)], size = Math.max(right - left, bottom - top) || 1;
+  const ends = rays.filter(ray => ray.above && !ray.leaves).map(ray => ray.above.slice(2));
+  const along = k => {
+    const path = ends.map(end => end[k]), all = [...path, ...outline.flatMap(line => [line[k], line[k + 2]])];
+    return { path: [Math.min(...path), Math.max(...path)], all: [Math.min(...all), Math.max(...all)] };
+  };
+  const x = along(0), y = along(1), reach = farFromPath * Math.max(x.path[1] - x.path[0], y.path[1] - y.path[0]);
+  const within = ({ path, all }) => reach > 0 ? [Math.max(all[0], path[0] - reach), Math.min(all[1], path[1] + reach)] : all;
+  const [left, right] = within(x), [top, bottom] = within(y), size = Math.max(right - left, bottom - top) || 1;
   const width = planWidth, scale = (planWidth - 2 * planMargin) / size, height = Math.max(120, (bottom - top) * scale + 2 * planMargin);
   return { width, height, place: ([x1, y1, x2, y2]) => [width / 2 + (x1 - (left + right) / 2) * scale, height / 2 + (y1 - (top + bottom) / 2) * scale,
                                                          width / 2 + (x2 - (left + right) / 2) * scale, height / 2 + (y2 - (top + bottom) / 2) * scale] };

@@ -27,6 +27,7 @@ Scene scene_of(const SensorOptions& options, std::vector<Shape> shapes = {}) {
     for (Shape& shape : shapes) {
         parts.shapes.push_back(std::move(shape));
         parts.sides_of_shape.push_back({});
+        parts.lights.of_shape.push_back(Emitters::none);
     }
     parts.camera = options;
     parts.film = film;
