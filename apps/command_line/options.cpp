@@ -86,7 +86,9 @@ CLI::Validator whole_part() {
 }
 
 void add_files(CLI::App& command, std::vector<std::string>& files, std::string& theme) {
-    command.add_option("--files", files, "What is written beside run.json; default all of these but layers, which is one file of all pictures")
+    command
+        .add_option("--files", files,
+                    "What is written beside run.json; default all of these but layers, which is one file of all pictures")
         ->type_name("WHAT")
         ->delimiter(',')
         ->check(CLI::IsMember(all_file_groups()));

@@ -85,8 +85,8 @@ int page_command(const PageRequest& request) {
                                     files.page ? ": the page shows no errors against time" : ""));
     if (files.page) {
         if (packed.factor() > 1) notes.push_back(packed.reduction());
-        const ExploredRun explored{rendered.run(), convergence.value_or(""), shown.exposure, std::move(packed), rendered.has_rest(),
-                                   paths};
+        const ExploredRun explored{rendered.run(),    convergence.value_or(""), shown.exposure,
+                                   std::move(packed), rendered.has_rest(),      paths};
         folder.write("index.html", explorer_page({&explored}));
     }
     const std::vector<std::string> written = folder.add_to_others();

@@ -17,14 +17,13 @@ using Json = nlohmann::ordered_json;
 
 // The sample that is asked for, and why it was named.
 ReportedSample choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
-    if (!request.number)
-        return {{pixel_number(film, request.pixel[0], request.pixel[1], "--pixel"), *request.sample}, ""};
+    if (!request.number) return {{pixel_number(film, request.pixel[0], request.pixel[1], "--pixel"), *request.sample}, ""};
     const std::vector<ReportedSample> named = reported_samples(run, film);
     if (*request.number <= named.size()) return named[*request.number - 1];
-    throw InputError(named.empty()
-                         ? fmt::format("{}: its health report names no sample; take --pixel X,Y --sample S", request.folder)
-                         : fmt::format("{}: its health report names samples 1 to {}, not {}", request.folder, named.size(),
-                                       *request.number));
+    throw InputError(
+        named.empty()
+            ? fmt::format("{}: its health report names no sample; take --pixel X,Y --sample S", request.folder)
+            : fmt::format("{}: its health report names samples 1 to {}, not {}", request.folder, named.size(), *request.number));
 }
 
 std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }

@@ -89,11 +89,13 @@ std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
 std::optional<std::string_view> writer_of(std::string_view name) {
     static const std::map<std::string_view, std::vector<std::string_view>> names = {
         {"any", {"run.json", "index.html"}},
-        {"render",
-         {"rest.exr", "layers.exr", "contact-sheet.png", "bounces.gif", "series.csv", "convergence.csv", "ways.png", "strip-terms.png",
-          "strip-terms.gif", preview_file, unfinished_render_file, samples_file, "strip-sums.png", "strip-sums.gif",
-          "strip-doubling.png", "strip-doubling.gif", "strip-terms.svg", "strip-sums.svg", "strip-doubling.svg",
-          "strip-mixture.png"}},
+        {"render", {"rest.exr",           "layers.exr",           "contact-sheet.png",
+                    "bounces.gif",        "series.csv",           "convergence.csv",
+                    "ways.png",           "strip-terms.png",      "strip-terms.gif",
+                    preview_file,         unfinished_render_file, samples_file,
+                    "strip-sums.png",     "strip-sums.gif",       "strip-doubling.png",
+                    "strip-doubling.gif", "strip-terms.svg",      "strip-sums.svg",
+                    "strip-doubling.svg", "strip-mixture.png"}},
         {"study", {"study.csv", "study.json", unfinished_run_file}},
         {"compare", {"compare.json"}},
         {"blame", {"blame.json"}},

@@ -33,7 +33,8 @@ Json as_json(const Vec3& x) {
 
 Json as_json(const ReplayedStep& s, const Scene& scene) {
     const PathStep& step = s.step;
-    Json json = {{"ray", heading(step)}, {"bounce", step.bounce}, {"from", as_json(step.from.position)}, {"along", as_json(step.w)}};
+    Json json = {
+        {"ray", heading(step)}, {"bounce", step.bounce}, {"from", as_json(step.from.position)}, {"along", as_json(step.w)}};
     if (step.kind == PathStep::Kind::goes_on && !step.from_light)
         json["pdf"] = step.pdf == delta_pdf ? Json("delta") : Json(step.pdf);
     if (step.kind != PathStep::Kind::asks) json[step.from_light ? "power" : "throughput"] = as_json(step.beta);

@@ -50,8 +50,8 @@ Attributes of_sum(const BounceSeries& series, const Scene& scene, std::size_t i,
 }
 
 Attributes of_rest(const BounceSeries& series, const Scene& scene) {
-    return attributes_of(series, scene, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1, *series.rest,
-                         *series.means_of_rest, series.report.rest_infinite_variance);
+    return attributes_of(series, scene, "sum of " + power(series, "k") + " for k > i", series.report.bounces.size() - 1,
+                         *series.rest, *series.means_of_rest, series.report.rest_infinite_variance);
 }
 
 }  // namespace

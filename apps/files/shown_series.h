@@ -1,5 +1,5 @@
-// What is made of the pictures of a series for the eye: the page, slides, strips and sheets. `render` makes the pictures, and `page`
-// reads them from its files; what is shown is the same.
+// What is made of the pictures of a series for the eye: the page, slides, strips and sheets. `render` makes the pictures, and
+// `page` reads them from its files; what is shown is the same.
 #pragma once
 
 #include "apps/files/chosen_files.h"
@@ -27,8 +27,8 @@ struct ShownPictures {
     double exposure = 1.0;  // of the page, the contact sheet, the strips and the flip-book
 };
 
-// Packs the pictures for index.html, if that is chosen, and writes contact-sheet.png, bounces.gif, strip-terms.png …, what is chosen
-// of them.
+// Packs the pictures for index.html, if that is chosen, and writes contact-sheet.png, bounces.gif, strip-terms.png …, what is
+// chosen of them.
 ShownPictures show_series(OutputFolder& folder, const ShownSeries& series, const ChosenFiles& files, PackedSeries& packed);
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// The lines that a drawing of shapes needs, seen from afar along a direction: edges of meshes where the surface ends, bends, or turns
-// away from the eye, rims, and the silhouettes of round shapes.
+// The lines that a drawing of shapes needs, seen from afar along a direction: edges of meshes where the surface ends, bends, or
+// turns away from the eye, rims, and the silhouettes of round shapes.
 #pragma once
 
 #include "core/geometry/shape.h"

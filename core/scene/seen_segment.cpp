@@ -33,7 +33,8 @@ std::vector<SeenPiece> seen_pieces(const Scene& scene, const Vec3& a, const Vec3
     const auto is_hidden = [&](double t) {
         const FilmPoint seen = *on_film(t);
         SurfacePoint hit;
-        return scene.geometry.first_hit(seen.start.position, -seen.w, glm::distance(seen.start.position, at(t)) * (1.0 - 1e-6), hit);
+        return scene.geometry.first_hit(seen.start.position, -seen.w, glm::distance(seen.start.position, at(t)) * (1.0 - 1e-6),
+                                        hit);
     };
 
     // Between two planes lies a single piece.

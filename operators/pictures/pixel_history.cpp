@@ -87,8 +87,7 @@ PixelHistory history_of_pixel(std::span<const ReplicatesOf> replicates, std::uin
         const std::size_t Q = sampler.quantities();
         history.terms = sampler.settings().pictures();
         std::vector<OfReplicate> found(count);
-        oneapi::tbb::parallel_for(std::uint64_t{0}, count,
-                                  [&](std::uint64_t r) { found[r] = retrace(sampler, pixel, first + r); });
+        oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t r) { found[r] = retrace(sampler, pixel, first + r); });
         SeriesMoments moments(1, 1, Q, history.terms);
         for (std::uint64_t r = 0; r < count; ++r) {
             MomentsNode node{first + r, 1, std::vector<double>(Q * PixelMoments::doubles_per_quantity)};

@@ -1,7 +1,7 @@
 // How the mean of one pixel came about: its samples one by one, and what the first of them told.
 //
-// After n replicates the mean is that of n independent estimates, with the standard error √(M2 / (n (n − 1))) of their spread, as in
-// the picture (series_moments.h). After all of them it has the picture's bits.
+// After n replicates the mean is that of n independent estimates, with the standard error √(M2 / (n (n − 1))) of their spread, as
+// in the picture (series_moments.h). After all of them it has the picture's bits.
 #pragma once
 
 #include "operators/pictures/picture_sampler.h"

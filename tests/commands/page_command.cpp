@@ -90,8 +90,7 @@ TEST_F(PageCommand, RefusalsLoseNothing) {
     EXPECT_EQ(refused({"a", "--paths", "3"}), "--paths 3: expected a pixel, as 19,160, or the word named\n");
     EXPECT_EQ(refused({"a", "--paths", "3,4,"}), "--paths 3,4,: expected a pixel, as 19,160, or the word named\n");
     EXPECT_EQ(refused({"a", "--paths", "3,5"}), "--paths 3,5: the picture has x from 0 to 163 and y from 0 to 4\n");
-    EXPECT_EQ(refused({"a", "--paths", "3,4", "--files", "strips"}),
-              "--paths: are for the page; expected page among --files\n");
+    EXPECT_EQ(refused({"a", "--paths", "3,4", "--files", "strips"}), "--paths: are for the page; expected page among --files\n");
 
     const std::string whole = text_of(path("a/bounce_001.exr"));
     write("a/bounce_001.exr", whole.substr(0, whole.size() / 2));
@@ -173,7 +172,8 @@ TEST_F(PageCommand, LayersAreTheSinglePictures) {
             for (int y = 0; y < of.height; ++y)
                 for (int x = 0; x < of.width; ++x)
                     for (int c = 0; c < 3; ++c)
-                        EXPECT_EQ(read.values[static_cast<std::size_t>(3 * (y * of.width + x) + c)], static_cast<float>(of.at(x, y)[c]));
+                        EXPECT_EQ(read.values[static_cast<std::size_t>(3 * (y * of.width + x) + c)],
+                                  static_cast<float>(of.at(x, y)[c]));
         }
     };
     for (int i = 0; i <= 3; ++i) expect_same(fmt::format("bounce_{:03}", i), numbered("bounce", i));
