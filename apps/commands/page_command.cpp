@@ -56,7 +56,7 @@ const std::vector<std::string>& page_file_groups() {
     return all;
 }
 
-int page_command(const PageRequest& request) {
+int page_command(const PageRequest& request) try {
     const ThreadLimit threads(request.threads);
     const RenderedFolder rendered(request.folder);
     ChosenFiles files = choose_files(request.files);
@@ -71,14 +71,14 @@ int page_command(const PageRequest& request) {
     if (files.page || files.sheets || files.strips) shown = show_series(folder, rendered.series(), files, packed);
     if (!shown.warning.empty()) notes.push_back(shown.warning);
     if (files.strips && rendered.run().at("samples").contains("mixture"))
-        notes.emplace_back("strip-mixture.png stays as it is: no file has the weights that it shows");
+        notes.emplace_back("strip-mixture.png is not made: no file has the weights that it shows");
     if (files.sheets) write_sheet_of_ways(folder, rendered);
     const auto convergence = rendered.text("convergence.csv");
     if (files.tables) {
         if (const auto report = rendered.report())
             folder.write("series.csv", series_table(*report));
         else
-            notes.emplace_back("series.csv stays as it is: run.json, of an earlier version, does not hold all of it");
+            notes.emplace_back("series.csv is not made: run.json, of an earlier version, does not hold all of it");
     }
     if (!convergence && (files.page || files.tables))
         notes.push_back(fmt::format("there is no convergence.csv, which nothing else holds{}",
@@ -94,6 +94,8 @@ int page_command(const PageRequest& request) {
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     fmt::print("New in {}: {}\n", request.folder, fmt::join(written, ", "));
     return 0;
+} catch (const nlohmann::ordered_json::exception& error) {
+    throw InputError(fmt::format("{}/run.json: not a run.json of this version: {}", request.folder, error.what()));
 }
 
 }  // namespace neumann

@@ -3,6 +3,7 @@
 #include "apps/files/health_json.h"
 #include "apps/files/json_number.h"
 #include "apps/files/replay_json.h"
+#include "core/base/error.h"
 #include "core/geometry/outline.h"
 #include "core/scene/floor_plan.h"
 #include "core/scene/seen_segment.h"
@@ -131,6 +132,8 @@ Json pixel_json(const RecordedRun& run, const Scene& scene, RecordedSamplers& sa
     const Drawing drawing(scene, pixel);
     const std::vector<ReplicatesOf> replicates = samplers.replicates();
     const PictureSampler& sampler = replicates.front().sampler;
+    if (sampler.layout().size(number) == 0)
+        throw InputError(fmt::format("--paths {},{}: no samples were taken of this pixel", pixel.x, pixel.y));
     Json json = {{"pixel", {pixel.x, pixel.y}}, {"picture", {pixel.x - scene.film.crop_x, pixel.y - scene.film.crop_y}}};
     std::optional<PixelHistory> history;
     if (const std::string why = why_no_history(sampler); why.empty()) {
