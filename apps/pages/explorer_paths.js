@@ -46,7 +46,7 @@ const drawOnPicture = () => {
 // far from the path.
 const planWidth = 480, planMargin = 20, farFromPath = 2.5;
 const planFrame = (outline, rays) => {
-  const ends = rays.filter(ray => ray.above && !ray.leaves).map(ray => ray.above.slice(2));
+  const ends = rays.filter(ray => ray.above && isVertex(ray)).map(ray => ray.above.slice(2));
   const along = k => {
     const path = ends.map(end => end[k]), all = [...path, ...outline.flatMap(line => [line[k], line[k + 2]])];
     return { path: [Math.min(...path), Math.max(...path)], all: [Math.min(...all), Math.max(...all)] };
@@ -70,7 +70,7 @@ const drawPlan = path => {
   }
   $("plan").setAttribute("viewBox", `0 0 ${width} ${height}`);
   $("plan").replaceChildren(...lines, ...marks);
-  $("plan-note").textContent = `From above, along ${seen_along}; what the camera looks at lies up. Paths from the camera are orange, those from a light blue; thin lines ask for light, and are dotted where something hides it. Over the picture what is hidden from the camera is dashed, and what lies behind it is left out.`;
+  $("plan-note").textContent = `From above, along ${seen_along}; what the camera looks at lies up. Paths from the camera are orange, those from a lamp blue; thin lines ask for light, and are dotted where something hides it. Over the picture what is hidden from the camera is dashed, and what lies behind it is left out.`;
 };
 
 // The table: a row a ray.
