@@ -23,13 +23,11 @@ DirectLightSettings direct_of_pilot(const Method& method) {
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const PilotOnDemand& pilot,
                     Saving& saving, const std::optional<MethodChoice>& choice) {
-    Plan plan = plan_for(method, scene);
+    const Plan plan = plan_for(method, scene);
     const std::optional<Scene> reduced = without_unlit_materials(plan, scene);
     const RenderJob job{reduced ? *reduced : scene, plan, goal, watch, pilot, saving, choice};
     BounceSeries series = has_fields(method) ? render_by_fields(method, job) : render_by_paths(method, job);
-    series.seed = goal.seed;
-    series.plan = std::move(plan);
-    series.choice = choice;
+    describe(series, job);
     return series;
 }
 
@@ -51,6 +49,12 @@ BounceSeries render_chosen(const Scene& scene, const Method& method, Goal goal, 
 }
 
 }  // namespace
+
+void describe(BounceSeries& series, const RenderJob& job) {
+    series.seed = job.goal.seed;
+    series.plan = job.plan;
+    series.choice = job.choice;
+}
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
     return render(scene, method, goal, watch, Saving());

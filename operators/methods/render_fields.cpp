@@ -88,6 +88,39 @@ FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool give
     return chosen;
 }
 
+// The series of a run's pictures, which may be shared with it.
+BounceSeries as_series(const std::shared_ptr<const FieldPictures>& pictures, const FieldRun& run, const Scene& scene) {
+    BounceSeries series;
+    series.term = [pictures](std::size_t i) { return pictures->term(i); };
+    series.sum = [pictures](std::size_t i) { return pictures->sum(i); };
+    series.means_of_term = [pictures](std::size_t i) { return pictures->means_of_term(i); };
+    series.means_of_sum = [pictures](std::size_t i) { return pictures->means_of_sum(i); };
+    if (pictures->rest_converges) {
+        series.rest = pictures->rest();
+        series.means_of_rest = pictures->means_of_rest();
+        series.limit = [pictures] { return pictures->sum(pictures->bounces() + 1); };
+    }
+    series.report = report_series(scene, *pictures, run.discretisation);
+    series.convergence = run.convergence;
+    series.outcome = run.outcome;
+    series.samples = pictures->samples;
+    series.rays = run.convergence.back().rays;
+    series.seconds = run.seconds;
+    series.setup_seconds = pictures->field_seconds;
+    series.degrees_of_freedom = run.settings.replicates - 1.0;
+    FieldRecord record;
+    record.replicates = run.settings.replicates;
+    record.patches = pictures->patches;
+    record.unknowns = pictures->unknowns;
+    record.directions = std::uint64_t{run.settings.rays} * run.settings.replicates;
+    if (run.settings.reading == FieldReading::gather) record.gather_rays = run.settings.gather_rays;
+    record.why = run.why;
+    if (!pictures->rest_converges) record.why_no_rest = "the terms do not fall, or too slowly to add them up";
+    record.power = pictures->power;
+    series.record = std::move(record);
+    return series;
+}
+
 template <HasFields M>
 BounceSeries render_by(M m, const RenderJob& job) {
     const Goal& goal = job.goal;
@@ -116,8 +149,18 @@ BounceSeries render_by(M m, const RenderJob& job) {
     // Importance is carried by T*, whose columns are on all processes: this one makes its pictures alone.
     const std::unique_ptr<FieldTeam> team = job.watch.crew && !importance ? job.watch.crew->begin_fields(m) : nullptr;
     if (team) settings.memory /= team->on_this_machine();
+    std::function<void(const FieldRun&)> see;
+    if (job.saving.see)
+        see = [&](const FieldRun& run) {
+            job.saving.see([&] {
+                BounceSeries series = as_series({std::shared_ptr<void>(), &run.pictures}, run, job.scene);
+                series.method = m;
+                describe(series, job);
+                return series;
+            });
+        };
     auto rendered = searches ? render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given, seconds_before),
-                                                     job.watch, team.get(), &saving)
+                                                     job.watch, team.get(), &saving, see)
                              : render_fields_once(job.scene, settings, job.watch, team.get(), &saving);
     if (!rendered) throw Stopped("interrupted before the pictures were finished: none was written");
     FieldRun& run = *rendered;
@@ -128,46 +171,18 @@ BounceSeries render_by(M m, const RenderJob& job) {
         job.watch.judge([&](std::size_t i) { return pictures->term_mean(i); }, pictures->sum(pictures->bounces()).mean,
                         run.convergence.back());
 
-    BounceSeries series;
-    series.term = [pictures](std::size_t i) { return pictures->term(i); };
-    series.sum = [pictures](std::size_t i) { return pictures->sum(i); };
-    series.means_of_term = [pictures](std::size_t i) { return pictures->means_of_term(i); };
-    series.means_of_sum = [pictures](std::size_t i) { return pictures->means_of_sum(i); };
-    if (pictures->rest_converges) {
-        series.rest = pictures->rest();
-        series.means_of_rest = pictures->means_of_rest();
-        series.limit = [pictures] { return pictures->sum(pictures->bounces() + 1); };
-    }
-    series.report = report_series(job.scene, *pictures, run.discretisation);
-    series.convergence = run.convergence;
-    series.outcome = run.outcome;
-    series.samples = pictures->samples;
-    series.rays = run.convergence.back().rays;
-    series.seconds = run.seconds;
-    series.setup_seconds = pictures->field_seconds;
-    series.degrees_of_freedom = run.settings.replicates - 1.0;
-
+    BounceSeries series = as_series(pictures, run, job.scene);
     if (has_shading_normals(job.scene)) series.warnings.add(patches_are_flat);
     warn_of_wide_intervals(series.report, series.warnings);
     // Running out of time is worth a warning only if there was an error to reach.
     const bool ended_early = run.outcome == Outcome::memory_reached || run.outcome == Outcome::does_not_pay;
     if (!run.why.empty() && (goal.relative_error || ended_early)) series.warnings.add(run.why);
 
-    const std::uint64_t directions = std::uint64_t{run.settings.rays} * run.settings.replicates;
     // Record the settings that, with the same number of samples, repeat the render.
     if (!given || goal.seconds || m.patches) m.patches = run.settings.patching.patches;
-    if (!given || m.directions || run.settings.rays != settings.rays) m.directions = static_cast<std::uint32_t>(directions);
+    if (!given || m.directions || run.settings.rays != settings.rays)
+        m.directions = static_cast<std::uint32_t>(std::get<FieldRecord>(series.record).directions);
     series.method = m;
-    FieldRecord record;
-    record.replicates = run.settings.replicates;
-    record.patches = pictures->patches;
-    record.unknowns = pictures->unknowns;
-    record.directions = directions;
-    if (run.settings.reading == FieldReading::gather) record.gather_rays = run.settings.gather_rays;
-    record.why = run.why;
-    if (!pictures->rest_converges) record.why_no_rest = "the terms do not fall, or too slowly to add them up";
-    record.power = pictures->power;
-    series.record = std::move(record);
     return series;
 }
 }  // namespace

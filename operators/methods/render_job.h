@@ -39,6 +39,9 @@ struct RenderJob {
     const std::optional<MethodChoice>& choice;
 };
 
+// What is the same of all series of a job.
+void describe(BounceSeries& series, const RenderJob& job);
+
 BounceSeries render_by_paths(const Method& method, const RenderJob& job);
 BounceSeries render_by_fields(const Method& method, const RenderJob& job);
 

@@ -171,6 +171,79 @@ bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settin
                   job.watch);
 }
 
+// A series of paths, and the moments that its pictures refer to.
+struct AsSeries {
+    BounceSeries series;
+    std::shared_ptr<const SeriesMoments::Result> moments;
+};
+
+// Adds what was done before the first sample.
+void add_setup(BounceSeries& series, const SamplingSettings& settings, double setup_seconds) {
+    if (setup_seconds == 0.0) return;
+    series.setup_seconds = setup_seconds;
+    series.seconds += setup_seconds;
+    if (settings.guide) series.rays += settings.guide->rays();
+    if (settings.approximation) series.rays += settings.approximation->rays();
+    if (settings.photons) series.rays += settings.photons->rays;
+    if (settings.records) series.rays += settings.records->rays();
+    if (settings.allocation) series.rays += settings.allocation->rays;
+    if (settings.tree) series.rays += settings.tree->rays;
+    if (settings.mixture) series.rays += settings.mixture->rays;
+    for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
+}
+
+PathRecord record_of(const RenderedSeries& sampled, const SamplingSettings& settings, RestVerdict verdict, std::uint64_t first,
+                     const RenderJob& job) {
+    PathRecord record;
+    record.replicate_size = sampled.replicate_size;
+    record.replicates = sampled.moments.replicates();
+    record.first_replicate = first;
+    record.merged = sampled.merged;
+    record.walks_given_up = sampled.tally.given_up;
+    if (verdict == RestVerdict::measured) record.rest_probability = settings.walk.rest_probability;
+    if (verdict == RestVerdict::not_converging)
+        record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
+                                         job.pilot().walks(), Pilot::bounces + Pilot::give_up);
+    record.photons = settings.photons;
+    record.records = settings.records;
+    record.chains = sampled.tally.chains;
+    record.tree = settings.tree;
+    record.mixture = settings.mixture;
+    if (settings.allocation) {
+        SamplingSettings as_sampled = settings;
+        as_sampled.replicate_size = sampled.replicate_size;
+        const SampleLayout layout = as_sampled.layout(job.scene.film);
+        record.fewest_of_pixel = layout.size(0);
+        for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) {
+            record.fewest_of_pixel = std::min(record.fewest_of_pixel, layout.size(pixel));
+            record.most_of_pixel = std::max(record.most_of_pixel, layout.size(pixel));
+        }
+    }
+    return record;
+}
+
+// What was sampled, as a series, but for its health.
+AsSeries as_series(const RenderedSeries& sampled, SeriesReport report, const Method& method, const SamplingSettings& settings,
+                   std::uint64_t first, double setup_seconds, const RenderJob& job) {
+    const Paths paths = paths_of(settings.generator, job.scene);
+    if (paths != Paths::all) report_missing(report, job.pilot());
+    const auto moments = std::make_shared<const SeriesMoments::Result>(sampled.moments.result());
+    std::shared_ptr<const LeastErrors> least;
+    if (!job.goal.only_pictures) {
+        least = std::make_shared<const LeastErrors>(job.scene, settings, sampled, *moments);
+        report_unmet(report, *least);
+    }
+    const RestVerdict verdict = report.rest_verdict;
+    BounceSeries series = bounce_series(sampled, moments, least, settings.generator, std::move(report));
+    report_bias(*moments, settings.generator, series);
+    series.paths = paths;
+    series.method = as_it_ran(method, settings, job.scene.film);
+    series.record = record_of(sampled, settings, verdict, first, job);
+    warn_of_paths(series, job, settings, sampled, max_component(job.scene.materials.largest_basic_albedo()));
+    add_setup(series, settings, setup_seconds);
+    return {std::move(series), moments};
+}
+
 // For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N.
 struct Sampled {
     RenderedSeries series;
@@ -193,6 +266,14 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
             RecordedRender as_sampled = record;
             as_sampled.replicate_size = so_far.replicate_size;  // smaller where it was stopped early
             job.saving.keep(as_sampled, job.choice, so_far, is_last);
+            if (!job.saving.see || is_last) return;
+            job.saving.see([&] {
+                BounceSeries series = as_series(so_far, report_series(job.scene, so_far, verdict), method, settings, goal.first,
+                                                setup_seconds, job)
+                                          .series;
+                describe(series, job);
+                return series;
+            });
         };
         const auto helpers = job.watch.crew ? job.watch.crew->begin(record, job.goal.colors) : nullptr;
         RenderedSeries series = render_series(job.scene, settings, goal, watch,
@@ -231,76 +312,24 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
-    const Paths paths = paths_of(settings.generator, scene);
     const RestVerdict verdict = rest_verdict(settings.generator, job);
     auto [sampled, report] = sample(method, settings, to_reach, verdict, job, setup_seconds);
-    if (paths != Paths::all) report_missing(report, job.pilot());
-
-    const auto moments = std::make_shared<const SeriesMoments::Result>(sampled.moments.result());
-    std::shared_ptr<const LeastErrors> least;
-    if (!goal.only_pictures) {
-        least = std::make_shared<const LeastErrors>(scene, settings, sampled, *moments);
-        report_unmet(report, *least);
-    }
-    BounceSeries series = bounce_series(sampled, moments, least, settings.generator, std::move(report));
-    report_bias(*moments, settings.generator, series);
-    series.paths = paths;
-    series.method = as_it_ran(method, settings, scene.film);
-    const double albedo = max_component(scene.materials.largest_basic_albedo());
-    warn_of_paths(series, job, settings, sampled, albedo);
-
+    auto [series, moments] = as_series(sampled, std::move(report), method, settings, to_reach.first, setup_seconds, job);
     if (const auto* both = std::get_if<method::Bidirectional>(&method); both && both->ways) {
         check_memory(goal, scene.film, *both->ways, 2 * (static_cast<std::size_t>(*both->ways) + 2));
         series.ways = render_ways(scene, settings, *both->ways, sampled.samples, {job.watch.stop, job.watch.progress});
     }
-    if (setup_seconds > 0.0) {
-        series.setup_seconds = setup_seconds;
-        series.seconds += setup_seconds;
-        if (settings.guide) series.rays += settings.guide->rays();
-        if (settings.approximation) series.rays += settings.approximation->rays();
-        if (settings.photons) series.rays += settings.photons->rays;
-        if (settings.records) series.rays += settings.records->rays();
-        if (settings.allocation) series.rays += settings.allocation->rays;
-        if (settings.tree) series.rays += settings.tree->rays;
-        if (settings.mixture) series.rays += settings.mixture->rays;
-        for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
-    }
-
-    PathRecord record;
-    record.replicate_size = sampled.replicate_size;
-    record.replicates = sampled.moments.replicates();
-    record.first_replicate = to_reach.first;
-    record.merged = sampled.merged;
-    record.walks_given_up = sampled.tally.given_up;
-    if (verdict == RestVerdict::measured) record.rest_probability = settings.walk.rest_probability;
-    if (verdict == RestVerdict::not_converging)
-        record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
-                                         job.pilot().walks(), Pilot::bounces + Pilot::give_up);
-    record.photons = settings.photons;
-    record.records = settings.records;
-    record.chains = sampled.tally.chains;
-    record.tree = settings.tree;
-    record.mixture = settings.mixture;
-    if (settings.allocation) {
-        SamplingSettings as_sampled = settings;
-        as_sampled.replicate_size = sampled.replicate_size;
-        const SampleLayout layout = as_sampled.layout(scene.film);
-        record.fewest_of_pixel = layout.size(0);
-        for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) {
-            record.fewest_of_pixel = std::min(record.fewest_of_pixel, layout.size(pixel));
-            record.most_of_pixel = std::max(record.most_of_pixel, layout.size(pixel));
-        }
-    }
+    auto& record = std::get<PathRecord>(series.record);
     if (settings.generator == PathGenerator::walk && !settings.tree && !settings.shares_tails())
-        record.furnaces = furnaces(settings.walk.roulette, albedo, settings.walk.bounces);
+        record.furnaces =
+            furnaces(settings.walk.roulette, max_component(scene.materials.largest_basic_albedo()), settings.walk.bounces);
     if (goal.only_pictures) {
         series.warnings.add("sample was not a finite number and was left out", sampled.tally.non_finite_samples());
     } else {
         settings.replicate_size = sampled.replicate_size;  // smaller where it was stopped early
         record.health = examine(scene, settings, sampled, *moments);
     }
-    series.record = std::move(record);
-    return series;
+    return std::move(series);
 }
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// How a render is saved while it is under way, and goes on from there in another process.
+// How a render is saved and shown while it is under way, and goes on from there in another process.
 #pragma once
 
 #include "operators/methods/method_choice.h"
@@ -11,6 +11,8 @@
 #include <optional>
 
 namespace neumann {
+
+struct BounceSeries;
 
 struct RenderState {
     RecordedRender render;
@@ -32,6 +34,9 @@ struct Saving {
         [](const auto&...) {};
     std::function<void()> has_all_fields = [] {};
     double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
+    // Called with what makes the series so far, which may be used until this returns: after every part but the last, and after
+    // every refinement of fields, from the thread that renders. It has neither health nor ways. Empty: not wanted.
+    std::function<void(const std::function<BounceSeries()>& so_far)> see = {};
 };
 
 }  // namespace neumann

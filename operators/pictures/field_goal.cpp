@@ -198,7 +198,8 @@ std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettin
 }
 
 std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
-                                              FieldTeam* team, FieldSaving* saving) {
+                                              FieldTeam* team, FieldSaving* saving,
+                                              const std::function<void(const FieldRun&)>& see) {
     const Stopwatch clock;
     const FieldSettings most = goal.most.value_or(largest(settings));
     settings.patching.patches = std::min(fewest_patches, most.patching.patches);
@@ -220,6 +221,7 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
     };
     const auto show = [&] {
         if (watch.show) watch.show(run.pictures.bounces(), [&](std::size_t i) { return run.pictures.term_mean(i); });
+        if (see) see(run);
     };
     const double end = goal.seconds ? 1.1 * *goal.seconds + 1.0 : std::numeric_limits<double>::infinity();
     for (;;) {

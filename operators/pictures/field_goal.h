@@ -7,6 +7,7 @@
 #include "operators/pictures/field_team.h"
 #include "operators/pictures/rendered_series.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,10 @@ struct FieldRun {
 // to reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the
 // result of the previous render; the first render is not stopped. Does not call watch.judge. `team`: who renders with this process;
 // null: nobody. `saving`: of each render but the first; a search that begins with a render under way goes on with that one as soon
-// as it has seen the errors of smaller ones, and returns nothing if it is interrupted before that.
+// as it has seen the errors of smaller ones, and returns nothing if it is interrupted before that. `see`: called with each result.
 std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
-                                              FieldTeam* team = nullptr, FieldSaving* saving = nullptr);
+                                              FieldTeam* team = nullptr, FieldSaving* saving = nullptr,
+                                              const std::function<void(const FieldRun&)>& see = {});
 
 // A single render with these settings; nothing if it is interrupted.
 std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettings& settings, const Watch& watch = {},
