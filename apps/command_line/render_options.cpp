@@ -48,6 +48,16 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
                      "Go on with the render in this folder that was cut off, or add samples to one that is finished")
         ->type_name("DIR")
         ->each([scene = render->get_option("SCENE")](const std::string&) { scene->required(false); });
+    render
+        ->add_option("--live", request.live,
+                     "Serve the page of the render to browsers of this machine, where it fills meanwhile, at this port of 127.0.0.1; "
+                     "without a number at any that is free")
+        ->type_name("PORT")
+        ->expected(0, 1)
+        ->default_str("0")
+        ->check(whole_from(0, 65535));
+    render->add_option("--tev", request.tev, "Show the bounces and sums meanwhile in the tev that listens there")
+        ->type_name("HOST:PORT");
     add_seed(*render, request.goal.seed);
     add_threads(*render, request.threads);
     add_definitions(*render, request.definition_texts);

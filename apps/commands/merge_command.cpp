@@ -102,7 +102,7 @@ int merge_command(const MergeRequest& request) {
             fmt::format("{} samples a pixel of the whole are missing: a part is not here, or was cut short", missing));
     const Rendering rendering{file,  request.command_line, options,         definitions,
                               scene, std::move(series),    clock.seconds(), choose_files(request.files, request.theme == "white")};
-    const auto [warnings, json] = write_rendering(rendering, folder);
+    const auto [warnings, json, page] = write_rendering(rendering, folder);
     if (!request.quiet) print_rendering(rendering, warnings, request.output);
     return 0;
 }

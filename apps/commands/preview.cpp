@@ -10,10 +10,11 @@
 namespace neumann {
 
 void Preview::show(std::size_t bounces, const std::function<Image(std::size_t)>& term) {
+    if (share_.is_due()) share_.spend([&] { write(bounces, term); });
+}
+
+void Preview::write(std::size_t bounces, const std::function<Image(std::size_t)>& term) {
     constexpr std::size_t most_terms = 7;  // of a strip
-    constexpr int rest = 50;               // times as long as one takes
-    const auto begin = Clock::now();
-    if (begin < next_) return;
     std::vector<Image> terms, sums;
     for (std::size_t i = 0; i < std::min(bounces + 1, most_terms); ++i) {
         terms.push_back(term(i));
@@ -25,12 +26,11 @@ void Preview::show(std::size_t bounces, const std::function<Image(std::size_t)>&
     const double exposure = exposure_for(sums.back(), terms.front());
     const Strip strip = strip_of_terms({.terms = terms, .sums = sums, .kind = kind_}, terms.front(), exposure);
     try {
-        folder_.show(strip_png(strip, exposure, find_label_font()));
+        folder_.show("preview.png", strip_png(strip, exposure, find_label_font()));
         is_there_ = true;
     } catch (const RunError&) {
         // A full disk is reported when the pictures are written.
     }
-    next_ = Clock::now() + rest * (Clock::now() - begin);
 }
 
 }  // namespace neumann

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "apps/files/output_folder.h"
+#include "apps/live/viewer.h"
 #include "core/image/image.h"
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <string>
 #include <utility>
@@ -24,11 +24,12 @@ public:
     bool is_there() const { return is_there_; }
 
 private:
-    using Clock = std::chrono::steady_clock;
+    void write(std::size_t bounces, const std::function<Image(std::size_t)>& term);
+
     OutputFolder& folder_;
     std::string kind_;
     std::atomic<bool> is_there_ = false;
-    Clock::time_point next_{};
+    SmallShare share_{50};
 };
 
 }  // namespace neumann

@@ -11,6 +11,9 @@
 #include "apps/files/saved_render.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
+#include "apps/live/live_page.h"
+#include "apps/live/page_so_far.h"
+#include "apps/live/tev_viewer.h"
 #include "apps/processes/launch.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
@@ -27,6 +30,23 @@
 namespace neumann {
 
 namespace {
+
+// Viewers that were asked for take a twentieth of the time at most, and see something new every so many seconds; a page in the
+// folder, which was not, takes a fiftieth.
+constexpr int rest_of_viewers = 20, rest_of_files = 50;
+constexpr double longest_unseen = 2.0;
+
+// index.html so far, once the render has taken long enough for it, and where it takes the place of no finished page.
+Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const ChosenFiles& files, std::optional<int> bounces,
+                         PageSoFar& page) {
+    constexpr int about_so_many = 8;
+    const double pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
+    const std::chrono::duration<double> first(
+        rest_of_files * PageSoFar::expected_seconds(pixels, bounces.value_or(scene.bounces.value_or(about_so_many)) + 2.0));
+    Viewers viewers{{}, SmallShare(rest_of_files, first)};
+    if (files.page && folder.may_show_page()) viewers.all.push_back(&page);
+    return viewers;
+}
 
 void expect_nothing_unfinished(const std::string& folder) {
     if (std::filesystem::exists(std::filesystem::path(folder) / unfinished_render_file))
@@ -66,7 +86,7 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
 }  // namespace
 
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& given,
-                                  Saving saving) {
+                                  Saving saving, Viewers* viewers) {
     const Stopwatch clock;
     Goal goal = request.goal;
     if (request.memory) goal.memory = memory_limit(request.memory);
@@ -79,11 +99,21 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
         };
         watch.judge = [&](const auto& term, const Image& sum, Checkpoint& checkpoint) { reference->judge(term, sum, checkpoint); };
     }
+    const auto as_rendering = [&](BounceSeries series) {
+        return Rendering{request.scene, request.command_line, request.options, request.definitions,
+                         scene, std::move(series), clock.seconds(), choose_files(request.files, request.theme == "white")};
+    };
+    if (viewers && !viewers->all.empty())
+        saving.see = [&](const std::function<BounceSeries()>& so_far) {
+            if (!viewers->share.is_due()) return;
+            viewers->share.spend([&] {
+                const Rendering rendering = as_rendering(so_far());
+                for (Viewer* const viewer : viewers->all) viewer->see(rendering);
+            });
+        };
     BounceSeries series = render(*scene, make_method(request.method), goal, watch, std::move(saving));
     if (reference) warn_of_reference(request.reference, series, series.warnings);
-    return std::make_shared<Rendering>(Rendering{request.scene, request.command_line, request.options, request.definitions,
-                                                 std::move(scene), std::move(series), clock.seconds(),
-                                                 choose_files(request.files, request.theme == "white")});
+    return std::make_shared<Rendering>(as_rendering(std::move(series)));
 }
 
 int render_command(const RenderRequest& given) {
@@ -102,6 +132,19 @@ int render_command(const RenderRequest& given) {
     if (request.resume.empty()) expect_nothing_unfinished(request.output);
     const Stopwatch clock;
     catch_interrupts();
+    std::optional<LivePage> live;
+    if (request.live) {
+        live.emplace(*request.live);
+        if (!request.quiet) fmt::print(stderr, "The page of this render, which fills meanwhile: {}\n", live->address());
+        live->open();
+    }
+    Watch watch;
+    watch.stop = interrupted;
+    watch.tell = [&](const std::string& text) {
+        if (!request.quiet) fmt::print(stderr, "{}\n", text);
+    };
+    std::optional<TevViewer> tev;
+    if (!request.tev.empty()) tev.emplace(request.tev, request.output, watch.tell);
     const ThreadLimit threads(threads_of_process(request.threads));
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
@@ -111,11 +154,10 @@ int render_command(const RenderRequest& given) {
         {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene->hash}, request.threads);
     const double reading_seconds = clock.seconds();
     ProgressLine line(request.quiet);
-    Watch watch;
-    watch.stop = interrupted;
     watch.crew = crew.get();
     Preview preview(*folder, lenient_label(*scene));
     watch.progress = [&](const RenderProgress& so_far) {
+        if (live) live->tell(so_far);
         line.show([&] { return progress_text(so_far) + (preview.is_there() ? "   so far: preview.png" : ""); });
     };
     if (files.sheets || files.strips) watch.show = [&](std::size_t bounces, const auto& term) { preview.show(bounces, term); };
@@ -123,14 +165,18 @@ int render_command(const RenderRequest& given) {
         expect_pictures();  // before anything is sampled
         folder->expect_space(estimated_bytes(scene->film, bounces, is_biased(make_method(request.method)), files));
     };
-    watch.tell = [&](const std::string& text) {
-        if (!request.quiet) fmt::print(stderr, "{}\n", text);
-    };
     Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
                             request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
+    PageSoFar page_so_far(*folder);
+    Viewers viewers = live || tev ? Viewers{{}, SmallShare(rest_of_viewers)}
+                                  : viewers_of_files(*scene, *folder, files, request.goal.bounces, page_so_far);
+    if (live) viewers.all.push_back(&*live);
+    if (tev) viewers.all.push_back(&*tev);
     const auto rendering = [&] {
         try {
-            return render(request, scene, watch, checkpoints.saving(std::move(state)));
+            Saving saving = checkpoints.saving(std::move(state));
+            if (live || tev) saving.longest_part = std::min(saving.longest_part, longest_unseen);
+            return render(request, scene, watch, std::move(saving), &viewers);
         } catch (const Stopped& error) {
             if (!std::filesystem::exists(folder->saved())) throw;
             throw RunError(fmt::format("{}; neumann render --resume {} goes on", error.what(), request.output));
@@ -142,7 +188,7 @@ int render_command(const RenderRequest& given) {
         rendering->processes = processes->size();
         rendering->traffic = processes->traffic();
     }
-    const auto [warnings, json] = [&] {
+    const auto [warnings, json, page] = [&] {
         try {
             return write_rendering(*rendering, *folder);
         } catch (const RunError& error) {
@@ -156,6 +202,12 @@ int render_command(const RenderRequest& given) {
         fmt::print("{}\n", json.dump(2));
     } else if (!request.quiet) {
         print_rendering(*rendering, warnings, request.output);
+    }
+    if (tev) tev->see(*rendering);
+    if (live) {
+        std::fflush(stdout);
+        const auto file = std::filesystem::absolute(std::filesystem::path(request.output) / "index.html").lexically_normal();
+        page.empty() ? live->finish(page_data(*rendering), "") : live->finish(page, file.string());
     }
     return 0;
 }

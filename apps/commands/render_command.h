@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/files/rendering_files.h"
+#include "apps/live/viewer.h"
 #include "operators/methods/goal.h"
 #include "operators/methods/method_options.h"
 #include "operators/methods/saving.h"
@@ -23,6 +24,8 @@ struct RenderRequest {
     int threads = 0;                                 // 0: all
     bool quiet = false;
     bool json = false;
+    std::optional<std::uint16_t> live;  // the port of a page that fills meanwhile, 0: any that is free
+    std::string tev;                    // HOST:PORT of a tev that shows the pictures meanwhile, or empty
     std::string resume;                // the folder of a render that this one goes on with; the request is as that one began
     std::string scene_hash;            // of that one
     std::optional<double> checkpoint;  // seconds between two states on disk
@@ -33,8 +36,14 @@ struct RenderRequest {
 // Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 
+// Those who see what there is so far, and the part of the time that it takes to show it to all of them.
+struct Viewers {
+    std::vector<Viewer*> all;
+    SmallShare share;
+};
+
 // The same for a scene in memory, with the pictures kept in memory. `watch` must not have a judge. Throws InputError and RunError.
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch,
-                                  Saving saving = {});
+                                  Saving saving = {}, Viewers* viewers = nullptr);
 
 }  // namespace neumann

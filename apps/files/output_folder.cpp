@@ -181,7 +181,7 @@ void OutputFolder::open() {
 void OutputFolder::lock() {
     // File systems without locks are accepted.
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        ::close(std::exchange(descriptor_, -1));  // the preview there is not ours
+        ::close(std::exchange(descriptor_, -1));
         throw InputError(path_.string() + ": another run is writing there");
     }
 }
@@ -199,7 +199,8 @@ void OutputFolder::remove_leftovers() {
 void OutputFolder::discard() noexcept {
     for (const std::string& name : written_) ::unlink(partial(name).c_str());
     written_.clear();
-    if (descriptor_ >= 0) ::unlink((path_ / preview_file).c_str());
+    for (const std::string& name : shown_) ::unlink((path_ / name).c_str());
+    shown_.clear();
     // Folders that are not empty stay.
     for (auto folder = created_.rbegin(); folder != created_.rend() && ::rmdir(folder->c_str()) == 0; ++folder) {
     }
@@ -222,10 +223,13 @@ void OutputFolder::write_pieces(const std::string& name, std::span<const std::st
     throw RunError(cannot_be_written(path_ / name, error));
 }
 
-void OutputFolder::show(std::string_view bytes) {
-    write(preview_file, bytes);
-    put(preview_file);
+void OutputFolder::show(const std::string& name, std::string_view bytes) {
+    write(name, bytes);
+    put(name);
+    shown_.insert(name);
 }
+
+bool OutputFolder::may_show_page() const { return !fs::exists(path_ / "run.json"); }
 
 void OutputFolder::put_at_once(const std::string& name, std::span<const std::string_view> pieces) {
     write_pieces(name, pieces);
@@ -274,6 +278,7 @@ void OutputFolder::commit() {
     }
     if (is_new(last)) put(last);
     ::fsync(descriptor_);
+    shown_.clear();
     created_.clear();
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,9 +38,11 @@ public:
     // device".
     void write(const std::string& name, std::string_view bytes);
 
-    // Puts preview.png in place at once, for a look at what is on its way. commit() and the destructor remove it, and where the
-    // process was killed, the next run does. As write().
-    void show(std::string_view bytes);
+    // Puts preview.png or index.html in place at once, for a look at what is on its way. commit() and the destructor remove it, and
+    // where the process was killed, the next run removes preview.png. The index.html of a finished run is not to be replaced so
+    // (may_show_page()). As write().
+    void show(const std::string& name, std::string_view bytes);
+    bool may_show_page() const;
 
     // Puts a file of these pieces in place at once, one after the other; it stays. As write().
     void put_at_once(const std::string& name, std::span<const std::string_view> pieces);
@@ -82,6 +85,7 @@ private:
     std::vector<std::filesystem::path> created_;  // folders that were missing, outermost first
     std::mutex written_by_one_;
     std::vector<std::string> written_;
+    std::set<std::string> shown_;
     int descriptor_ = -1;  // of the folder; it holds the lock
 };
 

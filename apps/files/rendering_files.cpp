@@ -9,6 +9,16 @@
 
 namespace neumann {
 
+namespace {
+
+PackedSeries packed_for_page(const Rendering& rendering) {
+    const Film& film = rendering.scene->film;
+    const BounceSeries& series = rendering.series;
+    return {film.crop_width, film.crop_height, series.report.bounces.size() + (series.rest ? 1 : 0)};
+}
+
+}  // namespace
+
 Warnings Rendering::warnings() const {
     Warnings all = scene->warnings;
     for (const auto& [text, count] : series.warnings.counts()) all.add(text, count);
@@ -20,12 +30,21 @@ std::vector<std::string> Rendering::complaints(const std::string& folder) const 
     return health.is_null() ? std::vector<std::string>() : health.at("complaints").get<std::vector<std::string>>();
 }
 
+std::string page_data(const Rendering& so_far) {
+    const BounceSeries& series = so_far.series;
+    ExploredRun explored{run_json(so_far, so_far.warnings(), "", so_far.seconds), convergence_table(series.convergence), 1.0,
+                         packed_for_page(so_far), series.rest.has_value()};
+    explored.is_under_way = true;
+    explored.run["samples"]["outcome"] = "under way";
+    explored.exposure = pack_pictures(series, *so_far.scene, explored.pictures);
+    return explorer_data({&explored});
+}
+
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder) {
     const Stopwatch watch;
     const BounceSeries& series = rendering.series;
-    const Film& film = rendering.scene->film;
     Warnings warnings = rendering.warnings();
-    PackedSeries packed(film.crop_width, film.crop_height, series.report.bounces.size() + (series.rest ? 1 : 0));
+    PackedSeries packed = packed_for_page(rendering);
     const ChosenFiles& files = rendering.files;
     const ShownPictures written = write_pictures(folder, series, files, *rendering.scene, packed);
     if (!written.warning.empty()) warnings.add(written.warning);
@@ -38,13 +57,15 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
         folder.write("convergence.csv", convergence);
     }
     const auto json = run_json(rendering, warnings, folder.path().string(), rendering.seconds + watch.seconds());
+    std::string data;
     if (files.page) {
         const ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
-        folder.write("index.html", explorer_page({&explored}));
+        data = explorer_data({&explored});
+        folder.write("index.html", explorer_page(data));
     }
     folder.write("run.json", json.dump(2) + "\n");
     folder.commit();
-    return {warnings, json};
+    return {warnings, json, std::move(data)};
 }
 
 }  // namespace neumann

@@ -18,6 +18,9 @@ namespace neumann {
 ShownPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
                              PackedSeries& packed);
 
+// Packs the pictures for a page, and returns its exposure.
+double pack_pictures(const BounceSeries& series, const Scene& scene, PackedSeries& packed);
+
 // The contents of bounce_000.exr …, sum_000.exr … and rest.exr.
 std::string term_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& term);
 std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum);

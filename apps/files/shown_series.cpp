@@ -53,11 +53,22 @@ Means pack_pictures(const ShownSeries& series, bool page, PackedSeries& packed) 
     return means;
 }
 
+// For importance all visible surfaces are "emitters", so the sum is used.
+const Image& emission_of(const ShownSeries& series, const Means& means) {
+    return series.is_importance ? means.sums.back() : means.terms.front();
+}
+
 }  // namespace
+
+double pack_series(const ShownSeries& series, PackedSeries& packed) {
+    const Means means = pack_pictures(series, true, packed);
+    return exposure_for(means.sums.back(), emission_of(series, means));
+}
 
 ShownPictures show_series(OutputFolder& folder, const ShownSeries& series, const ChosenFiles& files, PackedSeries& packed) {
     const std::size_t N = series.bounces - 1;
-    const auto [terms, sums] = pack_pictures(series, files.page, packed);
+    const Means means = pack_pictures(series, files.page, packed);
+    const auto& [terms, sums] = means;
     const std::string &lenient = series.lenient_label, &note = series.lenient_note;
     const std::string kind = (series.is_importance ? ", importance" : series.is_subset ? ", some paths" : "") + lenient;
     std::vector<std::string> term_names;
@@ -66,8 +77,7 @@ ShownPictures show_series(OutputFolder& folder, const ShownSeries& series, const
         term_names.push_back((i <= N ? fmt::format("bounce {}", i) : fmt::format("rest, beyond {}", N)) + kind);
     for (std::size_t i = 0; i < sums.size(); ++i)
         sum_pictures.push_back({(i == 0 ? "sum 0" : fmt::format("sum 0..{}", i)) + kind, &sums[i]});
-    // For importance all visible surfaces are "emitters", so the sum is used.
-    const Image& emission = series.is_importance ? sums.back() : terms.front();
+    const Image& emission = emission_of(series, means);
     const double exposure = exposure_for(sums.back(), emission);
     if (!files.sheets && !files.strips) return {"", exposure};
     for (std::size_t i = 0; i < terms.size(); ++i) {

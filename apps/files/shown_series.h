@@ -27,6 +27,9 @@ struct ShownPictures {
     double exposure = 1.0;  // of the page, the contact sheet, the strips and the flip-book
 };
 
+// Packs the pictures for a page, and returns its exposure.
+double pack_series(const ShownSeries& series, PackedSeries& packed);
+
 // Packs the pictures for index.html, if that is chosen, and writes contact-sheet.png, bounces.gif, strip-terms.png …, what is
 // chosen of them.
 ShownPictures show_series(OutputFolder& folder, const ShownSeries& series, const ChosenFiles& files, PackedSeries& packed);

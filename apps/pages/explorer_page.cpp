@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <cmath>
-#include <deque>
 
 namespace neumann {
 
@@ -28,18 +27,16 @@ Json decay(const Json& run) {
 
 }  // namespace
 
-std::string explorer_page(const std::vector<const ExploredRun*>& runs, const Json& comparison) {
+std::string explorer_data(const std::vector<const ExploredRun*>& runs, const Json& comparison) {
     Json all = {{"runs", Json::array()}, {"comparison", comparison}};
-    std::deque<std::string> tags;
-    std::vector<std::string_view> pictures;
+    std::string pictures;
     for (std::size_t r = 0; r < runs.size(); ++r) {
         const ExploredRun& run = *runs[r];
         Json heads = Json::array();
         for (const PackedPicture& picture : run.pictures.pictures()) {
-            pictures.push_back(
-                tags.emplace_back(fmt::format("<script type=\"text/plain\" id=\"picture-{}-{}\">", r, heads.size())));
-            pictures.push_back(picture.bytes);
-            pictures.push_back("</script>\n");
+            pictures += fmt::format("<script type=\"text/plain\" id=\"picture-{}-{}\">", r, heads.size());
+            pictures += picture.bytes;
+            pictures += "</script>\n";
             heads.push_back(picture.head);
         }
         Json packed = run.pictures.head();
@@ -49,10 +46,15 @@ std::string explorer_page(const std::vector<const ExploredRun*>& runs, const Jso
         all["runs"].push_back(
             {{"run", run.run}, {"convergence", run.convergence}, {"decay", decay(run.run)}, {"pictures", packed}});
         if (!run.paths.is_null()) all["runs"].back()["paths"] = run.paths;
+        if (run.is_under_way) all["is_under_way"] = true;
     }
-    const std::string data = fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n", for_script(all));
-    pictures.insert(pictures.begin(), data);
-    return page("explorer.html", pictures);
+    return fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n", for_script(all)) + pictures;
+}
+
+std::string explorer_page(std::string_view data) { return page("explorer.html", {data}); }
+
+std::string explorer_page(const std::vector<const ExploredRun*>& runs, const Json& comparison) {
+    return explorer_page(explorer_data(runs, comparison));
 }
 
 }  // namespace neumann

@@ -8,6 +8,7 @@ const loadAll = async () => {
   draw();
   document.body.dataset.ready = "yes";
 };
+drawWords();
 drawNotes();
 readAddress();
-loadAll().catch(e => { $("warnings").append(element("p", e.message, "warning")); });
+loadAll().then(watchRender).catch(e => { $("warnings").append(element("p", e.message, "warning")); });

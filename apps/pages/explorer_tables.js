@@ -2,22 +2,6 @@
 // The run in words.
 const sceneOf = s => s.run.scene.file.split("/").pop();
 const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.sampling_seconds)} s, ${number(s.run.timing.total_seconds)} s in all`;
-document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": " + all.map((_, r) => letter(r)).join(", ").replace(/, (.)$/, " and $1") : "");
-$("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
-{
-  const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
-  $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: here each term is a picture. ` +
-    `${K}ⁱ ${source}, bounce i, is ${what} that was reflected i times on its way; the sum up to it holds bounces 0 to i, and the rest all that come after the last one. ` +
-    "More is in the manual, apps/manual/explorer.md.";
-}
-const lenient = all.filter(s => s.run.scene.replaced);
-$("lenient").hidden = lenient.length === 0;
-const warnings = [
-  ...all.flatMap(s => (s.run.health?.complaints ?? []).map(c => `${runName(s)}sick: ${c}`)),
-  ...lenient.map(s => `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`),
-  ...all.flatMap(s => s.run.warnings.map(w => runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : "")))
-].map(text => element("p", text, "warning"));
-
 // Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
 const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95", "unmet", "rare_large_samples"].includes(k));
 const isFlat = v => v === null || typeof v !== "object" || isMean(v) || (Array.isArray(v) && v.every(x => x === null || typeof x !== "object"));
@@ -48,9 +32,6 @@ const folded = (title, ...parts) => {
   fold.append(element("summary", title), ...parts);
   return fold;
 };
-// Two warnings leave room for the picture.
-$("warnings").append(...warnings.slice(0, 2), ...(warnings.length > 2 ? [folded(`${warnings.length - 2} more warning${warnings.length > 3 ? "s" : ""}`, ...warnings.slice(2))] : []));
-
 const wide = t => { const w = element("div", undefined, "wide"); w.append(t); return w; };
 const bouncesTable = s => {
   const b = s.run.bounces, rest = s.run.rest, row = (name, x) => [name, number(x.mean), typeof x.interval95 === "string" ? "none: infinite variance" : (x.unmet && x.interval95 !== null ? "< " : "") + number(x.interval95, 2) + (x.rare_large_samples ? " at least" : ""),
@@ -61,14 +42,6 @@ const bouncesTable = s => {
   return wide(table(["bounce", `mean / ${s.unit}`, "± (95%)", "ratio", "bound on what follows", "rays", ...(discretised ? ["discretisation"] : []), ...(subset ? ["missing"] : [])],
     [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", { ...rest, ratio_estimate: undefined })])], []));
 };
-if (data.comparison) {
-  const flip = data.comparison.pictures.some(p => p.flip !== undefined);
-  section("A against B, the reference", wide(table(["", "RMSE", ...(flip ? ["FLIP"] : []), "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],
-    data.comparison.pictures.map(p => [p.name, ...["rmse", ...(flip ? ["flip"] : []), "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
-      p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
-    element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
-      (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where pixels err together and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));
-}
 // What was left out, with what that saves; what saves nothing is named together.
 const planTable = plan => {
   const leftOut = plan.filter(p => !p.kept), kept = plan.filter(p => p.kept), saving = leftOut.filter(p => !p.saves.startsWith("nothing"));
@@ -94,7 +67,37 @@ const mixtureMaps = ({ blocks, methods }) => [element("p", "The weight of each m
     row.append(...m.weights_of_bounces.map((digits, bounce) => weightMap(digits, blocks, bounce)));
     return [element("p", `${m.method}, ${number(100 * m.part_of_work, 2)}% of the work`), row];
   })];
-all.forEach(s => {
+const drawTitle = () => {
+  document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": " + all.map((_, r) => letter(r)).join(", ").replace(/, (.)$/, " and $1") : "");
+  $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
+};
+// What the page is, in three sentences.
+const drawAbout = () => {
+  const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
+  $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: here each term is a picture. ` +
+    `${K}ⁱ ${source}, bounce i, is ${what} that was reflected i times on its way; the sum up to it holds bounces 0 to i, and the rest all that come after the last one. ` +
+    "More is in the manual, apps/manual/explorer.md.";
+};
+const drawWarnings = () => {
+  const lenient = all.filter(s => s.run.scene.replaced);
+  $("lenient").hidden = lenient.length === 0;
+  const warnings = [
+    ...all.flatMap(s => (s.run.health?.complaints ?? []).map(c => `${runName(s)}sick: ${c}`)),
+    ...lenient.map(s => `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`),
+    ...all.flatMap(s => s.run.warnings.map(w => runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : "")))
+  ].map(text => element("p", text, "warning"));
+  // Two warnings leave room for the picture.
+  $("warnings").replaceChildren(...warnings.slice(0, 2), ...(warnings.length > 2 ? [folded(`${warnings.length - 2} more warning${warnings.length > 3 ? "s" : ""}`, ...warnings.slice(2))] : []));
+};
+const drawComparison = () => {
+  const flip = data.comparison.pictures.some(p => p.flip !== undefined);
+  section("A against B, the reference", wide(table(["", "RMSE", ...(flip ? ["FLIP"] : []), "by noise", "relMSE", "MAPE", "SMAPE", "max |A−B|", "mean of A − B", "95% interval"],
+    data.comparison.pictures.map(p => [p.name, ...["rmse", ...(flip ? ["flip"] : []), "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
+      p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
+    element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
+      (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where pixels err together and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));
+};
+const drawRun = s => {
   const tag = all.length > 1 ? ` of ${letter(s.index)}` : "", run = s.run, what = { command: run.command, ...run }, parts = [];
   section(`The bounces${tag}`, bouncesTable(s));
   if (run.choice) {
@@ -117,6 +120,18 @@ all.forEach(s => {
   }
   for (const part of ["choice", "health", "bounces", "warnings", "ways"]) delete what[part];
   section(`The run${tag}`, ...parts, folded("All facts of run.json", generic(what)));
-});
-section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits) or to 1/32 of their standard error, standard errors to 3%. " +
-  (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));
+};
+// All words. What was unfolded stays so.
+const drawWords = () => {
+  const nameOf = fold => fold.firstChild.textContent.split(":")[0], folds = () => [...document.querySelectorAll("#warnings details, #tables details")];
+  const open = new Set(folds().filter(fold => fold.open).map(nameOf));
+  drawTitle();
+  drawAbout();
+  drawWarnings();
+  $("tables").replaceChildren();
+  if (data.comparison) drawComparison();
+  all.forEach(drawRun);
+  section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits) or to 1/32 of their standard error, standard errors to 3%. " +
+    (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));
+  for (const fold of folds()) fold.open = open.has(nameOf(fold));
+};

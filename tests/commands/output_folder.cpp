@@ -103,9 +103,9 @@ TEST_F(OutputFolderTest, ACommitRemovesWhatAnEarlierRunLeftAndNothingElse) {
 TEST_F(OutputFolderTest, APreviewIsThereUntilTheFilesAre) {
     for (const bool finished : {true, false}) {
         std::optional<OutputFolder> folder(std::in_place, base_, "render");
-        folder->show("rough");
+        folder->show("preview.png", "rough");
         EXPECT_EQ(text_of(base_ / "preview.png"), "rough");
-        folder->show("better");
+        folder->show("preview.png", "better");
         EXPECT_EQ(text_of(base_ / "preview.png"), "better");
         folder->write("series.csv", "x");
         EXPECT_EQ(names_in(base_).count(".preview.png.partial"), 0u);
@@ -115,13 +115,29 @@ TEST_F(OutputFolderTest, APreviewIsThereUntilTheFilesAre) {
     }
     {
         OutputFolder folder(base_, "render");
-        folder.show("of the first");
+        folder.show("preview.png", "of the first");
         EXPECT_NE(refusal(base_), "accepted");
         EXPECT_EQ(text_of(base_ / "preview.png"), "of the first");
     }
     put(base_ / "preview.png", "of a process that was killed");
     const OutputFolder folder(base_, "render");
     EXPECT_EQ(names_in(base_), Names{"series.csv"});
+}
+
+// A page so far is replaced by the page, or removed where there is none in the end, and never takes the place of an earlier run's.
+TEST_F(OutputFolderTest, APageSoFarIsThereUntilThePageIs) {
+    for (const std::string last : {"the page", "", "nothing"}) {
+        std::optional<OutputFolder> folder(std::in_place, base_, "render");
+        EXPECT_TRUE(folder->may_show_page());
+        folder->show("index.html", "so far");
+        EXPECT_EQ(text_of(base_ / "index.html"), "so far");
+        if (last == "the page") folder->write("index.html", last);
+        if (last != "nothing") folder->commit();
+        folder.reset();
+        EXPECT_EQ(text_of(base_ / "index.html"), last == "the page" ? last : "");
+    }
+    put(base_ / "run.json", "of an earlier run");
+    EXPECT_FALSE(OutputFolder(base_, "render").may_show_page());
 }
 
 TEST_F(OutputFolderTest, WritingTwiceKeepsTheLast) {

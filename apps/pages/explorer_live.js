@@ -1,0 +1,30 @@
+"use strict";
+// A render that is under way: the page takes what there is anew, and stays as it is otherwise.
+
+const sayHowFar = text => { $("so-far").textContent = text; };
+const loadAnew = () => new Promise(() => location.reload());
+const isAlike = (a, b) => ["width", "height", "last", "hasRest"].every(of => a[of] === b[of]);
+// What was made of pictures that are others now.
+const forgetPictures = () => {
+  fitted.clear();
+  histogram.of = null;
+  drawn = {};
+  for (const tile of strip.tiles) delete tile.drawnAs;
+};
+const takeAnew = async () => {
+  const text = await asked("data");
+  if (text === undefined) return;
+  const parts = new DOMParser().parseFromString(text, "text/html"), next = JSON.parse(parts.getElementById("data").textContent).runs.map((r, i) => new Series(r, i));
+  if (!next.every((s, i) => isAlike(s, all[i]))) return loadAnew();
+  for (const part of [...parts.scripts]) $(part.id).replaceWith(document.importNode(part, true));
+  for (const s of next) for (let i = 0; i < s.heads.length; ++i) await s.load(i);
+  next.forEach((s, i) => Object.assign(all[i], s));
+  forgetPictures();
+  drawWords();
+  drawNotes();
+  redraw();
+};
+const watchRender = () => {
+  if ($("live")) follow(Number($("live").textContent), takeAnew, sayHowFar);
+  else if (data.is_under_way) sayHowFar(`So far ${whole(first.run.samples.per_pixel)} samples a pixel, ${number(first.run.timing.total_seconds)} s: the render is under way, and the page can be loaded anew.`);
+};

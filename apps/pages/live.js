@@ -1,0 +1,29 @@
+"use strict";
+// News of a render that is under way, from its server (apps/live/page_server.h).
+
+const duration = seconds => seconds < 60 ? `${Math.round(seconds)} s` : seconds < 3600 ? `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`
+  : `${Math.floor(seconds / 3600)} h ${Math.round(seconds % 3600 / 60)} min`;
+const progressText = ({ samples, seconds, fraction, seconds_left }) =>
+  (samples ? `So far ${whole(samples)} samples a pixel` : "No samples yet") + (seconds === undefined ? "" : `, ${duration(seconds)}`) +
+  (seconds_left === undefined ? "" : `; ${Math.round(100 * Math.min(1, fraction))}%, ${duration(seconds_left)} left`) + ".";
+// What the server gives; nothing if it is gone.
+const asked = async path => {
+  try {
+    return await (await fetch(path)).text();
+  } catch {
+    return undefined;
+  }
+};
+// Calls take() whenever there are other data than those of `version`, and tell() with how far it is, in words, until the end.
+const follow = async (version, take, tell) => {
+  const page = Math.random().toString(36).slice(2);
+  for (;;) {
+    const text = await asked(`progress?page=${page}&after=${version}`);
+    if (text === undefined) return tell("The render has ended without this page, which shows what there was until then.");
+    const news = JSON.parse(text), isNew = news.version !== version;
+    if (isNew) await take();
+    tell(news.finished ? `Finished.${news.file ? ` What this page shows is kept in ${news.file}` : ""}` : progressText(news));
+    if (news.finished && !isNew) return;
+    version = news.version;
+  }
+};
