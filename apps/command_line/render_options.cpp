@@ -49,9 +49,10 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
         ->type_name("DIR")
         ->each([scene = render->get_option("SCENE")](const std::string&) { scene->required(false); });
     render
-        ->add_option("--live", request.live,
-                     "Serve the page of the render to browsers of this machine, where it fills meanwhile, at this port of 127.0.0.1; "
-                     "without a number at any that is free")
+        ->add_option(
+            "--live", request.live,
+            "Serve the page of the render to browsers of this machine, where it fills meanwhile, at this port of 127.0.0.1; "
+            "without a number at any that is free")
         ->type_name("PORT")
         ->expected(0, 1)
         ->default_str("0")

@@ -100,8 +100,9 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
         watch.judge = [&](const auto& term, const Image& sum, Checkpoint& checkpoint) { reference->judge(term, sum, checkpoint); };
     }
     const auto as_rendering = [&](BounceSeries series) {
-        return Rendering{request.scene, request.command_line, request.options, request.definitions,
-                         scene, std::move(series), clock.seconds(), choose_files(request.files, request.theme == "white")};
+        return Rendering{
+            request.scene, request.command_line, request.options, request.definitions,
+            scene,         std::move(series),    clock.seconds(), choose_files(request.files, request.theme == "white")};
     };
     if (viewers && !viewers->all.empty())
         saving.see = [&](const std::function<BounceSeries()>& so_far) {

@@ -26,11 +26,11 @@ struct RenderRequest {
     bool json = false;
     std::optional<std::uint16_t> live;  // the port of a page that fills meanwhile, 0: any that is free
     std::string tev;                    // HOST:PORT of a tev that shows the pictures meanwhile, or empty
-    std::string resume;                // the folder of a render that this one goes on with; the request is as that one began
-    std::string scene_hash;            // of that one
-    std::optional<double> checkpoint;  // seconds between two states on disk
-    nlohmann::ordered_json options;    // as typed, by name, for a resumed render
-    std::string command_line;          // as typed, for run.json
+    std::string resume;                 // the folder of a render that this one goes on with; the request is as that one began
+    std::string scene_hash;             // of that one
+    std::optional<double> checkpoint;   // seconds between two states on disk
+    nlohmann::ordered_json options;     // as typed, by name, for a resumed render
+    std::string command_line;           // as typed, for run.json
 };
 
 // Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.

@@ -12,8 +12,7 @@ void LivePage::tell(const RenderProgress& progress) {
     const auto now = std::chrono::steady_clock::now();
     if (!lock || now - told_ < between) return;
     told_ = now;
-    nlohmann::ordered_json json = {
-        {"samples", progress.samples}, {"seconds", progress.seconds}, {"fraction", progress.fraction}};
+    nlohmann::ordered_json json = {{"samples", progress.samples}, {"seconds", progress.seconds}, {"fraction", progress.fraction}};
     if (progress.seconds_left) json["seconds_left"] = *progress.seconds_left;
     server_.tell(std::move(json));
 }

@@ -3,10 +3,10 @@
 #include "apps/pages/page.h"
 #include "core/base/error.h"
 
+#include <fmt/format.h>
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
-#include <fmt/format.h>
 
 #include <charconv>
 #include <future>
@@ -60,8 +60,9 @@ public:
         acceptor_.bind(here, error);
         if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
         if (error)
-            throw InputError(fmt::format("--live {}: this port of 127.0.0.1 cannot be had: {}; without a number any free one is taken",
-                                         port, error.message()));
+            throw InputError(
+                fmt::format("--live {}: this port of 127.0.0.1 cannot be had: {}; without a number any free one is taken", port,
+                            error.message()));
         port_ = acceptor_.local_endpoint().port();
         accept();
         thread_ = std::thread([this] { io_.run(); });

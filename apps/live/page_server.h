@@ -1,5 +1,5 @@
-// The page of a render that is under way, served to browsers on this machine: GET / is the page, /progress waits for news, and /data
-// is what the page shows.
+// The page of a render that is under way, served to browsers on this machine: GET / is the page, /progress waits for news, and
+// /data is what the page shows.
 #pragma once
 
 #include <nlohmann/json.hpp>

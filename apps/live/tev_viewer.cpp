@@ -4,8 +4,8 @@
 #include "apps/live/tev_packets.h"
 #include "core/base/error.h"
 
-#include <boost/asio/ip/tcp.hpp>
 #include <fmt/format.h>
+#include <boost/asio/ip/tcp.hpp>
 
 #include <chrono>
 
@@ -36,9 +36,10 @@ TevViewer::TevViewer(const std::string& place, std::string name, std::function<v
     stream.expires_after(longest_wait);
     stream.connect(host, place.substr(colon + 1));
     if (!stream)
-        throw InputError(fmt::format("--tev {}: nobody answers there: {}; expected a tev that is running, which listens at "
-                                     "127.0.0.1:14158 unless its --host says otherwise",
-                                     place, stream.error().message()));
+        throw InputError(
+            fmt::format("--tev {}: nobody answers there: {}; expected a tev that is running, which listens at "
+                        "127.0.0.1:14158 unless its --host says otherwise",
+                        place, stream.error().message()));
 }
 
 TevViewer::~TevViewer() = default;

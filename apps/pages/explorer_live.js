@@ -12,7 +12,7 @@ const forgetPictures = () => {
   for (const tile of strip.tiles) delete tile.drawnAs;
 };
 const takeAnew = async () => {
-  const text = await asked("data");
+  const text = await fetched("data");
   if (text === undefined) return;
   const parts = new DOMParser().parseFromString(text, "text/html"), next = JSON.parse(parts.getElementById("data").textContent).runs.map((r, i) => new Series(r, i));
   if (!next.every((s, i) => isAlike(s, all[i]))) return loadAnew();

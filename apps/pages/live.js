@@ -7,7 +7,7 @@ const progressText = ({ samples, seconds, fraction, seconds_left }) =>
   (samples ? `So far ${whole(samples)} samples a pixel` : "No samples yet") + (seconds === undefined ? "" : `, ${duration(seconds)}`) +
   (seconds_left === undefined ? "" : `; ${Math.round(100 * Math.min(1, fraction))}%, ${duration(seconds_left)} left`) + ".";
 // What the server gives; nothing if it is gone.
-const asked = async path => {
+const fetched = async path => {
   try {
     return await (await fetch(path)).text();
   } catch {
@@ -18,7 +18,7 @@ const asked = async path => {
 const follow = async (version, take, tell) => {
   const page = Math.random().toString(36).slice(2);
   for (;;) {
-    const text = await asked(`progress?page=${page}&after=${version}`);
+    const text = await fetched(`progress?page=${page}&after=${version}`);
     if (text === undefined) return tell("The render has ended without this page, which shows what there was until then.");
     const news = JSON.parse(text), isNew = news.version !== version;
     if (isNew) await take();

@@ -268,9 +268,9 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
             job.saving.keep(as_sampled, job.choice, so_far, is_last);
             if (!job.saving.see || is_last) return;
             job.saving.see([&] {
-                BounceSeries series = as_series(so_far, report_series(job.scene, so_far, verdict), method, settings, goal.first,
-                                                setup_seconds, job)
-                                          .series;
+                BounceSeries series =
+                    as_series(so_far, report_series(job.scene, so_far, verdict), method, settings, goal.first, setup_seconds, job)
+                        .series;
                 describe(series, job);
                 return series;
             });

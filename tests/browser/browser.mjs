@@ -30,10 +30,11 @@ export const openBrowser = async () => {
       await page.close();
       return file.toString("latin1");
     },
-    async open(file, { width = 1280, height = 900, scheme = "light", hash = "" } = {}) {
+    open(file, { hash = "", ...how } = {}) { return this.visit(pathToFileURL(file).href, { hash, alone: true, ...how }); },
+    // `alone`: a page that asks for nothing but itself; otherwise only its own server is asked.
+    async visit(url, { width = 1280, height = 900, scheme = "light", hash = "", alone = false } = {}) {
       const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
-      const url = pathToFileURL(file).href;
-      page.on("request", r => { if (r.url().split("#")[0] !== url) complaints.push(`asked for ${r.url()}`); });
+      page.on("request", r => { if (alone ? r.url().split("#")[0] !== url : !r.url().startsWith(url)) complaints.push(`asked for ${r.url()}`); });
       page.on("console", m => { if (["error", "warning"].includes(m.type())) complaints.push(m.text()); });
       page.on("pageerror", e => complaints.push(e.message));
       await page.goto(url + hash);
