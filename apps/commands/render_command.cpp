@@ -40,9 +40,10 @@ constexpr double longest_unseen = 2.0;
 Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const ChosenFiles& files, std::optional<int> bounces,
                          PageSoFar& page) {
     constexpr int about_so_many = 8;
+    constexpr double shortest = 10.0;
     const double pixels = static_cast<double>(scene.film.crop_width) * scene.film.crop_height;
-    const std::chrono::duration<double> first(
-        rest_of_files * PageSoFar::expected_seconds(pixels, bounces.value_or(scene.bounces.value_or(about_so_many)) + 2.0));
+    const double pictures = bounces.value_or(scene.bounces.value_or(about_so_many)) + 2.0;
+    const std::chrono::duration<double> first(std::max(shortest, rest_of_files * PageSoFar::expected_seconds(pixels, pictures)));
     Viewers viewers{{}, SmallShare(rest_of_files, first)};
     if (files.page && folder.may_show_page()) viewers.all.push_back(&page);
     return viewers;

@@ -266,7 +266,7 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
             RecordedRender as_sampled = record;
             as_sampled.replicate_size = so_far.replicate_size;  // smaller where it was stopped early
             job.saving.keep(as_sampled, job.choice, so_far, is_last);
-            if (!job.saving.see || is_last) return;
+            if (!job.saving.see || is_last || so_far.convergence.empty()) return;
             job.saving.see([&] {
                 BounceSeries series =
                     as_series(so_far, report_series(job.scene, so_far, verdict), method, settings, goal.first, setup_seconds, job)
