@@ -34,9 +34,8 @@ struct Saving {
         [](const auto&...) {};
     std::function<void()> has_all_fields = [] {};
     double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
-    // Called with what makes the series so far, which may be used until this returns: after every part from that on
-    // whose errors are known, and after
-    // every refinement of fields, from the thread that renders. It has neither health nor ways. Empty: not wanted.
+    // Called with what makes the series so far, which may be used until this returns: after every part, once errors are known, and
+    // after every refinement of fields, from the thread that renders. It has neither health nor ways. Empty: not wanted.
     std::function<void(const std::function<BounceSeries()>& so_far)> see = {};
 };
 
