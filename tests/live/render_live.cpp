@@ -89,7 +89,9 @@ protected:
     }
     void expect_same_pictures(const std::string& a, const std::string& b) const {
         for (const std::string& name : names(a))
-            if (name.ends_with(".exr")) EXPECT_EQ(text_of(path(a) / name), text_of(path(b) / name)) << name;
+            if (name.ends_with(".exr")) {
+                EXPECT_EQ(text_of(path(a) / name), text_of(path(b) / name)) << name;
+            }
         EXPECT_EQ(names(a), names(b));
     }
 };
@@ -161,7 +163,9 @@ TEST_F(RenderLive, TevGetsEachBounceAndSum) {
             words >> value;
             EXPECT_EQ(sent, static_cast<float>(value)) << channel;
         }
-        if (channel.starts_with("sum_002")) EXPECT_EQ(image.values.at(channel), image.values.at(channel.substr(8)));
+        if (channel.starts_with("sum_002")) {
+            EXPECT_EQ(image.values.at(channel), image.values.at(channel.substr(8)));
+        }
     }
     EXPECT_EQ(compared, 15);
 }
