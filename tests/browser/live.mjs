@@ -31,7 +31,7 @@ await page.evaluate(() => { set({ pixel: { x: 9, y: 20 } }); document.querySelec
 const begun = await samples(), points = () => page.evaluate(() => errorPlot.data.datasets.find(s => s.label === "sum").data.length);
 const before = await page.evaluate(() => [...all[0].mean({ i: 3, sum: true })]);
 await page.waitForFunction(n => all[0].run.samples.per_pixel >= 4 * n, begun, { timeout: 60000 });
-assert.match(await soFar(), /^So far \S+ samples a pixel, .* left\.$/);
+assert.match(await soFar(), /^So far [\d\s]+ samples a pixel, .* left\.$/);
 assert.ok(await points() >= 2);
 assert.notDeepEqual(await page.evaluate(() => [...all[0].mean({ i: 3, sum: true })]), before);
 assert.equal(await page.locator("#name").innerText(), "sum of bounces 0 to 3: Le + K Le + K² Le + K³ Le");
