@@ -31,10 +31,7 @@ namespace neumann {
 
 namespace {
 
-// Viewers that were asked for take a twentieth of the time at most, and see something new every so many seconds; a page in the
-// folder, which was not, takes a fiftieth.
-constexpr int rest_of_viewers = 20, rest_of_files = 50;
-constexpr double longest_unseen = 2.0;
+constexpr int rest_of_files = 50;  // a page in the folder, which nobody asked for, takes a fiftieth of the time
 
 // index.html so far, once the render has taken long enough for it, and where it takes the place of no finished page.
 Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const ChosenFiles& files, std::optional<int> bounces,
@@ -86,6 +83,12 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
 
 }  // namespace
 
+Viewers asked_for(std::vector<Viewer*> all) {
+    constexpr int rest = 20;  // a twentieth of the time at most
+    constexpr double longest_unseen = 2.0;
+    return {std::move(all), SmallShare(rest), longest_unseen};
+}
+
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& given,
                                   Saving saving, Viewers* viewers) {
     const Stopwatch clock;
@@ -105,7 +108,8 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
             request.scene, request.command_line, request.options, request.definitions,
             scene,         std::move(series),    clock.seconds(), choose_files(request.files, request.theme == "white")};
     };
-    if (viewers && !viewers->all.empty())
+    if (viewers && !viewers->all.empty()) {
+        saving.longest_part = std::min(saving.longest_part, viewers->longest_unseen);
         saving.see = [&](const std::function<BounceSeries()>& so_far) {
             if (!viewers->share.is_due()) return;
             viewers->share.spend([&] {
@@ -113,6 +117,7 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
                 for (Viewer* const viewer : viewers->all) viewer->see(rendering);
             });
         };
+    }
     BounceSeries series = render(*scene, make_method(request.method), goal, watch, std::move(saving));
     if (reference) warn_of_reference(request.reference, series, series.warnings);
     return std::make_shared<Rendering>(as_rendering(std::move(series)));
@@ -170,15 +175,12 @@ int render_command(const RenderRequest& given) {
     Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
                             request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
     PageSoFar page_so_far(*folder);
-    Viewers viewers = live || tev ? Viewers{{}, SmallShare(rest_of_viewers)}
-                                  : viewers_of_files(*scene, *folder, files, request.goal.bounces, page_so_far);
+    Viewers viewers = live || tev ? asked_for({}) : viewers_of_files(*scene, *folder, files, request.goal.bounces, page_so_far);
     if (live) viewers.all.push_back(&*live);
     if (tev) viewers.all.push_back(&*tev);
     const auto rendering = [&] {
         try {
-            Saving saving = checkpoints.saving(std::move(state));
-            if (live || tev) saving.longest_part = std::min(saving.longest_part, longest_unseen);
-            return render(request, scene, watch, std::move(saving), &viewers);
+            return render(request, scene, watch, checkpoints.saving(std::move(state)), &viewers);
         } catch (const Stopped& error) {
             if (!std::filesystem::exists(folder->saved())) throw;
             throw RunError(fmt::format("{}; neumann render --resume {} goes on", error.what(), request.output));
@@ -209,7 +211,7 @@ int render_command(const RenderRequest& given) {
     if (live) {
         std::fflush(stdout);
         const auto file = std::filesystem::absolute(std::filesystem::path(request.output) / "index.html").lexically_normal();
-        page.empty() ? live->finish(page_data(*rendering), "") : live->finish(page, file.string());
+        page.empty() ? live->finish(page_data(*rendering, false), "") : live->finish(page, file.string());
     }
     return 0;
 }

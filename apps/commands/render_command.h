@@ -7,6 +7,8 @@
 #include "operators/methods/method_options.h"
 #include "operators/methods/saving.h"
 
+#include <limits>
+
 namespace neumann {
 
 struct RenderRequest {
@@ -36,11 +38,15 @@ struct RenderRequest {
 // Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 
-// Those who see what there is so far, and the part of the time that it takes to show it to all of them.
+// Those who see what there is so far, the part of the time that it takes to show it to all of them, and after how many seconds
+// there should be something new.
 struct Viewers {
     std::vector<Viewer*> all;
     SmallShare share;
+    double longest_unseen = std::numeric_limits<double>::infinity();
 };
+// Viewers that somebody asked for.
+Viewers asked_for(std::vector<Viewer*> all);
 
 // The same for a scene in memory, with the pictures kept in memory. `watch` must not have a judge. Throws InputError and RunError.
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch,

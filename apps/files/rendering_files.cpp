@@ -30,13 +30,13 @@ std::vector<std::string> Rendering::complaints(const std::string& folder) const 
     return health.is_null() ? std::vector<std::string>() : health.at("complaints").get<std::vector<std::string>>();
 }
 
-std::string page_data(const Rendering& so_far) {
-    const BounceSeries& series = so_far.series;
-    ExploredRun explored{run_json(so_far, so_far.warnings(), "", so_far.seconds), convergence_table(series.convergence), 1.0,
-                         packed_for_page(so_far), series.rest.has_value()};
-    explored.is_under_way = true;
-    explored.run["samples"]["outcome"] = "under way";
-    explored.exposure = pack_pictures(series, *so_far.scene, explored.pictures);
+std::string page_data(const Rendering& rendering, bool is_under_way) {
+    const BounceSeries& series = rendering.series;
+    ExploredRun explored{run_json(rendering, rendering.warnings(), "", rendering.seconds), convergence_table(series.convergence),
+                         1.0, packed_for_page(rendering), series.rest.has_value()};
+    explored.is_under_way = is_under_way;
+    if (is_under_way) explored.run["samples"]["outcome"] = "under way";
+    explored.exposure = pack_pictures(series, *rendering.scene, explored.pictures);
     return explorer_data({&explored});
 }
 

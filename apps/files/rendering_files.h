@@ -42,8 +42,8 @@ struct WrittenRendering {
 // Writes the chosen files and commits them. Throws RunError if not everything can be written.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
-// What a page shows of a render that is under way.
-std::string page_data(const Rendering& so_far);
+// What a page shows of a render whose files are not written.
+std::string page_data(const Rendering& rendering, bool is_under_way);
 
 // For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room,
 // and otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line for the user that says what

@@ -17,7 +17,7 @@ void LivePage::tell(const RenderProgress& progress) {
     server_.tell(std::move(json));
 }
 
-void LivePage::see(const Rendering& so_far) { server_.show(page_data(so_far)); }
+void LivePage::see(const Rendering& so_far) { server_.show(page_data(so_far, true)); }
 
 void LivePage::finish(std::string data, const std::string& file) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();

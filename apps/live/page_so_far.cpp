@@ -7,7 +7,7 @@ namespace neumann {
 
 void PageSoFar::see(const Rendering& so_far) {
     try {
-        folder_.show("index.html", explorer_page(page_data(so_far)));
+        folder_.show("index.html", explorer_page(page_data(so_far, true)));
     } catch (const RunError&) {
         // A full disk is reported when the pictures are written.
     }

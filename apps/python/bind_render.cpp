@@ -5,6 +5,7 @@
 #include "apps/commands/render_command.h"
 #include "apps/files/run_json.h"
 #include "apps/files/series_files.h"
+#include "apps/live/live_page.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
@@ -36,19 +37,25 @@ Saving keeping(std::optional<RenderState>& state) {
     return saving;
 }
 
-std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
+// `live`: a page that fills meanwhile, or null.
+std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments,
+                           const std::shared_ptr<LivePage>& live) {
     RenderRequest request = parse<RenderRequest>("render", add_render, *loaded, arguments);
     request.definitions = loaded->definitions;
     request.command_line = command_line("render", *loaded, arguments);
     request.quiet = true;
-    return std::make_unique<Job>(request.threads, [loaded, request](Job& job) -> Job::Finish {
+    return std::make_unique<Job>(request.threads, [loaded, request, live](Job& job) -> Job::Finish {
         Watch watch;
         watch.stop = interrupted;
         watch.progress = [&](const RenderProgress& p) {
             job.tell(progress_text(p), p.seconds_left ? std::optional(p.fraction) : std::nullopt);
+            if (live) live->tell(p);
         };
         std::optional<RenderState> state;
-        const auto rendering = render(request, loaded->scene, watch, keeping(state));
+        Viewers viewers = asked_for({});
+        if (live) viewers.all.push_back(live.get());
+        const auto rendering = render(request, loaded->scene, watch, keeping(state), &viewers);
+        if (live) live->finish(page_data(*rendering, false), "");
         const auto kept = std::make_shared<Mergeable>(Mergeable{std::move(*rendering), std::move(state)});
         return [kept] { return py::cast(kept); };
     });
@@ -133,7 +140,11 @@ void bind_render(py::module_& m) {
         .def(
             "complaints", [](const Mergeable& r, const std::string& folder) { return r.complaints(folder); }, py::arg("folder"))
         .def("save", &save, py::arg("folder"), py::arg("files") = file_groups());
-    m.def("render", &start, py::arg("scene"), py::arg("arguments"));
+    py::class_<LivePage, std::shared_ptr<LivePage>>(m, "LivePage",
+                                                    "A page that fills while a render runs, on a server of this process.")
+        .def(py::init([] { return std::make_shared<LivePage>(std::uint16_t{0}); }))
+        .def_property_readonly("address", &LivePage::address, "http://127.0.0.1:…/, on this machine alone.");
+    m.def("render", &start, py::arg("scene"), py::arg("arguments"), py::arg("live"));
     m.def("merge", &start_merge, py::arg("a"), py::arg("b"));
 }
 

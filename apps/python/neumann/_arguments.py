@@ -14,7 +14,7 @@ def options(keywords: Dict[str, Any]) -> List[str]:
     """bounces=6, direct="light" as -n6 --direct=light. None and False are left out, and what is no option."""
     result = []
     for name, value in keywords.items():
-        if value is None or value is False or name in ("self", "quiet", "of_method"):
+        if value is None or value is False or name in ("self", "quiet", "live", "of_method"):
             continue
         option = "--" + name.replace("_", "-")
         if value is True:

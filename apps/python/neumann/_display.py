@@ -2,6 +2,7 @@
 
 import base64
 import html
+import sys
 import tempfile
 import webbrowser
 from pathlib import Path
@@ -113,6 +114,31 @@ def show(shown: str, alone: str) -> None:
     with tempfile.NamedTemporaryFile("w", prefix="neumann-", suffix=".html", delete=False, encoding="utf-8") as file:
         file.write(alone)
     webbrowser.open(Path(file.name).as_uri())
+
+
+class Live:
+    """The page of a render that is under way: below the cell of a notebook, where it becomes the finished page; elsewhere in the browser."""
+
+    height = 800
+
+    def __init__(self) -> None:
+        self.server = _neumann.LivePage()
+        self._handle: Any = None
+        address = self.server.address
+        if in_notebook():
+            from IPython.display import HTML, display
+
+            frame_of_server = f'<iframe src="{address}" style="width: 100%; height: {self.height}px; border: 0"></iframe>'
+            self._handle = display(HTML(frame_of_server), display_id=True)
+        else:
+            print(f"The page of this render, which fills meanwhile: {address}", file=sys.stderr)
+            webbrowser.open(address)
+
+    def finish(self, series: "BounceSeries") -> None:
+        if self._handle is not None:
+            from IPython.display import HTML
+
+            self._handle.update(HTML(frame(series._source.page(), self.height)))
 
 
 def frame(page: str, height: int) -> str:

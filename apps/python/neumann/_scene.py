@@ -13,7 +13,7 @@ from ._arguments import definitions, method_options, options, with_method_option
 from ._bounces import BounceSeries
 from ._chain import Chain
 from ._dictionary import edits_of, parse
-from ._display import as_facts, as_table
+from ._display import Live, as_facts, as_table
 from ._estimator import Estimator, from_rays, name_of
 from ._matrices import STEPS, Matrices, Solutions
 from ._method import Method
@@ -125,6 +125,7 @@ class Scene:
         seed: Optional[int] = None,
         threads: Optional[int] = None,
         quiet: bool = False,
+        live: bool = False,
         **of_method: Unpack[MethodOptions],
     ) -> BounceSeries:
         """Renders the bounces K^i Le, their sums, and the rest: as ``neumann render``, with the same bits for the same seed.
@@ -134,15 +135,20 @@ class Scene:
         any it ends at 2% error or after 20 seconds, with error alone after ten minutes. memory: GiB that may be taken, half of the machine's
         without it.
         reference: the folder of an earlier render, for true errors in ``convergence``. seed; threads: all without it.
-        quiet: neither progress nor warnings.
+        quiet: neither progress nor warnings. live: shows the explorer at once, which fills meanwhile: below the cell of a notebook on the same
+        machine, where the finished page takes its place; elsewhere in the browser.
 
         Raises InputError for a wrong argument, with the command's own words, and RunError. What the command prints as a warning is a
         NeumannWarning, and what is sick a HealthWarning.
 
         The other keywords are the options of the methods:
         """
-        job = _neumann.render(self._scene, options({**locals(), **method_options(of_method)}))
+        arguments = options({**locals(), **method_options(of_method)})
+        page = Live() if live else None
+        job = _neumann.render(self._scene, arguments, page.server if page else None)
         series: BounceSeries = run(job, quiet, lambda made: BounceSeries(Memory(made), self.path))
+        if page:
+            page.finish(series)
         if not quiet:
             warn(series.warnings)
             warn(series.run.health.complaints, HealthWarning)
