@@ -20,6 +20,7 @@ std::string heading(const PathStep& step) {
         case PathStep::Kind::record:
             return "from the record of the cache that brings most, its brightest ray";
         case PathStep::Kind::asks:
+            if (step.is_shared) return "joins a point that pixels share";
             return fmt::format("{} for bounce {}", step.from_light ? "looks at the camera" : "looks for light", step.bounce);
     }
     return "";

@@ -222,7 +222,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
                 const std::uint32_t i = walkers.asking[k];
                 const CorrectedWalker& w = walkers.walker[i];
                 const SurfacePoint& y = (*points_)[w.point].y;
-                observer.asks(i, false, bounce, w.x, y.position - w.x.position, y, seen);
+                observer.joins(i, bounce, w.x, y, seen);
                 if (!seen) return;
                 const Rgb* errors = points_->errors_at(w.point);
                 for (std::size_t k = 1; k <= points_->fields(); ++k) find_later(i, k, w.point_weight * errors[k - 1]);

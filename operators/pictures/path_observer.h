@@ -13,7 +13,8 @@ struct PathStep {
         first,    // from the camera or from a light
         goes_on,  // after a reflection
         record,   // from a record of a cache
-        asks      // a ray to a point on a light, on the other subpath, on the lens or on the walk of another pixel, or in a direction sampled for direct light
+        asks  // a ray to a point on a light, on the other subpath, on the lens or shared by pixels, or in a direction sampled for
+              // direct light
     };
     Kind kind = Kind::first;
     bool from_light = false;  // part of the subpath from a light
@@ -24,6 +25,7 @@ struct PathStep {
     Rgb beta{0.0};            // throughput along the ray, or power of a path from a light; 0 for `asks`
     bool found = false;       // the ray hits something, or the point is visible
     SurfacePoint to;          // the hit, or the point
+    bool is_shared = false;   // the point is one that paths of several pixels use, for this bounce and later ones
 };
 
 class PathObserver {

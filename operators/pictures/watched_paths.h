@@ -30,6 +30,12 @@ public:
         if (!observer_->watches(path)) return;
         observer_->step(path, {PathStep::Kind::asks, from_light, bounce, x, glm::normalize(w), 0.0, Rgb(0.0), seen, y});
     }
+    void joins(std::uint32_t path, int bounce, const SurfacePoint& x, const SurfacePoint& y, bool seen) const {
+        if (!observer_->watches(path)) return;
+        PathStep step{PathStep::Kind::asks, false, bounce, x, glm::normalize(y.position - x.position), 0.0, Rgb(0.0), seen, y};
+        step.is_shared = true;
+        observer_->step(path, step);
+    }
     void finds(std::uint32_t path, std::size_t quantity, const Rgb& value) const {
         if (observer_->watches(path) && !is_black(value)) observer_->found(path, quantity, value, nullptr);
     }

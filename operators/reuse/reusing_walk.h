@@ -53,6 +53,7 @@ public:
               bool seen) const {
         observer_.asks(path, from_light, bounce + corners_[path].reflections, x, w, y, seen);
     }
+    void joins(std::uint32_t, int, const SurfacePoint&, const SurfacePoint&, bool) const {}
     void finds(std::uint32_t, std::size_t, const Rgb&) const {}
 
 private:
@@ -167,8 +168,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         for (end = begin; end < pairs.size() && pairs[end].q == pairs[begin].q; ++end) all += pairs[end].g;
         for (std::size_t k = begin; k < end; ++k) {
             const auto& [p, q, g] = pairs[k];
-            const Vec3 towards = corners[q].y.position - corners[p].x.position;
-            observer.asks(p, false, corners[p].reflections, corners[p].x, towards, corners[q].y, g > 0.0);
+            observer.joins(p, corners[p].reflections, corners[p].x, corners[q].y, g > 0.0);
             if (g > 0.0) use(p, q, corners[p].weight * (g / all));
         }
     }

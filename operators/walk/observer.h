@@ -18,7 +18,9 @@ struct NoObserver {
     // `w`: towards y, of any length.
     void asks(std::uint32_t /*path*/, bool /*from_light*/, int /*bounce*/, const SurfacePoint& /*x*/, const Vec3& /*w*/,
               const SurfacePoint& /*y*/, bool /*seen*/) const {}
-    // The last meets() or asks() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks instead.
+    // The same for a ray to a point that paths of several pixels share, of which more is known than its direct light.
+    void joins(std::uint32_t /*path*/, int /*bounce*/, const SurfacePoint& /*x*/, const SurfacePoint& /*y*/, bool /*seen*/) const {}
+    // The last meets(), asks() or joins() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks instead.
     void finds(std::uint32_t /*path*/, std::size_t /*quantity*/, const Rgb&) const {}
     // Of what is read where the path has come to, photons or records, this brings most: what the path from a light with this
     // number left at this vertex, or the ray of a record with this number.
