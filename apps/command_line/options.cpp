@@ -121,7 +121,7 @@ std::vector<std::string> joined_arguments(int argc, char** argv) {
         const std::string_view text = argv[i];
         // What is no port is the scene.
         if (!joined.empty() && joined.back() == "--live")
-            joined.back() += text.find_first_not_of("0123456789") == text.npos ? "" : "=0";
+            joined.back() += !text.empty() && text.find_first_not_of("0123456789") == text.npos ? "" : "=0";
         const bool petsc = !joined.empty() && joined.back() == "--petsc" && text.size() > 2 && text[0] == '-' && text[1] != '-' &&
                            !text.starts_with("-D") && text.find_first_of("_ ") != text.npos;
         if (petsc)

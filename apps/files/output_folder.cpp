@@ -229,7 +229,7 @@ void OutputFolder::show(const std::string& name, std::string_view bytes) {
     shown_.insert(name);
 }
 
-bool OutputFolder::may_show_page() const { return !fs::exists(path_ / "run.json"); }
+bool OutputFolder::may_show_page() const { return !fs::exists(path_ / "run.json") && !fs::exists(path_ / "index.html"); }
 
 void OutputFolder::put_at_once(const std::string& name, std::span<const std::string_view> pieces) {
     write_pieces(name, pieces);

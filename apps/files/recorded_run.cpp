@@ -109,7 +109,7 @@ RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
     const std::uint64_t asked = name.sample;
     if (!run_.merged.empty() && std::holds_alternative<method::Mixed>(run_.render.method))
         throw InputError(
-            "replay: a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");
+            "a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");
     // Where pixels have as many samples each, before a pilot takes its time.
     if (!adaptive_of(run_.render.method) && !std::holds_alternative<method::Mixed>(run_.render.method))
         expect_sample(asked, run_.first, run_.samples);

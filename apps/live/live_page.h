@@ -20,6 +20,8 @@ public:
     std::string address() const { return server_.address(); }
     // Opens it in a browser, where there is a display.
     void open();
+    // A browser will ask for it.
+    void expect() { is_opened_ = true; }
 
     // From any thread; most calls do nothing.
     void tell(const RenderProgress& progress);

@@ -8,6 +8,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 
+#include <fcntl.h>
 #include <charconv>
 #include <future>
 #include <map>
@@ -23,6 +24,7 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
+using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
@@ -34,6 +36,12 @@ bool is_this_machine(std::string_view host) {
     if (host.starts_with('[')) return host.starts_with("[::1]");
     host = host.substr(0, host.find(':'));
     return host == "127.0.0.1" || host == "localhost";
+}
+
+// A browser that this process starts must not hold its sockets open when it has ended.
+template <typename Socket>
+void stays_here(Socket& socket) {
+    ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
 }
 
 // A parameter of "/progress?page=x7&after=3".
@@ -56,6 +64,7 @@ public:
         const asio::ip::tcp::endpoint here(asio::ip::address_v4::loopback(), port);
         boost::system::error_code error;
         acceptor_.open(here.protocol());
+        stays_here(acceptor_);
         acceptor_.set_option(asio::socket_base::reuse_address(true));  // for the connections that an earlier server has closed
         acceptor_.bind(here, error);
         if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
@@ -115,7 +124,10 @@ private:
 
     void accept() {
         acceptor_.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
-            if (!error) read(std::make_shared<Session>(std::move(socket)));
+            if (!error) {
+                stays_here(socket);
+                read(std::make_shared<Session>(std::move(socket)));
+            }
             accept();
         });
     }
@@ -159,11 +171,12 @@ private:
         });
     }
     void send_news(const Shared& session, std::uint64_t after) {
-        nlohmann::ordered_json news = progress_;
+        Json news = progress_;
         news["version"] = version_;
         news["finished"] = is_finished_;
         if (!is_finished_ || after != version_) session->page.clear();
-        send(session, http::status::ok, "application/json", news.dump());
+        send(session, http::status::ok, "application/json",
+             news.dump(-1, ' ', false, Json::error_handler_t::replace));  // a path may be no UTF-8
     }
     std::string whole_page() const {
         if (data_.empty()) return neumann::page("waiting.html", {});

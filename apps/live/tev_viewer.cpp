@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <boost/asio/ip/tcp.hpp>
 
+#include <fcntl.h>
 #include <chrono>
 
 namespace neumann {
@@ -34,12 +35,16 @@ TevViewer::TevViewer(const std::string& place, std::string name, std::function<v
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
     auto& stream = connection_->stream;
     stream.expires_after(longest_wait);
-    stream.connect(host, place.substr(colon + 1));
+    const std::string port = place.substr(colon + 1);
+    if (port.size() > 5 || port.find_first_not_of("0123456789") != port.npos || std::stoi(port) > 65535)
+        throw InputError(fmt::format("--tev {}: {} is no port; expected HOST:PORT, such as 127.0.0.1:14158", place, port));
+    stream.connect(host, port);
     if (!stream)
         throw InputError(
             fmt::format("--tev {}: nobody answers there: {}; expected a tev that is running, which listens at "
                         "127.0.0.1:14158 unless its --host says otherwise",
                         place, stream.error().message()));
+    ::fcntl(stream.rdbuf()->native_handle(), F_SETFD, FD_CLOEXEC);
 }
 
 TevViewer::~TevViewer() = default;

@@ -13,7 +13,7 @@ const forgetPictures = () => {
 };
 const takeAnew = async () => {
   const text = await fetched("data");
-  if (text === undefined) return;
+  if (text === undefined) return false;
   const parts = new DOMParser().parseFromString(text, "text/html"), next = JSON.parse(parts.getElementById("data").textContent).runs.map((r, i) => new Series(r, i));
   if (!next.every((s, i) => isAlike(s, all[i]))) return loadAnew();
   for (const part of [...parts.scripts]) $(part.id).replaceWith(document.importNode(part, true));
@@ -23,6 +23,7 @@ const takeAnew = async () => {
   drawWords();
   drawNotes();
   redraw();
+  return true;
 };
 const watchRender = () => {
   if ($("live")) follow(Number($("live").textContent), takeAnew, sayHowFar);

@@ -14,15 +14,18 @@ const fetched = async path => {
     return undefined;
   }
 };
-// Calls take() whenever there are other data than those of `version`, and tell() with how far it is, in words, until the end.
+// Calls take(), which tells whether it got them, whenever there are other data than those of `version`, and tell() with how far it is, in words, until the end.
 const follow = async (version, take, tell) => {
   const page = Math.random().toString(36).slice(2);
+  let hasAll = false;
   for (;;) {
     const text = await fetched(`progress?page=${page}&after=${version}`);
+    if (text === undefined && hasAll) return;
     if (text === undefined) return tell("The render has ended without this page, which shows what there was until then.");
     const news = JSON.parse(text), isNew = news.version !== version;
-    if (isNew) await take();
-    tell(news.finished ? `Finished.${news.file ? ` What this page shows is kept in ${news.file}` : ""}` : progressText(news));
+    const hasIt = !isNew || await take();
+    hasAll = hasIt && news.finished;
+    if (hasIt) tell(news.finished ? `Finished.${news.file ? ` What this page shows is kept in ${news.file}` : ""}` : progressText(news));
     if (news.finished && !isNew) return;
     version = news.version;
   }

@@ -143,6 +143,7 @@ void bind_render(py::module_& m) {
     py::class_<LivePage, std::shared_ptr<LivePage>>(m, "LivePage",
                                                     "A page that fills while a render runs, on a server of this process.")
         .def(py::init([] { return std::make_shared<LivePage>(std::uint16_t{0}); }))
+        .def("expect", &LivePage::expect, "A browser will ask for it, and the end of the render waits for that, for some seconds.")
         .def_property_readonly("address", &LivePage::address, "http://127.0.0.1:…/, on this machine alone.");
     m.def("render", &start, py::arg("scene"), py::arg("arguments"), py::arg("live"));
     m.def("merge", &start_merge, py::arg("a"), py::arg("b"));

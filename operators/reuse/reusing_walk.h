@@ -85,8 +85,10 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
             const auto* material = std::get_if<Diffuse>(side.bsdf);
             if (!material || bounce >= N) return false;
-            corners[i] = {
-                .x = w.x, .y = {}, .nx = side.p.frame.n, .weight = w.beta * material->reflectance(side.p), .reflections = bounce};
+            // Walks that end here for certain never find a y, and count in no weight.
+            const Rgb weight = w.beta * material->reflectance(side.p);
+            if (is_black(weight) || !(side.p.frame.to_local(w.wo).z > 0.0)) return false;
+            corners[i] = {.x = w.x, .y = {}, .nx = side.p.frame.n, .weight = weight, .reflections = bounce};
             return true;
         },
         find, observer);

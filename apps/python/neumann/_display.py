@@ -132,7 +132,8 @@ class Live:
             self._handle = display(HTML(frame_of_server), display_id=True)
         else:
             print(f"The page of this render, which fills meanwhile: {address}", file=sys.stderr)
-            webbrowser.open(address)
+            if webbrowser.open(address):
+                self.server.expect()
 
     def finish(self, series: "BounceSeries") -> None:
         if self._handle is not None:

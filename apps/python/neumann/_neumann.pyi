@@ -33,6 +33,7 @@ class LivePage:
 
     address: str
     def __init__(self) -> None: ...
+    def expect(self) -> None: ...
 
 class Scene:
     """A scene as its files were when it was read."""
