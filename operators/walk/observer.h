@@ -20,7 +20,8 @@ struct NoObserver {
               const SurfacePoint& /*y*/, bool /*seen*/) const {}
     // The same for a ray to a point that paths of several pixels share, of which more is known than its direct light.
     void joins(std::uint32_t /*path*/, int /*bounce*/, const SurfacePoint& /*x*/, const SurfacePoint& /*y*/, bool /*seen*/) const {}
-    // The last meets(), asks() or joins() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks instead.
+    // The last meets(), asks() or joins() adds this contribution to a quantity. Light tracing and bidirectional paths use callbacks
+    // instead.
     void finds(std::uint32_t /*path*/, std::size_t /*quantity*/, const Rgb&) const {}
     // Of what is read where the path has come to, photons or records, this brings most: what the path from a light with this
     // number left at this vertex, or the ray of a record with this number.
