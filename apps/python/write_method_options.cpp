@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 
 namespace neumann {
@@ -30,8 +31,13 @@ std::string class_of(std::string name) {
     return name;
 }
 
+std::string keyword(std::string name) {
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
 void print_option(const MethodOption& o, const char* value) {
-    fmt::print("    {}: Optional[{}]{}\n    \"\"\"{}\"\"\"\n", o.name, type_of(o), value, o.help);
+    fmt::print("    {}: Optional[{}]{}\n    \"\"\"{}\"\"\"\n", keyword(o.name), type_of(o), value, o.help);
 }
 
 void print_class(const Method& method) {
@@ -63,7 +69,7 @@ class MethodOptions(TypedDict, total=False):
     for (const MethodOption& o : method_options()) print_option(o, "");
     for (const Method& method : all_methods()) print_class(method);
     fmt::print("\n\nHELP = {{\n    \"method\": \"{}\",\n", method_help());
-    for (const MethodOption& o : method_options()) fmt::print("    \"{}\": \"{}\",\n", o.name, o.help);
+    for (const MethodOption& o : method_options()) fmt::print("    \"{}\": \"{}\",\n", keyword(o.name), o.help);
     fmt::print("}}\n");
 }
 

@@ -12,7 +12,9 @@ struct Candidate {
     double price;  // the time of a ray in that of the walk's, measured on the scenes in scenes/
 };
 
-// Those that make the same paths in this scene, all that can be made. The first is the plainest.
+// Those that make the same paths in this scene, all that can be made, without a bias. The first is the plainest.
 std::vector<Candidate> candidates(const method::PathOptions& options, const Scene& scene);
+// Those with a bias, which they state. Some scenes they refuse.
+std::vector<Candidate> biased_candidates();
 
 }  // namespace neumann

@@ -23,6 +23,8 @@ constexpr int trial_width = 48, trial_bounces = 6;       // at most
 constexpr std::uint64_t trial_samples = 64;
 constexpr std::uint32_t trial_replicates = 4;
 
+// A difference shows more than the errors that are stated, if its square is so many times as large.
+constexpr double clearly_more = 2.0;
 // Part of the work of the methods before it that a method may take to replace them: the pilot is no more exact than that.
 constexpr double clearly_better = 0.8;
 // Samples a pixel from which it pays to distribute them by a pilot.
@@ -40,8 +42,9 @@ double square(const Image& image) {
 
 struct Term {
     Image picture;
-    double variance = 0.0;     // summed over the picture
-    double least_light = 0.0;  // mean of the picture that is sure to be there
+    double variance = 0.0;      // summed over the picture
+    double squared_bias = 0.0;  // the same
+    double least_light = 0.0;   // mean of the picture that is sure to be there
 };
 struct Result {
     double rays = 0.0, setup_rays = 0.0;
@@ -55,32 +58,58 @@ Result result_of(const BounceSeries& series) {
     for (int i = 1; i <= series.bounces(); ++i) {
         PixelEstimate term = series.term(static_cast<std::size_t>(i));
         const MeanWithError& mean = series.report.bounces[static_cast<std::size_t>(i)].mean;
-        result.terms.push_back({std::move(term.mean), square(term.standard_error), mean.mean - 2.0 * mean.standard_error});
+        result.terms.push_back({std::move(term.mean), square(term.standard_error), square(term.discretisation),
+                                mean.mean - 2.0 * mean.standard_error});
     }
     return result;
 }
 
-// Σ_i E|error|² / |K^i Le|² of each method. A method that has not met the rare paths of a bounce sees neither their light nor their
-// variance; so each is also compared with the one that is sure of most light. Bounces whose light nobody is sure of do not count.
-std::vector<double> relative_errors(const std::vector<Result>& results) {
-    std::vector<double> sums(results.size());
-    for (std::size_t i = 0; i < results.front().terms.size(); ++i) {
-        const Term& best = std::max_element(results.begin(), results.end(), [&](const Result& a, const Result& b) {
-                               return a.terms[i].least_light < b.terms[i].least_light;
-                           })->terms[i];
-        const double light = square(best.picture) - best.variance;  // without bias
-        if (best.least_light <= 0.0 || light <= 0.0) continue;
-        for (std::size_t m = 0; m < results.size(); ++m) {
-            const Term& term = results[m].terms[i];
-            double difference = 0.0;
-            for (std::size_t p = 0; p < term.picture.pixels.size(); ++p) {
-                const Rgb d = term.picture.pixels[p] - best.picture.pixels[p];
-                difference += glm::dot(d, d);
-            }
-            sums[m] += std::max(term.variance, difference - best.variance) / light;
-        }
+struct Trial {
+    Candidate candidate;
+    Result result;
+};
+
+// Errors of bounces whose light nobody of `known` is sure of do not count.
+const Term* surest(const std::vector<Trial>& known, std::size_t i) {
+    const Term* best = &known.front().result.terms[i];
+    for (const Trial& trial : known)
+        if (trial.result.terms[i].least_light > best->least_light) best = &trial.result.terms[i];
+    return best->least_light > 0.0 && square(best->picture) > best->variance ? best : nullptr;
+}
+// Σ|a − b|², of which the variances of both are a part.
+double square_of_difference(const Term& a, const Term& b) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < a.picture.pixels.size(); ++p) {
+        const Rgb d = a.picture.pixels[p] - b.picture.pixels[p];
+        sum += glm::dot(d, d);
     }
-    return sums;
+    return sum;
+}
+
+// Σ_i E|error|² / |K^i Le|² of a method without bias. One that has not met the rare paths of a bounce sees neither their light nor
+// their variance; so it is also compared with that of `known` which is sure of most light.
+double relative_error(const Result& result, const std::vector<Trial>& known) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < result.terms.size(); ++i)
+        if (const Term* best = surest(known, i)) {
+            const Term& term = result.terms[i];
+            const double light = square(best->picture) - best->variance;
+            sum += std::max(term.variance, square_of_difference(term, *best) - best->variance) / light;
+        }
+    return sum;
+}
+// The same of a method with a bias, which counts as it states it, or as the pictures of `known` show it, where that is clearly
+// more.
+double relative_error_with_bias(const Result& result, const std::vector<Trial>& known) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < result.terms.size(); ++i)
+        if (const Term* best = surest(known, i)) {
+            const Term& term = result.terms[i];
+            const double light = square(best->picture) - best->variance, stated = term.variance + term.squared_bias;
+            const double shown = square_of_difference(term, *best);
+            sum += (shown > clearly_more * (stated + best->variance) ? shown - best->variance : stated) / light;
+        }
+    return sum;
 }
 
 Goal goal_of_trial(const Goal& goal, int bounces) {
@@ -107,10 +136,60 @@ MethodChoice by_the_lights(const method::Auto& open, const Scene& scene) {
             "the pilot met too few of the paths to tell, and walks from the lamps find most that are rare"};
 }
 
-}  // namespace
+// What a method does in a pilot; nothing if it refuses the scene, unless it is the first, which refuses for all.
+std::vector<Trial> pilots_of(const std::vector<Candidate>& all, const Scene& small, const Goal& goal, const Watch& watch,
+                             bool may_refuse) {
+    std::vector<Trial> trials;
+    for (const Candidate& candidate : all) {
+        if (watch.stop()) break;
+        try {
+            trials.push_back({candidate, result_of(render(small, candidate.method, goal, {.stop = watch.stop}))});
+        } catch (const InputError&) {
+            // A scene without surfaces has no patches.
+            if (trials.empty() && !may_refuse) throw;
+        } catch (const RunError&) {
+            if (!watch.stop()) throw;
+        }
+    }
+    return trials;
+}
 
-MethodChoice choose_method(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch) {
-    const Stopwatch clock;
+void set_adaptive(Method& method, LeastError least) {
+    std::visit(
+        [&](auto& m) {
+            if constexpr (requires { m.adaptive; }) m.adaptive = least;
+        },
+        method);
+}
+
+MethodTrial described(const Trial& trial, double error, const Film& film) {
+    const double samples = static_cast<double>(trial_samples) * film.crop_width * film.crop_height;
+    return {name_of(trial.candidate.method), trial.result.rays / samples, std::sqrt(error)};
+}
+
+// Takes a method with a bias, if its error after the work of `choice` is clearly smaller. `work`: for a squared error of 1.
+void allow_bias(MethodChoice& choice, double work, const std::vector<Trial>& known, const Scene& small, const Goal& goal,
+                double affordable, const Goal& of_trial, const Watch& watch) {
+    if (!(work > 0.0)) return;
+    const double to_goal = goal.relative_error ? work / (*goal.relative_error * *goal.relative_error) : affordable;
+    const double rays = std::min(affordable, to_goal), error = work / rays;
+    const std::string unbiased = name_of(choice.method);
+    double least = clearly_better * error;
+    for (const Trial& trial : pilots_of(biased_candidates(), small, of_trial, watch, true)) {
+        const double of_pilot = relative_error_with_bias(trial.result, known);
+        choice.trials.push_back(described(trial, of_pilot, small.film));
+        // Without a number of samples they refine patches, rays and samples together, and their errors fall about as 1/√rays; with
+        // one they stay as they are.
+        const double expected = goal.samples ? of_pilot : of_pilot * trial.result.rays * trial.candidate.price / rays;
+        if (expected >= least) continue;
+        least = expected;
+        choice.method = trial.candidate.method;
+        choice.why = fmt::format("by a pilot its error, with its bias, is {:.2g} of that of {}, which has none, for the same work",
+                                 std::sqrt(expected / error), unbiased);
+    }
+}
+
+MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch) {
     const int bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(trial_bounces)), trial_bounces);
     if (bounces == 0) return {method::Walk{open}, "the emitted light alone takes no walk"};
     const std::vector<Candidate> able = candidates(open, scene);
@@ -120,55 +199,48 @@ MethodChoice choose_method(const method::Auto& open, const Scene& scene, const G
     if (affordable < rays_of_a_long_render) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
     const Scene small = scene.with(small_film(scene.film, trial_width));
-    std::vector<Candidate> all;
-    std::vector<Result> results;
-    for (const Candidate& candidate : able) {
-        if (watch.stop()) break;
-        try {
-            results.push_back(result_of(render(small, candidate.method, goal_of_trial(goal, bounces), {.stop = watch.stop})));
-            all.push_back(candidate);
-        } catch (const InputError&) {
-            // Others refuse what the walk does not: a scene without surfaces has no patches.
-            if (all.empty()) throw;
-        } catch (const RunError&) {
-            if (!watch.stop()) throw;
-        }
-    }
+    const Goal of_trial = goal_of_trial(goal, bounces);
+    const std::vector<Trial> trials = pilots_of(able, small, of_trial, watch, false);
     if (watch.stop()) return {method::Walk{open}, "the pilot was interrupted"};
 
-    const std::vector<double> errors = relative_errors(results);
-    std::vector<double> works;
-    for (std::size_t m = 0; m < all.size(); ++m) {
-        const double left = 1.0 - price_of_setup * results[m].setup_rays / affordable;
-        works.push_back(left > 0.0 ? errors[m] * results[m].rays * all[m].price / left : std::numeric_limits<double>::infinity());
+    std::vector<double> errors, works;
+    for (const Trial& trial : trials) {
+        const double left = 1.0 - price_of_setup * trial.result.setup_rays / affordable;
+        errors.push_back(relative_error(trial.result, trials));
+        works.push_back(left > 0.0 ? errors.back() * trial.result.rays * trial.candidate.price / left
+                                   : std::numeric_limits<double>::infinity());
     }
     std::size_t best = 0;
-    for (std::size_t m = 1; m < all.size(); ++m)
+    for (std::size_t m = 1; m < trials.size(); ++m)
         if (works[m] < clearly_better * works[best]) best = m;
 
-    MethodChoice choice{all[best].method, "in a pilot it had no error"};
+    MethodChoice choice{trials[best].candidate.method, "in a pilot it had no error"};
     std::vector<std::string> others;
-    for (std::size_t m = 0; m < all.size(); ++m) {
-        const double samples = static_cast<double>(trial_samples) * small.film.crop_width * small.film.crop_height;
-        choice.trials.push_back({name_of(all[m].method), results[m].rays / samples, std::sqrt(errors[m])});
-        if (m != best) others.push_back(fmt::format("{} {:.2g}", name_of(all[m].method), works[m] / works[best]));
+    for (std::size_t m = 0; m < trials.size(); ++m) {
+        choice.trials.push_back(described(trials[m], errors[m], small.film));
+        if (m != best) others.push_back(fmt::format("{} {:.2g}", name_of(trials[m].candidate.method), works[m] / works[best]));
     }
     if (works[best] > 0.0)
         choice.why = fmt::format("for the same error the others took, in a pilot: {} times its work", fmt::join(others, ", "));
     const MethodChoice other = by_the_lights(open, scene);
-    const auto is_other = [&](const Candidate& candidate) { return candidate.method == other.method; };
-    if (errors[best] > largest_known_error && std::any_of(all.begin(), all.end(), is_other)) {
+    const auto is_other = [&](const Trial& trial) { return trial.candidate.method == other.method; };
+    if (errors[best] > largest_known_error && std::any_of(trials.begin(), trials.end(), is_other)) {
         choice.method = other.method;
         choice.why = other.why;
     }
+    if (open.bias_allowed) allow_bias(choice, works[best], trials, small, goal, affordable, of_trial, watch);
     const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
-    if (samples >= fewest_to_distribute)
-        std::visit(
-            [](auto& m) {
-                if constexpr (requires { m.adaptive; }) m.adaptive = LeastError::of_product;
-            },
-            choice.method);
-    choice.seconds = clock.seconds();
+    if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_product);
+    return choice;
+}
+
+}  // namespace
+
+MethodChoice choose_method(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch) {
+    const Stopwatch clock;
+    MethodChoice choice = choose(open, scene, goal, watch);
+    if (open.adaptive) set_adaptive(choice.method, *open.adaptive);
+    if (!choice.trials.empty()) choice.seconds = clock.seconds();
     return choice;
 }
 

@@ -1,4 +1,4 @@
-// --method auto: which unbiased method promises least error for its cost in a scene.
+// --method auto: which method promises least error for its cost in a scene, among the unbiased ones or, if it may, all.
 #pragma once
 
 #include "operators/methods/goal.h"
@@ -8,7 +8,8 @@
 namespace neumann {
 
 // Renders a small picture with each method and compares their work for the same error: rays · Σ_i E|error of K^i Le|² / |K^i Le|²,
-// i ≥ 1. Counts rays, not seconds, so that the same seed chooses the same method anywhere.
+// i ≥ 1. Counts rays, not seconds, so that the same seed chooses the same method anywhere. A method with a bias is taken if its whole
+// error, for the work that the goal affords or that its error takes without bias, is clearly smaller.
 MethodChoice choose_method(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch);
 
 }  // namespace neumann

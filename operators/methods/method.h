@@ -31,6 +31,8 @@ struct PathOptions {
 // The method of these that promises least error for its cost in the scene (choose_method.h).
 struct Auto : PathOptions {
     static constexpr const char* name = "auto";
+    std::optional<LeastError> adaptive = {};  // as of the walk; default: the product, if a pilot for it pays
+    bool bias_allowed = false;                // if it may be one of those with a bias, which they state
     bool operator==(const Auto&) const = default;
 };
 
@@ -116,10 +118,11 @@ struct Metropolis : PathOptions {
     bool operator==(const Metropolis&) const = default;
 };
 
-// Walk, guided, corrected and bidirectional together: each block of the picture and each bounce is a mean of their pictures, weighted by
-// their precision there, which a pilot tells (best_mixture.h).
+// Walk, guided, corrected and bidirectional together: each block of the picture and each bounce is a mean of their pictures,
+// weighted by their precision there, which a pilot tells (best_mixture.h).
 struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
+    std::optional<LeastError> adaptive = {};  // what it makes least; default: the product
     bool operator==(const Mixed&) const = default;
 };
 
@@ -164,8 +167,8 @@ struct Patches : FieldOptions {
 }  // namespace method
 
 using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                            method::Bidirectional, method::Mixed, method::Photon, method::Cache, method::Metropolis, method::Classic,
-                            method::Pointwise, method::Matrix, method::Gather, method::Patches>;
+                            method::Bidirectional, method::Mixed, method::Photon, method::Cache, method::Metropolis,
+                            method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);

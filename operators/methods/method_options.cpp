@@ -220,12 +220,17 @@ std::vector<MethodOption> make_options() {
             [](const auto& m) requires requires { m.reuse; } { return m.reuse; }, [](auto& m, bool on) { m.reuse = on; }),
         choice(
             "adaptive", "WHAT",
-            "For walk, guided, corrected and bidirectional: more samples for the pixels that need them, by a pilot, so that the "
-            "largest relative "
-            "error "
-            "of a bounce (bounces), that of the sum (sum), or the product of these (all) is least",
+            "For auto, walk, guided, corrected, bidirectional and mixed: more samples for the pixels that need them, by a pilot, "
+            "so "
+            "that the largest relative error of a bounce (bounces), that of the sum (sum), or the product of these (all) is least",
             least_errors, [](const auto& m) requires requires { m.adaptive; } { return m.adaptive; },
             [](auto& m, LeastError least) { m.adaptive = least; }),
+        flag(
+            "bias-allowed",
+            "For auto: choose among matrix and gather, too, whose pictures have an error of their own, which they state; by a "
+            "pilot",
+            [](const auto& m) requires requires { m.bias_allowed; } { return m.bias_allowed; },
+            [](auto& m, bool on) { m.bias_allowed = on; }),
         choice(
             "plan", "NAME",
             "For the methods that make paths: auto leaves out what the scene does not need, as `neumann plan` tells (the default); "

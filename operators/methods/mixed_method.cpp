@@ -34,7 +34,8 @@ Mixture make_mixture(const method::Mixed& mixed, const Scene& scene, const Sampl
             if (all.empty()) throw;
         }
     const int size = std::max(scene.film.crop_width, scene.film.crop_height);
-    Mixture mixture = mix(scene, scene.with(small_film(scene.film, std::max(size / scale_of_pilot, size_of_pilot))), all, watch);
+    Mixture mixture = mix(scene, scene.with(small_film(scene.film, std::max(size / scale_of_pilot, size_of_pilot))), all,
+                          mixed.adaptive.value_or(LeastError::of_product), watch);
     for (const MixtureCandidate& candidate : all) {
         if (candidate.settings.guide) mixture.rays += candidate.settings.guide->rays();
         if (candidate.settings.approximation) mixture.rays += candidate.settings.approximation->rays();

@@ -143,7 +143,7 @@ Method as_it_ran(Method method, const SamplingSettings& settings, const Film& fi
         [&]<class M>(M& m) {
             if constexpr (MakesPaths<M>) m.sampler = settings.sampler;
             if constexpr (requires { m.adaptive; })
-                if (!settings.allocation) m.adaptive = {};  // its pilot was interrupted
+                if (!settings.allocation && !settings.mixture) m.adaptive = {};  // its pilot was interrupted
             if constexpr (std::same_as<M, method::Guided>) {
                 m.patches = settings.guide->settings().patches;
                 m.directions = settings.guide->settings().rays;

@@ -1,5 +1,6 @@
 #include "operators/mixture/best_mixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -34,30 +35,43 @@ void spend(const MixtureCosts& all, std::vector<double>& numbers) {
     for (double& s : numbers) s *= scale;
 }
 
-double mean_of(const MixtureCosts& all, const std::vector<double>& errors) {
-    double of_sum = 0.0, logarithms = 0.0;
-    for (std::size_t k = 0; k < all.errors; ++k) {
-        of_sum += all.sizes[k] * errors[k];
-        logarithms += std::log(errors[k]);
-    }
-    return std::exp((logarithms + std::log(of_sum)) / static_cast<double>(all.errors + 1));
+double error_of_sum(const MixtureCosts& all, const std::vector<double>& errors) {
+    return std::inner_product(errors.begin(), errors.end(), all.sizes.begin(), 0.0);
+}
+
+double least_of(const MixtureCosts& all, const std::vector<double>& errors, double of_sum, LeastError least) {
+    if (least == LeastError::of_bounces) return *std::ranges::max_element(errors);
+    if (least == LeastError::of_sum) return of_sum;
+    double logarithms = std::log(of_sum);
+    for (const double e : errors) logarithms += std::log(e);
+    return std::exp(logarithms / static_cast<double>(all.errors + 1));
 }
 
 }  // namespace
 
-std::vector<double> best_mixture(const MixtureCosts& all) {
+std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
     std::vector<double> numbers(all.methods * all.blocks, 1.0), best;
     spend(all, numbers);
-    double least = std::numeric_limits<double>::infinity();
-    std::vector<double> weights(all.errors);
+    double smallest = std::numeric_limits<double>::infinity();
+    std::vector<double> weights(all.errors, 1.0);
     for (int step = 0; step < steps; ++step) {
         const std::vector<double> P = precisions(all, numbers), errors = errors_with(all, P);
-        if (const double mean = mean_of(all, errors); mean < least) {
-            least = mean;
+        const double of_sum = error_of_sum(all, errors), size = least_of(all, errors, of_sum, least);
+        if (size < smallest) {
+            smallest = size;
             best = numbers;
         }
-        const double of_sum = std::inner_product(errors.begin(), errors.end(), all.sizes.begin(), 0.0);
-        for (std::size_t k = 0; k < all.errors; ++k) weights[k] = 1.0 / errors[k] + all.sizes[k] / of_sum;
+        for (std::size_t k = 0; k < all.errors; ++k) switch (least) {
+                case LeastError::of_bounces:
+                    weights[k] *= std::sqrt(errors[k] / size);
+                    break;
+                case LeastError::of_sum:
+                    weights[k] = all.sizes[k];
+                    break;
+                case LeastError::of_product:
+                    weights[k] = 1.0 / errors[k] + all.sizes[k] / of_sum;
+                    break;
+            }
         for (std::size_t m = 0; m < all.methods; ++m)
             for (std::size_t b = 0; b < all.blocks; ++b) {
                 double g = 0.0;
@@ -96,8 +110,9 @@ std::vector<double> shares_of(const MixtureCosts& all, const std::vector<double>
     return shares;
 }
 
-double mean_error(const MixtureCosts& all, const std::vector<double>& numbers) {
-    return mean_of(all, errors_with(all, precisions(all, numbers)));
+double least_of(const MixtureCosts& all, const std::vector<double>& numbers, LeastError least) {
+    const std::vector<double> errors = errors_with(all, precisions(all, numbers));
+    return least_of(all, errors, error_of_sum(all, errors), least);
 }
 
 MixtureCosts without(const MixtureCosts& all, std::size_t method) {

@@ -5,15 +5,24 @@
 //
 //     w_mkb = (s_mb / V_mkb) / P_kb,   P_kb = Σ_m s_mb / V_mkb,      and the error of bounce k is  e_k² = Σ_b 1 / P_kb.
 //
-// This is convex in s. At given cost Σ c_mb s_mb the product of the errors of all bounces and of their sum is least where
+// This is convex in s. At given cost Σ c_mb s_mb a mean of the e_k² with weights λ_k is least where
 //
-//     g_mb = Σ_k λ_k / (V_mkb P_kb²)   is c_mb times the same for all s_mb > 0,     λ_k ∝ 1/e_k² + r_k/e²,   e² = Σ_k r_k e_k²,
+//     g_mb = Σ_k λ_k / (V_mkb P_kb²)   is c_mb times the same for all s_mb > 0.
 //
-// r_k the squared size of bounce k as a part of the sum's, whose bounces count as if they were independent. It is found by
-// multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010).
+// With r_k the squared size of bounce k as a part of the sum's, whose bounces count as if they were independent, so that the sum's
+// error is e² = Σ_k r_k e_k², these λ make least
+//
+//     the sum's error                          λ_k = r_k
+//     the product of that and all bounces'     λ_k ∝ 1/e_k² + r_k/e²
+//     the largest of a bounce                  λ_k > 0 only for the bounces with the largest error
+//
+// s is found by multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010), and
+// λ of the largest error by making it larger where the error is above the mean, in the same steps.
 // As in MARS (Grittmann et al. 2024), who choose numbers of samples of techniques by pilots; there techniques share their paths'
 // weights, here methods are estimators of their own.
 #pragma once
+
+#include "operators/mixture/least_error.h"
 
 #include <cstddef>
 #include <vector>
@@ -32,13 +41,13 @@ struct MixtureCosts {
 };
 
 // s_mb, method by method.
-std::vector<double> best_mixture(const MixtureCosts& costs);
+std::vector<double> best_mixture(const MixtureCosts& costs, LeastError least);
 // w_mkb, arranged as variances; with s_mb = 0 for all m the methods have equal weights.
 std::vector<double> weights_of(const MixtureCosts& costs, const std::vector<double>& numbers);
 // e_k² with these numbers.
 std::vector<double> errors_of(const MixtureCosts& costs, const std::vector<double>& numbers);
-// The geometric mean of e_k², for all bounces and their sum: what best_mixture() makes least.
-double mean_error(const MixtureCosts& costs, const std::vector<double>& numbers);
+// What best_mixture() makes least: e², the geometric mean of e² and all e_k², or the largest e_k².
+double least_of(const MixtureCosts& costs, const std::vector<double>& numbers, LeastError least);
 // Each method's part of the cost.
 std::vector<double> shares_of(const MixtureCosts& costs, const std::vector<double>& numbers);
 // What is left of the costs without one method.

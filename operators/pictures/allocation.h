@@ -11,6 +11,7 @@
 // errors of all bounces and of the sum is least where λ_k ∝ 1 / e_k².
 #pragma once
 
+#include "operators/mixture/least_error.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/watch.h"
 
@@ -18,12 +19,6 @@
 #include <vector>
 
 namespace neumann {
-
-enum class LeastError {
-    of_bounces,  // the largest relative error of a bounce
-    of_sum,      // the relative error of the sum of all bounces
-    of_product   // the product of these, so that none is bought with much of another
-};
 
 // V_kb for each k, k by k, and c_b.
 struct BlockCosts {

@@ -29,9 +29,8 @@ constexpr double least_variance = 1e-4;
 // Standard errors by which a method must have less light than another to have missed it; and (the rule of three) the number of
 // samples that it would have met at most, with 95% confidence.
 constexpr double missed = 3.0, met_at_most = 3.0;
-// A method that is to get a smaller part of the work after the first replicates is left out; and one without which the mean of the
-// errors, as variances, would be larger by a smaller factor: what a mixture gains, it loses in part because each has fewer samples
-// to stratify.
+// A method that is to get a smaller part of the work after the first replicates is left out; and one without which what is made
+// least would be larger by a smaller factor: what a mixture gains, it loses in part because each has fewer samples to stratify.
 constexpr double share_to_go_on = 0.01, gain_of_part = 1.3;
 // A pixel has at most 2^most_powers times as many samples of a method as the mixture has on average.
 constexpr int most_powers = 4;
@@ -150,11 +149,11 @@ struct Choice {
     void leave_out(std::size_t m) { all.erase(all.begin() + static_cast<std::ptrdiff_t>(m)); }
 };
 
-std::vector<double> best_numbers(const MixtureCosts& costs) {
-    return costs.errors > 0 ? best_mixture(costs) : std::vector<double>(costs.methods * costs.blocks, 1.0);
+std::vector<double> best_numbers(const MixtureCosts& costs, LeastError least) {
+    return costs.errors > 0 ? best_mixture(costs, least) : std::vector<double>(costs.methods * costs.blocks, 1.0);
 }
 
-Choice choose(Contenders contenders, double budget, const Grid& grid, const Watch& watch) {
+Choice choose(Contenders contenders, double budget, const Grid& grid, LeastError least, const Watch& watch) {
     Choice chosen{std::move(contenders), {}, {}, 0};
     Contenders& all = chosen.all;
     const auto go_on = [&](std::uint32_t replicates) {
@@ -166,7 +165,7 @@ Choice choose(Contenders contenders, double budget, const Grid& grid, const Watc
     };
     go_on(first_replicates);
     const MixtureCosts at_first = measure(all, budget, grid).costs;
-    const std::vector<double> shares = shares_of(at_first, best_numbers(at_first));
+    const std::vector<double> shares = shares_of(at_first, best_numbers(at_first, least));
     for (std::size_t m = all.size(); m-- > 0;)
         if (shares[m] < share_to_go_on) chosen.leave_out(m);
     go_on(all_replicates - first_replicates);
@@ -174,16 +173,16 @@ Choice choose(Contenders contenders, double budget, const Grid& grid, const Watc
     chosen.measured = measure(all, budget, grid);
     MixtureCosts& costs = chosen.measured.costs;
     for (;;) {
-        chosen.numbers = best_numbers(costs);
+        chosen.numbers = best_numbers(costs, least);
         if (all.size() == 1 || costs.errors == 0) return chosen;
         std::vector<double> without_it;
         for (std::size_t m = 0; m < all.size(); ++m) {
             const MixtureCosts others = without(costs, m);
-            without_it.push_back(mean_error(others, best_mixture(others)));
+            without_it.push_back(least_of(others, best_mixture(others, least), least));
         }
-        const auto least = std::ranges::min_element(without_it);
-        if (*least >= gain_of_part * mean_error(costs, chosen.numbers)) return chosen;
-        const auto out = static_cast<std::size_t>(least - without_it.begin());
+        const auto needed_least = std::ranges::min_element(without_it);
+        if (*needed_least >= gain_of_part * least_of(costs, chosen.numbers, least)) return chosen;
+        const auto out = static_cast<std::size_t>(needed_least - without_it.begin());
         costs = without(costs, out);
         chosen.leave_out(out);
     }
@@ -222,7 +221,8 @@ std::vector<double> weights_of_bounces(const Choice& chosen, const std::vector<d
 
 }  // namespace
 
-Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCandidate>& candidates, const Watch& watch) {
+Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCandidate>& candidates, LeastError least,
+            const Watch& watch) {
     const auto grid_of = [](const Film& film, const PixelBlocks& blocks) {
         return Grid{blocks, static_cast<std::uint32_t>(film.crop_width), static_cast<std::uint32_t>(film.crop_height)};
     };
@@ -246,14 +246,14 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
 
     std::uint64_t rays = 0;
     for (const Contender& contender : contenders) rays += contender.trial->rays();
-    const Choice chosen = choose(std::move(contenders), budget, small, watch);
+    const Choice chosen = choose(std::move(contenders), budget, small, least, watch);
     Mixture mixture;
     mixture.blocks = small.blocks;
     mixture.bounces = chosen.all.front().trial->terms();
     mixture.rays = rays + chosen.rays;
     if (chosen.all.size() == 1) {
         const auto& [name, own, price] = *chosen.all.front().candidate;
-        const auto allocation = allocate(scene, own, LeastError::of_product, watch);
+        const auto allocation = allocate(scene, own, least, watch);
         mixture.rays += allocation->rays;
         mixture.weights.assign(mixture.bounces * B, 1.0);
         mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out, allocation, 1.0});

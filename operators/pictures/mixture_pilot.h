@@ -21,6 +21,7 @@ struct MixtureCandidate {
 // view, and mixes those that are worth it for the film of `scene`. A sample of the mixture has the work of one of the first
 // candidate; where a single method is left, it is a sample of that, and pixels have the numbers that allocate() gives them. The
 // same for all seeds of `settings`, but by guides and fields as their seed has made them. Throws Stopped if `watch` stops it.
-Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCandidate>& candidates, const Watch& watch = {});
+Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCandidate>& candidates, LeastError least,
+            const Watch& watch = {});
 
 }  // namespace neumann

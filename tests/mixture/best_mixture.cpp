@@ -9,15 +9,6 @@
 
 namespace neumann::best_mixture_test {
 
-double product_of(const MixtureCosts& costs, const std::vector<double>& numbers) {
-    double sum = 0.0, logarithm = 0.0;
-    const std::vector<double> errors = errors_of(costs, numbers);
-    for (std::size_t k = 0; k < costs.errors; ++k) {
-        sum += costs.sizes[k] * errors[k];
-        logarithm += std::log(errors[k]);
-    }
-    return logarithm + std::log(sum);
-}
 double cost_of(const MixtureCosts& costs, const std::vector<double>& numbers) {
     return std::inner_product(numbers.begin(), numbers.end(), costs.costs.begin(), 0.0);
 }
@@ -25,7 +16,7 @@ double cost_of(const MixtureCosts& costs, const std::vector<double>& numbers) {
 // One method and one bounce: s_b ∝ √(V_b / c_b).
 TEST(BestMixture, OfOneMethodGivesBlocksWhatTheyNeed) {
     const MixtureCosts costs{1, 1, 3, {1.0, 4.0, 9.0}, {1.0, 1.0, 4.0}, {1.0}, 6.0};
-    const std::vector<double> numbers = best_mixture(costs);
+    const std::vector<double> numbers = best_mixture(costs, LeastError::of_product);
     const double scale = 6.0 / (1.0 + 2.0 + 4.0 * 1.5);
     EXPECT_NEAR(numbers[0], scale, 1e-3);
     EXPECT_NEAR(numbers[1], 2.0 * scale, 1e-3);
@@ -37,7 +28,7 @@ TEST(BestMixture, OfOneMethodGivesBlocksWhatTheyNeed) {
 // for their cost, and the weights are as the costs spent.
 TEST(BestMixture, TakesTheBetterMethodInEachBlock) {
     const MixtureCosts costs{2, 1, 2, {1.0, 8.0, 6.0, 1.0}, {1.0, 1.0, 1.0, 1.0}, {1.0}, 2.0};
-    const std::vector<double> numbers = best_mixture(costs);
+    const std::vector<double> numbers = best_mixture(costs, LeastError::of_product);
     EXPECT_NEAR(numbers[0], 1.0, 1e-3);
     EXPECT_NEAR(numbers[1], 0.0, 1e-3);
     EXPECT_NEAR(numbers[2], 0.0, 1e-3);
@@ -57,9 +48,28 @@ TEST(BestMixture, TakesTheBetterMethodInEachBlock) {
 // Two methods, each good for one of two bounces of equal size, one block: by the symmetry half of the cost each.
 TEST(BestMixture, SharesABlockWhereEachMethodHasItsBounce) {
     const MixtureCosts costs{2, 2, 1, {1.0, 100.0, 100.0, 1.0}, {1.0, 1.0}, {0.5, 0.5}, 1.0};
-    const std::vector<double> numbers = best_mixture(costs);
+    const std::vector<double> numbers = best_mixture(costs, LeastError::of_product);
     EXPECT_NEAR(numbers[0], 0.5, 1e-3);
     EXPECT_NEAR(numbers[1], 0.5, 1e-3);
+}
+
+// One method, one block for each bounce and nothing between them: the largest error is least where all are alike, s_b ∝ V_b / c_b
+// with V_b c_b equal for each, and that of the sum where s_b ∝ √(r_b V_b / c_b).
+TEST(BestMixture, MakesTheErrorLeastThatIsAskedFor) {
+    constexpr double none = 1e-12;
+    const MixtureCosts costs{1, 2, 2, {1.0, none, none, 4.0}, {1.0, 1.0}, {0.9, 0.1}, 1.0};
+    const std::vector<double> largest = best_mixture(costs, LeastError::of_bounces);
+    EXPECT_NEAR(largest[0], 0.2, 1e-3);
+    EXPECT_NEAR(largest[1], 0.8, 1e-3);
+    EXPECT_NEAR(least_of(costs, largest, LeastError::of_bounces), 5.0, 5e-3);
+    const std::vector<double> sum = best_mixture(costs, LeastError::of_sum);
+    const double a = std::sqrt(0.9), b = std::sqrt(0.4);
+    EXPECT_NEAR(sum[0], a / (a + b), 1e-3);
+    EXPECT_NEAR(least_of(costs, sum, LeastError::of_sum), (a + b) * (a + b), 1e-3);
+    const std::vector<double> half{0.5, 0.5};
+    EXPECT_NEAR(least_of(costs, half, LeastError::of_bounces), 8.0, 1e-9);
+    EXPECT_NEAR(least_of(costs, half, LeastError::of_sum), 0.9 * 2.0 + 0.1 * 8.0, 1e-9);
+    EXPECT_NEAR(least_of(costs, half, LeastError::of_product), std::cbrt(2.0 * 8.0 * 2.6), 1e-9);
 }
 
 // The problem is convex, so a place that no nearby one betters is the best: 200 random problems, 50 steps away from each.
@@ -70,17 +80,19 @@ TEST(BestMixture, IsBetterThanAllNearby) {
         MixtureCosts costs{3, 4, 5, std::vector<double>(60), std::vector<double>(15), {0.6, 0.2, 0.15, 0.05}, 5.0};
         for (double& v : costs.variances) v = variance(random);
         for (double& c : costs.costs) c = cost(random);
-        const std::vector<double> best = best_mixture(costs);
-        EXPECT_NEAR(cost_of(costs, best), 5.0, 1e-9);
-        for (int k = 0; k < 50; ++k) {
-            std::vector<double> other = best;
-            for (double& s : other) s *= step(random);
-            const double scale = 5.0 / cost_of(costs, other);
-            for (double& s : other) s *= scale;
-            EXPECT_GE(product_of(costs, other), product_of(costs, best) - 1e-3) << problem;
+        for (const LeastError least : {LeastError::of_bounces, LeastError::of_sum, LeastError::of_product}) {
+            const std::vector<double> best = best_mixture(costs, least);
+            EXPECT_NEAR(cost_of(costs, best), 5.0, 1e-9);
+            for (int k = 0; k < 50; ++k) {
+                std::vector<double> other = best;
+                for (double& s : other) s *= step(random);
+                const double scale = 5.0 / cost_of(costs, other);
+                for (double& s : other) s *= scale;
+                EXPECT_GE(least_of(costs, other, least), (1.0 - 1e-3) * least_of(costs, best, least)) << problem;
+            }
+            const std::vector<double> weights = weights_of(costs, best);
+            for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(weights[i] + weights[20 + i] + weights[40 + i], 1.0, 1e-12);
         }
-        const std::vector<double> weights = weights_of(costs, best);
-        for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(weights[i] + weights[20 + i] + weights[40 + i], 1.0, 1e-12);
     }
 }
 

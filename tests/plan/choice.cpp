@@ -65,6 +65,7 @@ TEST(Choice, TheSamplerIsHandedOn) {
 TEST(Choice, WithoutANameAnOptionOfTheWalkMeansTheWalk) {
     EXPECT_STREQ(name_of(make_method({})), "auto");
     EXPECT_STREQ(name_of(make_method({"", {{"sampler", "independent"}}})), "auto");
+    EXPECT_STREQ(name_of(make_method({"", {{"adaptive", "sum"}}})), "auto");
     EXPECT_STREQ(name_of(make_method({"", {{"direct", "bsdf"}}})), "walk");
     EXPECT_THROW(make_method({"auto", {{"direct", "bsdf"}}}), InputError);
     EXPECT_THROW(make_method({"", {{"patches", "100"}}}), InputError);
@@ -95,6 +96,42 @@ TEST(Choice, HiddenLightsTakeNoWalksFromThem) {
     const MethodChoice found = choice(scene);
     EXPECT_STRNE(name_of(found.method), "bidirectional");
     EXPECT_EQ(found.trials.size(), 3u);
+}
+
+TEST(Choice, WhatIsMadeLeastIsHandedOn) {
+    method::Auto open;
+    open.adaptive = LeastError::of_bounces;
+    Goal goal;
+    goal.samples = 4;  // no pilot
+    EXPECT_EQ(adaptive_of(choose_method(open, of_file("cornell-box"), goal, {}).method), LeastError::of_bounces);
+    goal.samples = 1024;
+    EXPECT_EQ(adaptive_of(choose_method(open, of_file("cornell-box"), goal, {}).method), LeastError::of_bounces);
+}
+
+// In a room of metal a path brings much or nothing, and fields are many times as exact for the same work.
+TEST(Choice, ABiasIsTakenOnlyWhereItIsAllowed) {
+    const Scene scene = of_file("metal-room");
+    method::Auto open;
+    Goal goal;
+    goal.seed = fixed_seed;
+    goal.seconds = 20.0;
+    EXPECT_FALSE(is_biased(choose_method(open, scene, goal, {}).method));
+    open.bias_allowed = true;
+    const MethodChoice found = choose_method(open, scene, goal, {});
+    EXPECT_TRUE(is_biased(found.method)) << name_of(found.method) << ": " << found.why;
+    EXPECT_EQ(found.trials.size(), 6u);
+}
+
+// After so many samples nothing is left of the errors of walks, but all of a bias, which samples do not lessen.
+TEST(Choice, NoBiasIsTakenWhereSamplesDoNotLessenIt) {
+    method::Auto open;
+    open.bias_allowed = true;
+    Goal goal;
+    goal.seed = fixed_seed;
+    goal.samples = 1u << 20;
+    const MethodChoice found = choose_method(open, of_file("cornell-box"), goal, {});
+    EXPECT_FALSE(is_biased(found.method)) << name_of(found.method) << ": " << found.why;
+    EXPECT_EQ(found.trials.size(), 6u);
 }
 
 // What a study of minutes finds best on these scenes (apps/manual/methods.md), or at most a third behind the best.

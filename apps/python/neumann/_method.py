@@ -18,7 +18,7 @@ class Method:
         return {name: value for name, value in values.items() if value is not None and value is not False}
 
     def __str__(self) -> str:
-        return ":".join([self.name, *(f"{name}={text(value)}" for name, value in self.given().items())])
+        return ":".join([self.name, *(f"{name.replace('_', '-')}={text(value)}" for name, value in self.given().items())])
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.given().items())})"

@@ -1,0 +1,12 @@
+// What the samples of a picture are distributed for.
+#pragma once
+
+namespace neumann {
+
+enum class LeastError {
+    of_bounces,  // the largest relative error of a bounce
+    of_sum,      // the relative error of the sum of all bounces
+    of_product   // the product of these, so that none is bought with much of another
+};
+
+}  // namespace neumann
