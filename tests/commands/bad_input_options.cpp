@@ -78,7 +78,11 @@ TEST_F(BadInputOptions, Chains) {
 TEST_F(BadInputOptions, Adaptive) {
     expect_refused("--adaptive", "everything");
     EXPECT_EQ(refusal({"--method", "light", "--adaptive", "sum"}),
-              "--adaptive belongs to --method walk, guided, corrected and bidirectional, not to light\n");
+              "--adaptive belongs to --method auto, walk, guided, corrected, bidirectional and mixed, not to light\n");
+}
+
+TEST_F(BadInputOptions, BiasAllowed) {
+    EXPECT_EQ(refusal({"--method", "walk", "--bias-allowed"}), "--bias-allowed belongs to --method auto, not to walk\n");
 }
 
 TEST_F(BadInputOptions, Tree) {

@@ -36,7 +36,8 @@ TEST_F(RenderHelp, OptionsOfRender) {
                                "--patches", "--directions", "--reference", "--seed",     "-t",           "-D",         "--lenient",
                                "--quiet",   "--json",       "--files",     "--theme",    "--importance", "--plan",     "--memory",
                                "--resume",  "--checkpoint", "--live",      "--tev",      "--part",       "--photons",  "--radius",
-                               "--gather",  "--chain",      "--adaptive",  "--tree",     "--records",    "--accuracy", "--reuse"}));
+                               "--gather",  "--chain",      "--adaptive",  "--tree",     "--records",    "--accuracy", "--reuse",
+                               "--bias-allowed"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.

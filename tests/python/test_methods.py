@@ -15,7 +15,7 @@ from support import Case, cornell, furnace
 METHODS = {kind.name: kind for kind in Method.__subclasses__()}
 # A legal value of each option.
 LEGAL = {
-    "direct": "mis", "lights": "power", "roulette": 0.9, "split": (2, 2), "sampler": "independent", "tree": "sum", "reuse": True, "adaptive": "sum", "plan": "full",
+    "direct": "mis", "lights": "power", "roulette": 0.9, "split": (2, 2), "sampler": "independent", "tree": "sum", "reuse": True, "adaptive": "sum", "bias_allowed": True, "plan": "full",
     "patches": 50, "directions": 16, "photons": 100, "radius": 0.5, "gather": True, "records": "hessian", "accuracy": 0.1, "chain": 64, "ways": 1,
     "importance": True,
 }  # fmt: skip
@@ -38,7 +38,7 @@ class Methods(Case):
         for option, value in LEGAL.items():
             named = set()
             for other in ("surface", "patches"):
-                words = [os.environ["NEUMANN"], "render", "x.xml", "--method", other, f"--{option}"]
+                words = [os.environ["NEUMANN"], "render", "x.xml", "--method", other, f"--{option.replace('_', '-')}"]
                 words += [] if value is True else [",".join(map(str, np.ravel(value)))]
                 said = subprocess.run(words, capture_output=True, text=True).stderr
                 if " belongs to --method " in said:
@@ -71,6 +71,7 @@ class Methods(Case):
         self.assertEqual(walk, neumann.Walk(direct="light", split=(8, 8)))
         self.assertNotEqual(walk, neumann.Walk(direct="light"))
         self.assertEqual(str(neumann.Photon(gather=True)), "photon:gather=true")
+        self.assertEqual(str(neumann.Auto(bias_allowed=True)), "auto:bias-allowed=true")
         with self.assertRaises(dataclasses.FrozenInstanceError):
             walk.direct = "mis"
         with self.assertRaisesRegex(TypeError, r"^render\(\) got 'direct' as a keyword and in method=Walk\(direct='light'\)$"):
