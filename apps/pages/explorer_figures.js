@@ -15,7 +15,7 @@ const pixelLine = (s, ref, p) => {
   const text = [["", runName(s) + s.title(ref)], ...channels.map((name, c) => [name, withInterval(values[c], s.halfInterval(ref, p + c * n))])];
   if (errors && size > 0) text.push(["relative standard error", Number.isFinite(relative) ? `${number(100 * relative, 2)}%` : "unknown"]);
   if (errors && values.some((v, c) => v === 0 && errors(p + c * n) === 0)) text.push(["", patches ? "0: no light in any sample" : "0: known to be dark"]);
-  if (patches) text.push(["discretisation", [0, 1, 2].map(c => number(patches(p + c * n), 2)).join(", ")]);
+  if (patches) text.push(["discretisation at most", number(patches(p), 2)]);
   return figuresLine(text);
 };
 // The mean of a rectangle, channel by channel. Errors of pixels that do not go together add up by their squares; of others only a bound is

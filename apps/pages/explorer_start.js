@@ -1,10 +1,10 @@
 "use strict";
-// First what is seen first.
 const loadAll = async () => {
   if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot unpack the pictures: it takes Chrome 86, Firefox 113, Safari 16.4 or later.");
-  for (const s of all) await s.load(state.i);
-  draw();
-  for (const s of all) for (let i = 0; i < s.heads.length; ++i) if (!s.planes[i]) { await s.load(i); paintTiles(); }
+  for (let i = 0; all.some(s => i < s.heads.length); ++i) {
+    for (const s of all) if (i < s.heads.length) await s.load(i);
+    i === state.i ? draw() : paintTiles();
+  }
   draw();
   document.body.dataset.ready = "yes";
 };

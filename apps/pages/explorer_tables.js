@@ -131,7 +131,7 @@ const drawWords = () => {
   $("tables").replaceChildren();
   if (data.comparison) drawComparison();
   all.forEach(drawRun);
-  section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits) or to 1/32 of their standard error, standard errors to 3%. " +
+  section("How exact this page is", element("p", "Pictures are held here as half floats: values are right to 0.05% (three digits) or to 1/16 of their standard error, standard errors to 6%. " +
     (first.factor > 1 ? `Each pixel is the mean of ${first.factor} × ${first.factor}. ` : "") + "All digits are in the EXR files beside it."));
   for (const fold of folds()) fold.open = open.has(nameOf(fold));
 };

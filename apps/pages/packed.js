@@ -20,19 +20,28 @@ const bytesOf = text => {
 };
 const inflated = async text =>
   new Uint8Array(await new Response(new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
-// Green and blue are kept less red, from a place in `values` on.
-const addRed = (values, n, from = 0) => {
-  for (let k = from; k < from + n; ++k) { values[k + n] += values[k]; values[k + 2 * n] += values[k]; }
+// Green and blue are kept less red.
+const addRed = (values, n) => {
+  for (let k = 0; k < n; ++k) { values[k + n] += values[k]; values[k + 2 * n] += values[k]; }
 };
-// A picture's means, a plane a channel, and by kind the codes of its errors with what they stand for; those of a sum less those of the sum before.
+// The codes of errors are kept less those of the picture before, where it has some of that kind.
+const addCodes = (errors, before = {}) => {
+  for (const [kind, { codes }] of Object.entries(errors)) {
+    const others = before[kind]?.codes;
+    if (others) for (let k = 0; k < codes.length; ++k) codes[k] += others[k];
+  }
+};
+// A picture's means, a plane a channel, and by kind the codes of its errors (see addCodes), with what they stand for.
 const decoded = async (text, head, pixels) => {
   const n = 3 * pixels, bytes = await inflated(text), scale = 2 ** head.exponent;
   const bits = Uint16Array.from({ length: n }, (_, k) => bytes[k] << 8 | bytes[k + n]), errors = {};
   addRed(bits, pixels);
-  head.errors.forEach(({ kind, low, step }, e) => {
+  let at = 2 * n;
+  for (const { kind, channels, low, step } of head.errors) {
     const values = Float64Array.from({ length: 256 }, (_, c) => c === 0 ? 0 : c === 255 ? Infinity : 2 ** (low + (c - 1) * step));
-    addRed(bytes, pixels, (2 + e) * n);
-    errors[kind] = { codes: bytes.subarray((2 + e) * n, (3 + e) * n), values };
-  });
+    const codes = bytes.subarray(at, at += channels * pixels);
+    if (channels === 3) addRed(codes, pixels);
+    errors[kind] = { codes, values };
+  }
   return { mean: Float32Array.from(bits, b => halves[b] * scale), errors };
 };

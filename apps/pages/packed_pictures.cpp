@@ -19,7 +19,7 @@ namespace neumann {
 
 namespace {
 
-constexpr double finest_step = 1.0 / 12.0;
+constexpr double finest_step = 1.0 / 6.0;
 constexpr int largest_code = 254, unknown = 255;
 constexpr int compression = 1;
 
@@ -43,10 +43,10 @@ int exponent_of(const Image& mean) {
 // ⌊log2 x⌋ of a normal number.
 int exponent_bits(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 2047) - 1023; }
 
-// A half, times 2^exponent, rounded to a multiple of the largest power of two that is at most 1/16 of its error, or of its own
+// A half, times 2^exponent, rounded to a multiple of the largest power of two that is at most 1/8 of its error, or of its own
 // first bit where that is less.
 std::uint16_t without_noise(std::uint16_t half, int exponent, double error) {
-    constexpr int kept_of_error = 4, fraction_bits = 10, largest_exponent = 31;
+    constexpr int kept_of_error = 3, fraction_bits = 10, largest_exponent = 31;
     const int own = half >> fraction_bits & largest_exponent;
     if (!(error > 0.0) || !std::isfinite(error) || own == largest_exponent) return half;
     const int last_bit = std::max(own, 1) - 25 + exponent;
@@ -82,34 +82,47 @@ float log2_of(double x) {
     return std::log2(part) + static_cast<float>(exponent);
 }
 
-// Red, green, blue of a pixel after each other: −∞ for no error, ∞ for an unknown one.
+// A channel after the other: −∞ for no error, ∞ for an unknown one.
 std::vector<float> logarithms(const Image& errors) {
-    std::vector<float> logs(3 * errors.pixels.size());
-    for_pixels(errors.pixels.size(), [&](std::size_t i) {
+    const std::size_t n = errors.pixels.size();
+    std::vector<float> logs(3 * n);
+    for_pixels(n, [&](std::size_t i) {
         for (int c = 0; c < 3; ++c) {
             const double e = errors.pixels[i][c];
             constexpr float infinity = std::numeric_limits<float>::infinity();
-            logs[3 * i + static_cast<std::size_t>(c)] = e == 0.0 ? -infinity : std::isfinite(e) ? log2_of(e) : infinity;
+            logs[static_cast<std::size_t>(c) * n + i] = e == 0.0 ? -infinity : std::isfinite(e) ? log2_of(e) : infinity;
         }
     });
     return logs;
 }
 
+// Of three channels the worst.
+std::vector<float> largest_of_channels(const std::vector<float>& logs) {
+    const std::size_t n = logs.size() / 3;
+    std::vector<float> largest(n);
+    for_pixels(n, [&](std::size_t i) { largest[i] = std::max({logs[i], logs[i + n], logs[i + 2 * n]}); });
+    return largest;
+}
+
 // What the codes 1 to 254 stand for.
 class LogScale {
 public:
-    void add(const std::vector<float>& logs) {
+    explicit LogScale(const std::vector<float>& logs) {
+        float least = std::numeric_limits<float>::infinity(), most = -least;
         for (const float v : logs) {
             if (!std::isfinite(v)) continue;
-            least_ = std::min(least_, v);
-            most_ = std::max(most_, v);
+            least = std::min(least, v);
+            most = std::max(most, v);
         }
+        if (least > most) return;
+        step_ = std::max(finest_step, (static_cast<double>(most) - least) / (largest_code - 2));
+        low_ = std::floor(least / step_) * step_;  // so that pictures of one step have the same grid, and their codes differ little
     }
-    double low() const { return least_ <= most_ ? least_ : 0.0; }
-    double step() const { return least_ <= most_ ? std::max(finest_step, (most_ - low()) / (largest_code - 1)) : finest_step; }
+    double low() const { return low_; }
+    double step() const { return step_; }
     std::vector<std::uint8_t> codes(const std::vector<float>& logs) const {
         std::vector<std::uint8_t> result(logs.size());
-        const auto first = static_cast<float>(low()), per_step = static_cast<float>(1.0 / step());
+        const auto first = static_cast<float>(low_), per_step = static_cast<float>(1.0 / step_);
         for_pixels(logs.size(), [&](std::size_t k) {
             const float v = logs[k];
             const int code = std::isfinite(v) ? 1 + static_cast<int>((v - first) * per_step + 0.5f) : v < 0.0f ? 0 : unknown;
@@ -119,28 +132,18 @@ public:
     }
 
 private:
-    float least_ = std::numeric_limits<float>::infinity(), most_ = -std::numeric_limits<float>::infinity();
+    double low_ = 0.0, step_ = finest_step;
 };
 
 // `before`: codes that are subtracted, or none.
-void add_codes(const char* kind, const LogScale& scale, const std::vector<std::uint8_t>& codes,
-               const std::vector<std::uint8_t>& before, PackedPicture& picture) {
-    picture.head["errors"].push_back({{"kind", kind}, {"low", scale.low()}, {"step", scale.step()}});
-    const std::size_t n = codes.size() / 3, start = picture.bytes.size();
-    picture.bytes.resize(start + 3 * n);
+void add_codes(const std::vector<std::uint8_t>& codes, const std::vector<std::uint8_t>* before, std::size_t n, std::string& bytes) {
+    const std::size_t start = bytes.size();
+    bytes.resize(start + codes.size());
     for_pixels(n, [&](std::size_t i) {
-        const auto kept = [&](std::size_t c) { return codes[3 * i + c] - (before.empty() ? 0 : before[3 * i + c]); };
-        for (std::size_t c = 0; c < 3; ++c)
-            picture.bytes[start + c * n + i] = static_cast<char>(c == 0 ? kept(0) : kept(c) - kept(0));
+        const auto kept = [&](std::size_t at) { return codes[at] - (before ? (*before)[at] : 0); };
+        for (std::size_t at = i; at < codes.size(); at += n)
+            bytes[start + at] = static_cast<char>(at == i ? kept(i) : kept(at) - kept(i));
     });
-}
-
-void add_errors(const char* kind, const Image& errors, PackedPicture& picture) {
-    if (errors.pixels.empty()) return;
-    const std::vector<float> logs = logarithms(errors);
-    LogScale scale;
-    scale.add(logs);
-    add_codes(kind, scale, scale.codes(logs), {}, picture);
 }
 
 // zlib format (RFC 1950).
@@ -182,11 +185,22 @@ std::string base91(const std::string& bytes) {
 }  // namespace
 
 PackedSeries::PackedSeries(int width, int height, std::size_t pictures, std::size_t on_page)
-    : full_width_(width), full_height_(height), pictures_(pictures), sum_errors_(pictures) {
+    : full_width_(width), full_height_(height), pictures_(pictures), codes_(pictures) {
     const auto pixels = [&] {
         return static_cast<std::size_t>(this->width()) * static_cast<std::size_t>(this->height()) * on_page;
     };
     while (pixels() > page_pixels && factor_ < std::max(width, height)) ++factor_;
+}
+
+void PackedSeries::add_errors(std::size_t i, const char* kind, const Image& errors) {
+    if (errors.pixels.empty()) return;
+    const bool is_discretisation = std::string_view(kind).ends_with("discretisation");
+    std::vector<float> logs = logarithms(errors);
+    if (is_discretisation) logs = largest_of_channels(logs);
+    const LogScale scale(logs);
+    pictures_[i].head["errors"].push_back(
+        {{"kind", kind}, {"channels", is_discretisation ? 1 : 3}, {"low", scale.low()}, {"step", scale.step()}});
+    codes_[i][kind] = scale.codes(logs);
 }
 
 void PackedSeries::add_term(std::size_t i, const PixelEstimate& term) {
@@ -196,8 +210,8 @@ void PackedSeries::add_term(std::size_t i, const PixelEstimate& term) {
         const Image errors = e.pixel_errors();
         picture.head = {{"exponent", exponent}, {"errors", nlohmann::ordered_json::array()}};
         add_halves(e.mean, errors, exponent, picture.bytes);
-        add_errors("term", errors, picture);
-        add_errors("term_discretisation", e.discretisation, picture);
+        add_errors(i, "term", errors);
+        add_errors(i, "term_discretisation", e.discretisation);
     };
     factor_ == 1 ? add(term) : add(reduced(term, factor_));
     if (i != 0) return;
@@ -207,23 +221,24 @@ void PackedSeries::add_term(std::size_t i, const PixelEstimate& term) {
 
 void PackedSeries::add_sum(std::size_t i, const PixelEstimate& sum) {
     const auto add = [&](const PixelEstimate& e) {
-        sum_errors_.at(i) = logarithms(e.pixel_errors());
-        add_errors("sum_discretisation", e.discretisation, pictures_.at(i));
+        add_errors(i, "sum", e.pixel_errors());
+        add_errors(i, "sum_discretisation", e.discretisation);
     };
     factor_ == 1 ? add(sum) : add(reduced(sum, factor_));
 }
 
 void PackedSeries::pack() {
-    LogScale scale;
-    for (const std::vector<float>& logs : sum_errors_) scale.add(logs);
-    std::vector<std::vector<std::uint8_t>> codes(sum_errors_.size());
-    tbb::parallel_for(std::size_t{0}, codes.size(), [&](std::size_t i) { codes[i] = scale.codes(sum_errors_[i]); });
-    sum_errors_.clear();
+    const std::size_t n = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
     tbb::parallel_for(std::size_t{0}, pictures_.size(), [&](std::size_t i) {
         PackedPicture& picture = pictures_[i];
-        if (!codes[i].empty()) add_codes("sum", scale, codes[i], i > 0 ? codes[i - 1] : std::vector<std::uint8_t>(), picture);
+        for (const auto& scale : picture.head["errors"]) {
+            const auto kind = scale.at("kind").get<std::string>();
+            const Codes* const before = i > 0 && codes_[i - 1].contains(kind) ? &codes_[i - 1].at(kind) : nullptr;
+            add_codes(codes_[i].at(kind), before, n, picture.bytes);
+        }
         picture.bytes = base91(deflated(picture.bytes));
     });
+    codes_.clear();
 }
 
 nlohmann::ordered_json PackedSeries::head() const {
@@ -240,7 +255,7 @@ nlohmann::ordered_json PackedSeries::head() const {
 std::string PackedSeries::reduction() const {
     return fmt::format(
         "index.html shows the pictures at 1/{} of their size, {}×{} in place of {}×{}: whole ones would make it too large "
-        "to open (above about 100 MB)",
+        "to open (above about 75 MB)",
         factor_, width(), height(), full_width_, full_height_);
 }
 

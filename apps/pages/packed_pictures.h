@@ -4,23 +4,26 @@
 #include "core/image/pixel_estimate.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace neumann {
 
 // A picture's means are half floats (11 bits, about three digits) times a power of two of its own, so that the darkest bounce keeps
-// as many as the brightest. Where a mean has an error, it is a multiple of the largest power of two that is at most 1/16 of that,
-// so that it is off by at most 1/32 of its error: what is left out is noise, which no compression makes smaller. Its errors are a
-// byte each: 0 for no error, 255 for an unknown one, otherwise c for 2^(low + (c − 1) step), a step of 1/12, so that errors are 3%
-// off at most, or as wide as the picture's errors, or those of all sums, need.
+// as many as the brightest. Where a mean has an error, it is a multiple of the largest power of two that is at most 1/8 of that,
+// so that it is off by at most 1/16 of its error: what is left out is noise, which no compression makes smaller. Its errors are a
+// byte each: 0 for no error, 255 for an unknown one, otherwise c for 2^(low + (c − 1) step), a step of 1/6, so that errors are 6%
+// off at most, or as wide as the picture's errors need. What patches get wrong is a byte a pixel, for its worst channel.
 //
-// The channels are much alike, and so are the errors of neighbouring sums: halves (as numbers of 16 bits) and codes of green and
-// blue are kept less those of red, and before that the codes of a sum less those of the sum before it. All of it is deflated, and
-// then written in 91 characters.
+// The channels are much alike, and so are the errors of neighbouring bounces: codes are kept less those of the picture before, and
+// then halves (as numbers of 16 bits) and codes of green and blue less those of red. All of it is deflated, and then written in 91
+// characters.
 struct PackedPicture {
-    // "exponent" of the scale, and "errors": kind ("term", "sum", "term_discretisation", "sum_discretisation"), low, step, in the
-    // order of `bytes`
+    // "exponent" of the scale, and "errors": kind ("term", "sum", "term_discretisation", "sum_discretisation"), channels (3 or 1),
+    // low, step, in the order of `bytes`
     nlohmann::ordered_json head;
     // The high bytes of the halves, red, green, blue, a row after another, their low bytes, then the errors of each kind.
     std::string bytes;
@@ -33,7 +36,8 @@ public:
     PackedSeries(int width, int height, std::size_t pictures, std::size_t on_page);
     PackedSeries(int width, int height, std::size_t pictures) : PackedSeries(width, height, pictures, pictures) {}
 
-    // Picture i is a bounce's term, with the errors of its sum; or the rest, which has no sum. May be called for several i at once.
+    // Picture i is a bounce's term, with the errors of its sum; or the rest, which has no sum. May be called for several i at once,
+    // each term before its sum.
     void add_term(std::size_t i, const PixelEstimate& term);
     void add_sum(std::size_t i, const PixelEstimate& sum);
     // At the end, once.
@@ -50,14 +54,18 @@ public:
     const std::vector<PackedPicture>& pictures() const { return pictures_; }
 
 private:
+    // Codes of one kind of errors of a picture, a channel after the other.
+    using Codes = std::vector<std::uint8_t>;
+    void add_errors(std::size_t i, const char* kind, const Image& errors);
+
     int full_width_, full_height_, factor_ = 1;
     double degrees_of_freedom_ = 0.0;  // of picture 0, and of all
     bool independent_ = true;
     std::vector<PackedPicture> pictures_;
-    std::vector<std::vector<float>> sum_errors_;  // logarithms
+    std::vector<std::map<std::string, Codes>> codes_;  // by kind
 };
 
-// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make 12 MB, so a page has at most about 100 MB.
+// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make 10 MB, so a page has at most about 75 MB.
 constexpr std::size_t page_pixels = std::size_t{8} << 20;
 
 }  // namespace neumann

@@ -9,30 +9,23 @@ class Series {
     this.pixels = this.width * this.height;
     this.last = pictures.heads.length - 1 - (pictures.has_rest ? 1 : 0);
     this.planes = [];
-    this.whole = 0;  // so many sums have the codes of their errors
     this.sums = new Map();
     const [head, ...rows] = convergence.trim().split("\n").map(line => line.split(","));
     this.convergence = rows.map(row => Object.fromEntries(row.map((cell, c) => [head[c], Number(cell.replace("inf", "Infinity"))])));
     this.unit = unitText(run.quantity.unit);
   }
 
-  // Decodes picture i; what was decoded stays.
+  // Decodes picture i, after those before it; what was decoded stays.
   async load(i) {
-    this.planes[i] = await decoded($(`picture-${this.index}-${i}`).textContent, this.heads[i], this.pixels);
+    const picture = await decoded($(`picture-${this.index}-${i}`).textContent, this.heads[i], this.pixels);
+    addCodes(picture.errors, this.planes[i - 1]?.errors);
+    this.planes[i] = picture;
     this.sums.clear();
-    for (; this.planes[this.whole]; ++this.whole) {
-      const codes = this.codesOfSum(this.whole), before = this.codesOfSum(this.whole - 1);
-      if (codes && before) for (let p = 0; p < codes.length; ++p) codes[p] += before[p];
-    }
   }
-  codesOfSum(i) { return this.planes[i] && this.planes[i].errors.sum && this.planes[i].errors.sum.codes; }
 
   isRest({ i, absent }) { return i === this.last + 1 && !absent; }
   has(ref) { return ref.i >= 0 && (ref.i <= this.last || (this.isRest(ref) && this.hasRest && !ref.sum)); }
-  isLoaded(ref) {
-    const { i, sum } = ref;
-    return this.has(ref) && (sum ? Array.from({ length: i + 1 }, (_, k) => k) : [i]).every(k => this.planes[k]);
-  }
+  isLoaded(ref) { return this.has(ref) && ref.i < this.planes.length; }
 
   // Red, green and blue of all pixels. Sums are made of the terms: each is off by 2⁻¹¹ of itself at most, and so is their sum where
   // none is negative.
@@ -51,7 +44,7 @@ class Series {
     for (let k = 0; k <= ref.i; ++k) total += this.planes[k].mean[p];
     return total;
   }
-  // The standard errors, or with `kind` "_discretisation" what patches get wrong: a function of an index as that of mean().
+  // The standard errors, a function of an index as that of mean(); with `kind` "_discretisation" what patches get wrong in a pixel's worst channel.
   errors({ i, sum }, kind = "") {
     const found = this.planes[i].errors[(sum ? "sum" : "term") + kind];
     return found && (p => found.values[found.codes[p]]);

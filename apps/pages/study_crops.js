@@ -3,7 +3,11 @@
 
 const pictures = JSON.parse($("pictures").textContent), letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 const tone = { curve: "clip", exposure: pictures.exposure, decades: 3 };
-const planesOf = (name, { width, height, heads }) => Promise.all(heads.map((head, i) => decoded($(`${name}-${i}`).textContent, head, width * height)));
+const planesOf = async (name, { width, height, heads }) => {
+  const planes = await Promise.all(heads.map((head, i) => decoded($(`${name}-${i}`).textContent, head, width * height)));
+  planes.forEach(({ errors }, i) => addCodes(errors, planes[i - 1]?.errors));
+  return planes;
+};
 const colourOf = ({ width, height }, { mean }) => shownAs.colour({ pixels: width * height, mean: () => mean }, {}, tone).at;
 const errorOf = (p, n, { codes, values }) => luminance(...[0, n, 2 * n].map(k => values[codes[p + k]]));
 

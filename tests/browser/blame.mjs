@@ -39,7 +39,7 @@ assert.equal((await page.locator("#suspects tr").count()) - 1, Math.min(8, json.
 await expectNames(page);
 await expectNoSidewaysScroll(page);
 
-// Every value: means as half floats (2⁻¹¹) without what is a 32nd of their errors, errors to 3%.
+// Every value: means as half floats (2⁻¹¹) without what is a 16th of their errors, errors to 6%.
 const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 const shown = await page.evaluate(() => shownTerms.map(({ value, z, most }) => ({
   values: Array.from({ length: pixels }, (_, p) => value(p)), zs: Array.from({ length: pixels }, (_, p) => z(p)), most })));
@@ -47,10 +47,10 @@ for (let i = 0; i < 3; ++i) {
   const { values, zs, most } = shown[i], file = exr[`difference_00${i}.exr`], of = prefix => p => luminance(...["R", "G", "B"].map(c => file[prefix + c][p]));
   const mean = of(""), error = of("stderr."), largest = Math.max(...["R", "G", "B"].flatMap(c => file[c].map(Math.abs)));
   for (let p = 0; p < side * side; ++p) {
-    const parts = Math.max(...["R", "G", "B"].map(c => Math.abs(file[c][p]))), off = 2 ** -11 * parts + 2 ** -24 * largest + error(p) / 32;
+    const parts = Math.max(...["R", "G", "B"].map(c => Math.abs(file[c][p]))), off = 2 ** -11 * parts + 2 ** -24 * largest + error(p) / 16;
     assert.ok(Math.abs(values[p] - mean(p)) <= off, `difference ${i}, ${p}: ${values[p]}, expected ${mean(p)}`);
     const z = mean(p) / error(p);
-    assert.ok(Math.abs(zs[p] - z) <= 0.031 * Math.abs(z) + off / error(p), `z ${i}, ${p}: ${zs[p]}, expected ${z}`);
+    assert.ok(Math.abs(zs[p] - z) <= 0.06 * Math.abs(z) + off / error(p), `z ${i}, ${p}: ${zs[p]}, expected ${z}`);
   }
   // What full colour means holds for 95% of the pixels that differ, and it is told.
   const sizes = values.map(Math.abs).filter(v => v > 0).sort((a, b) => a - b);

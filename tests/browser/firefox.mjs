@@ -66,8 +66,8 @@ for (let i = 0; i <= 3; ++i) {
   const { mean, errors } = await evaluate(`(() => { const s = all[0], ref = { i: ${i}, sum: false }, e = s.errors(ref); return { mean: [...s.mean(ref)], errors: Array.from({ length: 3 * s.pixels }, (_, p) => e(p)) }; })()`);
   ["R", "G", "B"].forEach((channel, c) => file[channel].forEach((value, p) => {
     const error = file[`stderr.${channel}`][p] ?? Infinity;
-    assert.ok(Math.abs(mean[c * n + p] - value) <= 2 ** -11 * Math.abs(value) + largest * 2 ** -24 + (error < Infinity ? error / 32 : 0), `bounce ${i} ${channel} ${p}`);
-    if (error < Infinity) assert.ok(Math.abs(errors[c * n + p] - error) <= .031 * error, `error of bounce ${i} ${channel} ${p}`);
+    assert.ok(Math.abs(mean[c * n + p] - value) <= 2 ** -11 * Math.abs(value) + largest * 2 ** -24 + (error < Infinity ? error / 16 : 0), `bounce ${i} ${channel} ${p}`);
+    if (error < Infinity) assert.ok(Math.abs(errors[c * n + p] - error) <= .06 * error, `error of bounce ${i} ${channel} ${p}`);
   }));
 }
 const colours = () => evaluate(`(() => { const c = $("a"), d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data; return new Set(new Uint32Array(d.buffer)).size; })()`);

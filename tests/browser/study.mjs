@@ -51,7 +51,7 @@ crops.forEach((row, k) => {
     assert.ok(f.note.startsWith(`RMSE ${Number(rmse.value.toPrecision(3))} ± `), f.note);
   });
 });
-// The map has the figure underneath it: √ of its mean square is the RMSE, to what a byte of an error can say (3%, and less in the mean).
+// The map has the figure underneath it: √ of its mean square is the RMSE, to what a byte of an error can say (6%, and less in the mean).
 const roots = await page.evaluate(async () => Promise.all(study.crops.map(async (crop, k) => (await planesOf(`crop-${k}`, pictures.crops[k])).slice(1).map(({ errors: { term } }) =>
   Math.sqrt(term.codes.reduce((a, c) => a + term.values[c] ** 2, 0) / term.codes.length)))));
 roots.forEach((row, k) => row.forEach((root, m) => {
