@@ -23,7 +23,7 @@ const drawPlots = () => {
   const errors = errorSets(all, names, state.i);
   range(errorPlot.options.scales.x, errors.flatMap(s => s.data.map(p => p.x)));
   draw(errorPlot, [...errors, ...slopeGuide(errors)]);
-  $("pixel-title").textContent = state.pixel ? `Pixel ${state.pixel.x * first.factor}, ${state.pixel.y * first.factor}: ${state.sum ? "sums" : "bounces"}` : "The chosen pixel";
+  $("pixel-title").textContent = state.pixel ? `Pixel ${onFilm(state.pixel).join(", ")}: ${state.sum ? "sums" : "bounces"}` : "The chosen pixel";
   $("pixel-part").hidden = !state.pixel;
   $("pixel-note").textContent = state.pixel ? "With 95% intervals; zero and negative values have no place on a logarithmic axis." : "Click a pixel, or choose one with the arrow keys in the picture.";
 };

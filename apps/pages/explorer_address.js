@@ -9,14 +9,16 @@ const numbers = (text, count) => {
   const found = text.split(",");
   return found.length === count && found.every(n => n.trim() !== "" && Number.isFinite(+n)) ? found.map(Number) : undefined;
 };
-const inPicture = ([x, y]) => x >= 0 && y >= 0 && x < first.width && y < first.height;
-// Pixels are named as in the files, of which the page may show means.
+const inPicture = ({ x, y }) => x >= 0 && y >= 0 && x < first.width && y < first.height;
 const pixelsRead = (text, count) => {
-  const found = numbers(text, 2 * count)?.map(v => Math.floor(v / first.factor)), pixels = [];
-  for (let k = 0; found && k < count; ++k) pixels.push(found.slice(2 * k, 2 * k + 2));
-  return pixels.length && pixels.every(inPicture) ? pixels.map(([x, y]) => ({ x, y })) : undefined;
+  const found = numbers(text, 2 * count), pixels = [];
+  for (let k = 0; found && k < count; ++k) {
+    const { x, y } = fromFilm(found[2 * k], found[2 * k + 1]);
+    pixels.push({ x: Math.floor(x), y: Math.floor(y) });
+  }
+  return pixels.length && pixels.every(inPicture) ? pixels : undefined;
 };
-const pixelsWritten = (...pixels) => pixels.map(({ x, y }) => `${x * first.factor},${y * first.factor}`).join();
+const pixelsWritten = (...pixels) => pixels.map(onFilm).join();
 
 // By name: what of the state it is, how it is written, and how it is read, undefined where it means nothing.
 const addressed = {
@@ -40,20 +42,20 @@ const addressed = {
 };
 const beginning = { ...state };
 
-// The zoom, and the place in the picture that is in the middle of the stage.
+// The zoom, and the place on the film that is in the middle of the stage.
 const zoomWritten = () => {
-  const side = state.fitScale * state.zoom, middle = [[$("stage").clientWidth, state.left], [$("stage").clientHeight, state.top]];
-  return [+state.zoom.toFixed(2), ...middle.map(([size, at]) => +((size / 2 - at) / side * first.factor).toFixed(2))].join();
+  const side = state.fitScale * state.zoom, { clientWidth: width, clientHeight: height } = $("stage");
+  return [state.zoom, ...onFilm({ x: (width / 2 - state.left) / side, y: (height / 2 - state.top) / side })].map(v => +v.toFixed(2)).join();
 };
 const zoomRead = text => {
   const found = numbers(text, 3);
-  return found && found[0] >= 1 && inPicture(found.slice(1).map(v => v / first.factor)) ? found : undefined;
+  return found && found[0] >= 1 && inPicture(fromFilm(found[1], found[2])) ? { zoom: found[0], middle: fromFilm(found[1], found[2]) } : undefined;
 };
-const lookAt = ([zoom, x, y]) => {
+const lookAt = ({ zoom, middle: { x, y } }) => {
   zoomTo(zoom);
   const side = state.fitScale * state.zoom;
-  state.left = $("stage").clientWidth / 2 - x / first.factor * side;
-  state.top = $("stage").clientHeight / 2 - y / first.factor * side;
+  state.left = $("stage").clientWidth / 2 - x * side;
+  state.top = $("stage").clientHeight / 2 - y * side;
   placeSheet();
 };
 
@@ -76,6 +78,6 @@ const readAddress = () => {
   state.sum = to.sum;
   set(to);
   draw();
-  lookAt(zoomRead(given.get("zoom") ?? "") ?? [1, 0, 0]);
+  lookAt(zoomRead(given.get("zoom") ?? "") ?? { zoom: 1, middle: { x: 0, y: 0 } });
 };
 addEventListener("hashchange", readAddress);

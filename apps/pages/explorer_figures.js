@@ -34,8 +34,11 @@ const rectLine = (s, ref, rect) => figuresLine([["", runName(s) + s.title(ref)],
   const { mean, half } = rectMean(s, ref, rect, c);
   return [name, withInterval(mean, half)];
 })]);
-// Pixels from one number to another, as in the files.
-const fromTo = (a, b) => a === b && first.factor === 1 ? String(a) : `${a * first.factor} to ${b * first.factor + first.factor - 1}`;
+// Pixels from one place to another: "9 to 10, 20".
+const fromTo = (a, b) => {
+  const from = onFilm(a), to = onFilm(b).map(v => v + first.factor - 1);
+  return from.map((v, k) => v === to[k] ? v : `${v} to ${to[k]}`).join(", ");
+};
 const drawReadout = () => {
   const at = state.hover ?? state.pixel, rect = state.rect, o = other();
   const pictures = [{ series: series(), ref: shown() }, ...(state.wipe || comparing() ? [o] : [])].filter(picture => !missing(picture));
@@ -45,14 +48,14 @@ const drawReadout = () => {
   }
   const infinite = pictures.some(({ series, ref }) => series.infiniteVariance(ref)), unit = series().unit, lines = [];
   if (at) {
-    const where = first.factor === 1 ? `Pixel ${at.x}, ${at.y}` : `Mean of pixels ${fromTo(at.x, at.x)}, ${fromTo(at.y, at.y)}`;
+    const where = first.factor === 1 ? `Pixel ${fromTo(at, at)}` : `Mean of pixels ${fromTo(at, at)}`;
     lines.push(element("div", `${where}, ${unit}${infinite ? "; the variance is infinite: no intervals" : ", with 95% intervals"}`, "note"),
                ...pictures.map(({ series: s, ref }) => pixelLine(s, ref, at.y * s.width + at.x)));
   }
   if (rect) {
     const intervals = infinite ? "the variance is infinite: no intervals" : pictures.every(({ series: s }) => s.independent) ? "95% intervals, for errors of pixels that are independent"
       : "95% intervals that are upper bounds where errors of pixels may go together";
-    lines.push(element("div", `Mean of the rectangle ${fromTo(rect.x0, rect.x1)}, ${fromTo(rect.y0, rect.y1)}, ${unit}; ${intervals}`, "note"), ...pictures.map(({ series: s, ref }) => rectLine(s, ref, rect)));
+    lines.push(element("div", `Mean of the rectangle ${fromTo({ x: rect.x0, y: rect.y0 }, { x: rect.x1, y: rect.y1 })}, ${unit}; ${intervals}`, "note"), ...pictures.map(({ series: s, ref }) => rectLine(s, ref, rect)));
   }
   $("readout").replaceChildren(...lines);
 };

@@ -133,9 +133,8 @@ const drawPaths = () => {
   $("paths-part").hidden = !path;
   $("paths-none").hidden = !!path || !state.pixel || all.length > 1;
   if (!path) {
-    const given = pathsOf(s)?.pixels.map(p => p.pixel.join(",")) ?? [], at = state.pixel && [state.pixel.x, state.pixel.y].map(v => v * first.factor);
-    const { crop_x = 0, crop_y = 0 } = s.run.picture;
-    $("paths-none").textContent = !at ? "" : `The paths of this pixel are not in the page. neumann page DIR --paths ${at[0] + crop_x},${at[1] + crop_y} puts them in.` +
+    const given = pathsOf(s)?.pixels.map(p => p.pixel.join(",")) ?? [];
+    $("paths-none").textContent = !state.pixel ? "" : `The paths of this pixel are not in the page. neumann page DIR --paths ${pixelsWritten(state.pixel)} puts them in.` +
       (given.length ? ` It has those of ${given.join(" and ")}.` : "");
     return;
   }

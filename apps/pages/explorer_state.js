@@ -5,6 +5,10 @@ const all = data.runs.map((r, i) => new Series(r, i));
 const letter = index => String.fromCharCode(65 + index);
 const names = all.map((_, r) => all.length > 1 ? `, ${letter(r)}` : "");
 const first = all[0];
+// Pixels are named by the film, as replay names them, wherever the picture is cropped; a pixel of a reduced page by its corner.
+const { crop_x: cropX = 0, crop_y: cropY = 0 } = first.run.picture;
+const onFilm = ({ x, y }) => [x * first.factor + cropX, y * first.factor + cropY];
+const fromFilm = (x, y) => ({ x: (x - cropX) / first.factor, y: (y - cropY) / first.factor });
 const state = {
   run: 0, i: Math.min(1, first.last), sum: false, view: "colour", curve: "clip", stops: 0, decades: 4, fit: false,
   hover: null, pixel: null,  // { x, y }

@@ -1,7 +1,7 @@
 // The paths of a pixel in the explorer: what is drawn and told is what `neumann replay` tells, and the pixel's history ends with the
 // pixel of the EXR files.
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { expectNames, expectNoSidewaysScroll, neumann, openBrowser, run } from "./browser.mjs";
@@ -129,6 +129,28 @@ for (const scheme of ["light", "dark"]) {
   const ink = await narrow.evaluate(() => ({ number: getComputedStyle(document.querySelector("#plan .vertex-number")).fill, back: getComputedStyle(document.getElementById("plan")).backgroundColor }));
   assert.notEqual(ink.number, ink.back);
 }
+
+// A crop's pixels are named by the film, as replay names them: in titles, in the address, and in the command that is told.
+const folderOfScene = path.dirname(scene), [cropX, cropY] = [8, 12];
+const crop = Object.entries({ crop_offset_x: cropX, crop_offset_y: cropY, crop_width: 16, crop_height: 10 }).map(([name, value]) => `<integer name="${name}" value="${value}"/>`).join("");
+writeFileSync(at("crop.xml"), readFileSync(scene, "utf8").replaceAll('value="meshes/', `value="${folderOfScene}/meshes/`).replace('<film type="hdrfilm">', `<film type="hdrfilm">${crop}`));
+neumann("render", at("crop.xml"), "-D", `res=${side}`, "-n", "1", "--spp", "16", "--method", "walk", "-o", at("c"), "--quiet");
+neumann("page", at("c"), "--paths", "10,20", "--files", "page", "--quiet");
+const cropped = await browser.open(at("c/index.html"));
+await cropped.waitForSelector("body[data-ready]");
+assert.deepEqual(await cropped.evaluate(() => state.pixel), { x: 10 - 8, y: 20 - 12 });
+assert.match(await cropped.locator("#paths-title").innerText(), /^Paths of pixel 10, 20,/);
+assert.match(await cropped.locator("#readout").innerText(), /^Pixel 10, 20,/);
+assert.equal(await cropped.locator("#pixel-title").innerText(), "Pixel 10, 20: bounces");
+await cropped.evaluate(() => set({ pixel: { x: 3, y: 1 }, rect: { x0: 0, y0: 0, x1: 1, y1: 0 } }));
+await settled(cropped);
+assert.match(await cropped.locator("#paths-none").innerText(), /neumann page DIR --paths 11,13 puts them in/);
+assert.match(await cropped.locator("#readout").innerText(), /Mean of the rectangle 8 to 9, 12,/);
+await cropped.waitForFunction(() => location.hash.includes("pixel=11,13&rect=8,12,9,12"));
+const linked = await browser.open(at("c/index.html"), { hash: "#pixel=9,14&zoom=1.25,16,17" });
+await linked.waitForSelector("body[data-ready]");
+assert.deepEqual(await linked.evaluate(() => state.pixel), { x: 1, y: 2 });
+await linked.waitForFunction(() => location.hash === "#pixel=9,14&zoom=1.25,16,17");
 
 assert.deepEqual(browser.complaints, []);
 await browser.close();
