@@ -63,10 +63,12 @@ public:
     explicit Answers(std::uint16_t port) : acceptor_(io_) {
         const asio::ip::tcp::endpoint here(asio::ip::address_v4::loopback(), port);
         boost::system::error_code error;
-        acceptor_.open(here.protocol());
-        stays_here(acceptor_);
-        acceptor_.set_option(asio::socket_base::reuse_address(true));  // for the connections that an earlier server has closed
-        acceptor_.bind(here, error);
+        acceptor_.open(here.protocol(), error);
+        if (!error) {
+            stays_here(acceptor_);
+            acceptor_.set_option(asio::socket_base::reuse_address(true));  // for the connections that an earlier server has closed
+            acceptor_.bind(here, error);
+        }
         if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
         if (error)
             throw InputError(
@@ -74,7 +76,7 @@ public:
                             error.message()));
         port_ = acceptor_.local_endpoint().port();
         accept();
-        thread_ = std::thread([this] { io_.run(); });
+        thread_ = std::thread([this] { serve(); });
     }
     ~Answers() {
         io_.stop();
@@ -122,13 +124,20 @@ private:
         bool has_last = false;
     };
 
+    // What goes wrong with an answer, such as no memory for a page, ends its connection, and not the render.
+    void serve() {
+        for (;;) try {
+                io_.run();
+                return;
+            } catch (const std::exception&) {
+            }
+    }
     void accept() {
         acceptor_.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
-            if (!error) {
-                stays_here(socket);
-                read(std::make_shared<Session>(std::move(socket)));
-            }
             accept();
+            if (error) return;
+            stays_here(socket);
+            read(std::make_shared<Session>(std::move(socket)));
         });
     }
     // The body is not read: nothing that is asked here has one.

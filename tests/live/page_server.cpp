@@ -67,6 +67,15 @@ TEST(PageServer, AnswersItsOwnHostAndReadersOnly) {
     EXPECT_EQ(answer(server, "GET /data").find("Access-Control"), std::string::npos);
 }
 
+// News that cannot be told, a list in place of an object, cost the connection that asked for them; the next one is answered.
+TEST(PageServer, AnErrorEndsAConnectionAndNotTheServer) {
+    PageServer server(0);
+    server.tell(nlohmann::ordered_json::array());
+    EXPECT_EQ(answer(server, "GET /progress?page=p&after=1"), "");
+    server.tell({{"samples", 3}});
+    EXPECT_EQ(progress(server, 1).at("samples"), 3);
+}
+
 TEST(PageServer, APortThatIsTakenIsRefused) {
     const PageServer server(0);
     const int port = port_of(server);
