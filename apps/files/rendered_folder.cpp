@@ -1,5 +1,6 @@
 #include "apps/files/rendered_folder.h"
 
+#include "apps/files/output_folder.h"
 #include "apps/files/rendered_picture.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
@@ -22,6 +23,9 @@ Json read_run(const fs::path& path) {
     Json run;
     try {
         std::ifstream file(path, std::ios::binary);
+        if (!file && fs::exists(path.parent_path() / unfinished_render_file))
+            throw InputError(fmt::format("{0}: holds a render that was not finished; neumann render --resume {0} goes on with it",
+                                         path.parent_path().string()));
         if (!file) throw InputError(path.string() + ": cannot be read; expected a folder that render wrote");
         run = Json::parse(file);
         for (const char* part :

@@ -27,5 +27,6 @@ const takeAnew = async () => {
 };
 const watchRender = () => {
   if ($("live")) follow(Number($("live").textContent), takeAnew, sayHowFar);
-  else if (data.is_under_way) sayHowFar(`So far ${whole(first.run.samples.per_pixel)} samples a pixel, ${number(first.run.timing.total_seconds)} s: the render is under way, and the page can be loaded anew.`);
+  else if (data.is_under_way) sayHowFar(`So far ${whole(first.run.samples.per_pixel)} samples a pixel, ${duration(first.run.timing.total_seconds)}: written at ${document.lastModified}, when the render had not ended. ` +
+    "While it goes on the page can be loaded anew; if it stays as it is, the render was cut off, and neumann render --resume DIR goes on where it kept something.");
 };

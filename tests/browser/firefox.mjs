@@ -1,4 +1,5 @@
-// Firefox, by WebDriver BiDi (https://w3c.github.io/webdriver-bidi), which it speaks itself: the pages of a render and of a study.
+// Firefox, by WebDriver BiDi (https://w3c.github.io/webdriver-bidi), which it speaks itself: the pages of a render, with paths and
+// while it is under way, and of a study.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -18,6 +19,7 @@ process.on("exit", () => {
 process.env.XDG_CACHE_HOME = folder;
 const scene = path.join(process.env.SCENES, "cornell-box/cornell-box.xml"), at = file => path.join(folder, file);
 neumann("render", scene, "-D", "res=24", "-n", "3", "--spp", "64", "--method", "walk", "-o", at("a"), "--quiet");
+neumann("page", at("a"), "--paths", "10,12", "--files", "page", "--quiet");
 neumann("study", scene, "-D", "res=24", "-n", "1", "--methods", "walk,light", "--samples", "4,12", "--repeats", "4", "--reference", "walk", "-o", at("s"), "--quiet");
 
 // Firefox, with a profile of its own, and where it listens.
@@ -77,6 +79,51 @@ await press("\uE014");  // arrow right
 await evaluate(painted);
 assert.match(await evaluate(`$("name").textContent`), /^bounce 2: /);
 assert.ok(await colours() > 50);
+
+// The paths of a pixel: those that replay tells, a line from above for each ray, and keys go through them.
+assert.match(await evaluate(`$("paths-title").textContent`), /^Paths of pixel 10, 12, 64 samples$/);
+const expectPath = async () => {
+  const sample = await evaluate(`$("path").value`), told = JSON.parse(neumann("replay", at("a"), "--pixel", "10,12", "--sample", sample, "--json"));
+  assert.deepEqual(await evaluate(`[...$("path-table").querySelectorAll("tr")].slice(1).map(row => row.cells[1].textContent)`), told.steps.map(s => s.ray));
+  assert.equal(await evaluate(`document.querySelectorAll("#plan line.ink.ray").length`), told.steps.length);
+  return sample;
+};
+const firstShown = await expectPath();
+await press("j");
+await evaluate(painted);
+assert.notEqual(await expectPath(), firstShown);
+assert.equal(await evaluate(`$("history-part").hidden`), false);
+
+// A render under way: the page that waits becomes the explorer, fills, and in the end has what index.html has.
+const render = spawn(process.env.NEUMANN, ["render", scene, "-D", "res=32", "-n", "3", "--method", "walk", "--time", "600", "-o", at("live"), "--live"], { stdio: ["ignore", "ignore", "pipe"] });
+process.on("exit", () => render.kill("SIGKILL"));
+const ended = new Promise(done => render.on("exit", done));
+const server = await new Promise(found => {
+  let said = "";
+  render.stderr.on("data", text => {
+    said += text;
+    const at = said.match(/http:\/\/127\.0\.0\.1:\d+\//);
+    if (at) found(at[0]);
+  });
+});
+await send("browsingContext.navigate", { context, url: server, wait: "complete" });
+const until = async condition => {
+  for (let tries = 0; tries < 600; ++tries) {
+    const holds = await evaluate(condition).catch(() => false);  // the page that waited loads itself anew
+    if (holds) return holds;
+    await new Promise(done => setTimeout(done, 100));
+  }
+  assert.fail(`not so after a minute: ${condition}`);
+};
+const begun = await until(`document.body.dataset.ready !== undefined && all[0].run.samples.per_pixel`);
+await evaluate(`(set({ i: 3, sum: true }), true)`);
+await until(`all[0].run.samples.per_pixel >= 4 * ${begun}`);
+assert.match(await evaluate(`$("so-far").textContent`), /^So far [\d\s]+ samples a pixel, .* left\.$/);
+assert.deepEqual(await evaluate(`[state.i, state.sum]`), [3, true]);
+render.kill("SIGINT");
+assert.equal(await ended, 0);
+await until(`$("so-far").textContent.startsWith("Finished.")`);
+assert.equal(await evaluate(`all[0].run.samples.per_pixel`), JSON.parse(readFileSync(at("live/run.json"))).samples.per_pixel);
 
 // A study: the verdict, the crops and the plots.
 await open(at("s/index.html"));

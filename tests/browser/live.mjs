@@ -1,7 +1,7 @@
 // A page that fills while a render runs: what was chosen stays, and in the end it shows what the finished page shows.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { openBrowser } from "./browser.mjs";
@@ -50,6 +50,13 @@ assert.deepEqual(await page.evaluate(() => [state.i, state.sum, state.stops, sta
 // It stays usable.
 await page.keyboard.press("ArrowRight");
 await page.waitForFunction(() => $("name").textContent.startsWith("sum of bounces 0 to 4"));
+
+// A page of a render that did not end says so, and how to go on.
+const cut = path.join(folder, "cut.html");
+writeFileSync(cut, html.replace('{"runs":', '{"is_under_way":true,"runs":'));
+const left = await browser.open(cut);
+await left.waitForSelector("body[data-ready]");
+assert.match(await left.locator("#so-far").innerText(), /^So far [\d\s]+ samples a pixel, .*: written at \d.*, when the render had not ended\. .* neumann render --resume DIR goes on/);
 
 assert.deepEqual(browser.complaints, []);
 await browser.close();

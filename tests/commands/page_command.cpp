@@ -87,6 +87,9 @@ TEST_F(PageCommand, RefusalsLoseNothing) {
         return done.err;
     };
     EXPECT_EQ(refused({"nowhere"}), "nowhere/run.json: cannot be read; expected a folder that render wrote\n");
+    std::filesystem::create_directory(path("cut"));
+    write("cut/render.unfinished", "");
+    EXPECT_EQ(refused({"cut"}), "cut: holds a render that was not finished; neumann render --resume cut goes on with it\n");
     EXPECT_EQ(refused({"a", "--paths", "3"}), "--paths 3: expected a pixel, as 19,160, or the word named\n");
     EXPECT_EQ(refused({"a", "--paths", "3,4,"}), "--paths 3,4,: expected a pixel, as 19,160, or the word named\n");
     EXPECT_EQ(refused({"a", "--paths", "3,5"}), "--paths 3,5: the picture has x from 0 to 163 and y from 0 to 4\n");
