@@ -65,7 +65,8 @@ private:
     std::vector<std::map<std::string, Codes>> codes_;  // by kind
 };
 
-// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make 10 MB, so a page has at most about 75 MB.
+// Limit on the pixels of all pictures of a page together. 256² × 17 noisy ones make less than 11 MB, so a page has at most about
+// 75 MB.
 constexpr std::size_t page_pixels = std::size_t{8} << 20;
 
 }  // namespace neumann
