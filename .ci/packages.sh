@@ -63,6 +63,7 @@ dpkg-dev            | what cpack finds dependencies with      | dpkg-shlibdeps
 file                | file, which cpack asks of each file     | file
 python3-openimageio | the Python module of OpenImageIO        |
 python3-ipywidgets  | ipywidgets, sliders of lessons          |
+mypy                | mypy, a type checker, for keywords      | mypy
 chromium            | Chromium, in which pages are tested     | chromium chromium-browser google-chrome
 firefox-esr         | Firefox, in which pages are tested      | firefox firefox-esr
 nodejs              | Node.js 18 or later, which drives it    | node nodejs

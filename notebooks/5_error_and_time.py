@@ -173,8 +173,8 @@ assert share[methods[2]] > 0.3 > max(share[methods[0]], share[methods[1]]), "pat
 # %% [markdown]
 # ## Yours beside ours
 # A study takes an estimator of your own: a function of camera rays, the last bounce $N$ and random numbers, that returns a sample of
-# every $K^i L_e$ along every ray. It works on all rays at once, and asks the scene for what it needs: `intersect` is
-# $\mathrm{tr}(x, \omega)$, `visible` is $V(x, y)$, and `sample_lights` is a point $y$ on a lamp with $L_e/\mathrm{pdf}$. This is a path
+# every $K^i L_e$ along every ray. It works on all rays at once, and asks the scene for what it needs: `seen` is
+# what the camera sees, `intersect` is $\mathrm{tr}(x, \omega)$, `visible` is $V(x, y)$, and `sample_lights` is a point $y$ on a lamp with $L_e/\mathrm{pdf}$. This is a path
 # tracer of diffuse scenes, whole:
 
 # %%
@@ -184,7 +184,7 @@ box = scene("cornell-box", res=16)
 def mine(rays, N, rng):
     """Walks from the camera that ask for light at every stop."""
     samples = np.zeros((len(rays.origin), N + 1, 3))
-    x = box.intersect(rays.origin, rays.direction, rays.length)
+    x = box.seen(rays)
     samples[:, 0] = x.emission
     walk, beta = np.arange(len(x)), np.ones((len(x), 3))
     for i in range(1, N + 1):

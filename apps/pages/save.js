@@ -35,10 +35,10 @@ const cell = v => /[",\n]/.test(v) ? `"${String(v).replaceAll('"', '""')}"` : v 
 const csvOf = rows => rows.map(row => row.map(cell).join(",") + "\n").join("");
 
 // Rows as a table of the package booktabs: https://ctan.org/pkg/booktabs. The first row is the head; `textual`: the columns that are text.
-const latexSigns = { "\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}", "±": "$\\pm$", "·": "$\\cdot$", "−": "$-$", "–": "--", "√": "$\\surd$",
+const latexSigns = { "-": "$-$", "\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}", "±": "$\\pm$", "·": "$\\cdot$", "−": "$-$", "–": "--", "√": "$\\surd$",
                      "×": "$\\times$", "≈": "$\\approx$", "≤": "$\\le$", "∞": "$\\infty$", "<": "$<$", ">": "$>$", "|": "$|$", "\u202f": "\\," };
 const superscripts = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
-const latexText = text => String(text).replace(/[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|[#$%&_{}\\~^±·−–√×≈≤∞<>|\u202f]/g, s => latexSigns[s] ??
+const latexText = text => String(text).replace(/(?<!\w)-(?=[\d.])|[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|[#$%&_{}\\~^±·−–√×≈≤∞<>|\u202f]/g, s => latexSigns[s] ??
   (superscripts.includes(s[0]) ? `$^{${[...s].map(c => "-0123456789"[superscripts.indexOf(c)]).join("")}}$` : "\\" + s));
 const latexOf = ([head, ...rows], textual) => {
   const line = row => row.map(latexText).join(" & ") + " \\\\";

@@ -1,5 +1,6 @@
 // The walk of a chain as arrays.
 #include "apps/commands/interrupt.h"
+#include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 #include "operators/metropolis/chain_walk.h"
@@ -11,25 +12,12 @@ namespace neumann {
 namespace {
 
 py::dict as_dict(const std::vector<ChainState>& states) {
-    const auto n = static_cast<py::ssize_t>(states.size());
-    py::array_t<double> position({n, py::ssize_t{2}}), size(n);
-    py::array_t<int> s(n);
-    py::array_t<bool> accepted(n), large(n);
-    for (py::ssize_t i = 0; i < n; ++i) {
-        const ChainState& state = states[static_cast<std::size_t>(i)];
-        position.mutable_at(i, 0) = state.position.x;
-        position.mutable_at(i, 1) = state.position.y;
-        size.mutable_at(i) = state.size;
-        s.mutable_at(i) = state.s;
-        accepted.mutable_at(i) = state.is_new;
-        large.mutable_at(i) = state.by_large;
-    }
     py::dict d;
-    d["position"] = position;
-    d["size"] = size;
-    d["s"] = s;
-    d["accepted"] = accepted;
-    d["large"] = large;
+    d["position"] = rows(states, 2, [](const ChainState& state) { return state.position; });
+    d["size"] = column<double>(states, [](const ChainState& state) { return state.size; });
+    d["s"] = column<int>(states, [](const ChainState& state) { return state.s; });
+    d["accepted"] = column<bool>(states, [](const ChainState& state) { return state.is_new; });
+    d["large"] = column<bool>(states, [](const ChainState& state) { return state.by_large; });
     return d;
 }
 

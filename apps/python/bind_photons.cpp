@@ -1,34 +1,15 @@
 // Photons as arrays.
 #include "apps/commands/interrupt.h"
+#include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 #include "operators/photons/photon_points.h"
 
 #include <fmt/format.h>
 
-#include <limits>
-
 namespace neumann {
 
 namespace {
-
-template <class T, class Get>
-py::array_t<T> column(const std::vector<PhotonPoint>& points, const Get& get) {
-    py::array_t<T> array(static_cast<py::ssize_t>(points.size()));
-    std::transform(points.begin(), points.end(), array.mutable_data(), get);
-    return array;
-}
-
-template <class Get>
-py::array_t<double> rows(const std::vector<PhotonPoint>& points, py::ssize_t width, const Get& get) {
-    py::array_t<double> array({static_cast<py::ssize_t>(points.size()), width});
-    double* to = array.mutable_data();
-    for (const PhotonPoint& p : points) {
-        const auto values = get(p);
-        for (int k = 0; k < static_cast<int>(width); ++k) *to++ = values[k];
-    }
-    return array;
-}
 
 py::dict as_dict(const std::vector<PhotonPoint>& points) {
     py::dict d;
@@ -36,8 +17,7 @@ py::dict as_dict(const std::vector<PhotonPoint>& points) {
     d["normal"] = rows(points, 3, [](const PhotonPoint& p) { return p.photon.normal; });
     d["wi"] = rows(points, 3, [](const PhotonPoint& p) { return p.photon.wi; });
     d["power"] = rows(points, 3, [](const PhotonPoint& p) { return p.photon.power; });
-    d["pixel"] =
-        rows(points, 2, [](const PhotonPoint& p) { return p.pixel.value_or(Vec2(std::numeric_limits<double>::quiet_NaN())); });
+    d["pixel"] = rows(points, 2, [](const PhotonPoint& p) { return on_film(p.pixel); });
     d["bounce"] = column<int>(points, [](const PhotonPoint& p) { return static_cast<int>(p.photon.bounce); });
     d["path"] = column<int>(points, [](const PhotonPoint& p) { return static_cast<int>(p.photon.path); });
     d["caustic"] = column<bool>(points, [](const PhotonPoint& p) { return p.is_caustic; });

@@ -1,4 +1,5 @@
 // Rays, visibility and samples of light for arrays of points: what an estimator written in Python asks of a scene.
+#include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 #include "operators/queries/ray_queries.h"
@@ -6,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace neumann {
@@ -86,15 +88,8 @@ std::vector<SurfacePoint> points_of(const LoadedScene& scene, const py::object& 
     return found;
 }
 
-SeenPoints intersect(const std::shared_ptr<LoadedScene>& scene, const py::object& origin, const py::object& direction,
-                     const py::object& length) {
-    if (py::isinstance<SeenPoints>(origin) || py::isinstance<LightPoints>(origin)) {
-        if (!length.is_none()) throw InputError("length: expected with origins in space, and not with points on surfaces");
-        const std::vector<SurfacePoint> from = points_of(*scene, origin, "origin");
-        const std::vector<Vec3> directions = directions_of(direction, from.size());
-        const py::gil_scoped_release without_lock;
-        return {scene, see(*scene->scene, from, directions)};
-    }
+// From points in space. Throws InputError.
+std::vector<Ray> rays_of(const py::object& origin, const py::object& direction, const py::object& length) {
     const std::vector<Vec3> origins = rows_of<Vec3>(origin, "origin"), directions = directions_of(direction, origins.size());
     std::vector<Ray> rays(origins.size());
     for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = {origins[i], directions[i]};
@@ -108,8 +103,28 @@ SeenPoints intersect(const std::shared_ptr<LoadedScene>& scene, const py::object
                 throw InputError(fmt::format("length: row {} is {}, expected more than 0", i, rays[i].length));
         }
     }
+    return rays;
+}
+
+SeenPoints intersect(const std::shared_ptr<LoadedScene>& scene, const py::object& origin, const py::object& direction,
+                     const py::object& length) {
+    if (py::isinstance<SeenPoints>(origin) || py::isinstance<LightPoints>(origin)) {
+        if (!length.is_none()) throw InputError("length: expected with origins in space, and not with points on surfaces");
+        const std::vector<SurfacePoint> from = points_of(*scene, origin, "origin");
+        const std::vector<Vec3> directions = directions_of(direction, from.size());
+        const py::gil_scoped_release without_lock;
+        return {scene, see(*scene->scene, from, directions)};
+    }
+    const std::vector<Ray> rays = rays_of(origin, direction, length);
     const py::gil_scoped_release without_lock;
     return {scene, see(*scene->scene, rays)};
+}
+
+SeenPoints seen_by_camera(const std::shared_ptr<LoadedScene>& scene, const py::object& origin, const py::object& direction,
+                          const py::object& length) {
+    const std::vector<Ray> rays = rays_of(origin, direction, length);
+    const py::gil_scoped_release without_lock;
+    return {scene, see_from_camera(*scene->scene, rays)};
 }
 
 py::array_t<bool> sees(const LoadedScene& scene, const py::object& a, const py::object& b) {
@@ -172,13 +187,6 @@ py::array view(const py::object& owner, const Get& get) {
     return array;
 }
 
-template <class T, class Get>
-py::array_t<T> column(const SeenPoints& points, const Get& get) {
-    py::array_t<T> array(static_cast<py::ssize_t>(points.all.size()));
-    std::transform(points.all.begin(), points.all.end(), array.mutable_data(), get);
-    return array;
-}
-
 // The points with these numbers.
 template <class Points>
 Points take(const Points& points, const py::array_t<std::int64_t, py::array::c_style>& numbers) {
@@ -192,7 +200,7 @@ Points take(const Points& points, const py::array_t<std::int64_t, py::array::c_s
 py::dict arrays(const py::object& owner, const SeenPoints& points) {
     constexpr int nowhere = -1;
     py::dict d;
-    d["hit"] = column<bool>(points, [](const SeenPoint& p) { return !p.y.is_infinite(); });
+    d["hit"] = column<bool>(points.all, [](const SeenPoint& p) { return !p.y.is_infinite(); });
     d["distance"] = view<SeenPoints>(
         owner, [](const SeenPoint& p) -> const auto& { return p.distance; });
     d["position"] = view<SeenPoints>(
@@ -203,9 +211,10 @@ py::dict arrays(const py::object& owner, const SeenPoints& points) {
         owner, [](const SeenPoint& p) -> const auto& { return p.emission; });
     d["reflectance"] = view<SeenPoints>(
         owner, [](const SeenPoint& p) -> const auto& { return p.reflectance; });
-    d["shape"] = column<int>(points, [](const SeenPoint& p) { return p.y.is_infinite() ? nowhere : static_cast<int>(p.y.shape); });
+    d["shape"] =
+        column<int>(points.all, [](const SeenPoint& p) { return p.y.is_infinite() ? nowhere : static_cast<int>(p.y.shape); });
     d["primitive"] =
-        column<int>(points, [](const SeenPoint& p) { return p.y.is_infinite() ? nowhere : static_cast<int>(p.y.primitive); });
+        column<int>(points.all, [](const SeenPoint& p) { return p.y.is_infinite() ? nowhere : static_cast<int>(p.y.primitive); });
     return d;
 }
 
@@ -237,24 +246,11 @@ void bind_points(py::module_& m, const char* name, const char* doc) {
 }  // namespace
 
 py::dict as_dict(std::span<const CameraRay> rays, std::span<const Pixel> pixels) {
-    const auto n = static_cast<py::ssize_t>(rays.size());
-    py::array_t<double> origin({n, py::ssize_t{3}}), direction({n, py::ssize_t{3}}), length(n);
-    py::array_t<int> pixel({n, py::ssize_t{2}});
-    for (py::ssize_t i = 0; i < n; ++i) {
-        const CameraRay& ray = rays[static_cast<std::size_t>(i)];
-        for (int axis = 0; axis < 3; ++axis) {
-            origin.mutable_at(i, axis) = ray.origin[axis];
-            direction.mutable_at(i, axis) = ray.direction[axis];
-        }
-        length.mutable_at(i) = ray.length;
-        pixel.mutable_at(i, 0) = pixels[static_cast<std::size_t>(i)].x;
-        pixel.mutable_at(i, 1) = pixels[static_cast<std::size_t>(i)].y;
-    }
     py::dict d;
-    d["origin"] = origin;
-    d["direction"] = direction;
-    d["length"] = length;
-    d["pixel"] = pixel;
+    d["origin"] = rows(rays, 3, [](const CameraRay& ray) { return ray.origin; });
+    d["direction"] = rows(rays, 3, [](const CameraRay& ray) { return ray.direction; });
+    d["length"] = column<double>(rays, [](const CameraRay& ray) { return ray.length; });
+    d["pixel"] = rows<int>(pixels, 2, [](const Pixel& pixel) { return std::array{pixel.x, pixel.y}; });
     return d;
 }
 
@@ -263,6 +259,7 @@ void bind_rays(py::module_& m) {
     bind_points<LightPoints>(m, "LightPoints", "Samples of light.");
     m.def("camera_rays", &rays_of_camera, py::arg("scene"), py::arg("samples"), py::arg("first"), py::arg("seed"));
     m.def("intersect", &intersect, py::arg("scene"), py::arg("origin"), py::arg("direction"), py::arg("length"));
+    m.def("seen", &seen_by_camera, py::arg("scene"), py::arg("origin"), py::arg("direction"), py::arg("length"));
     m.def("visible", &sees, py::arg("scene"), py::arg("a"), py::arg("b"));
     m.def("sample_lights", &ask_lights, py::arg("scene"), py::arg("points"), py::arg("u"));
 }

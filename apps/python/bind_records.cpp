@@ -1,5 +1,6 @@
 // The records of an irradiance cache as arrays.
 #include "apps/commands/interrupt.h"
+#include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -10,36 +11,23 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <limits>
-
 namespace neumann {
 
 namespace {
 
 py::dict as_dict(const std::vector<RecordPoint>& points, int bounces) {
-    const auto n = static_cast<py::ssize_t>(points.size());
-    py::array_t<double> position({n, py::ssize_t{3}}), normal({n, py::ssize_t{3}}), pixel({n, py::ssize_t{2}}), radius(n),
-        irradiance({n, py::ssize_t{bounces}, py::ssize_t{3}});
-    py::array_t<bool> seen(n);
-    for (py::ssize_t i = 0; i < n; ++i) {
-        const RecordPoint& point = points[static_cast<std::size_t>(i)];
-        const Vec2 on_film = point.pixel.value_or(Vec2(std::numeric_limits<double>::quiet_NaN()));
-        for (int c = 0; c < 3; ++c) {
-            position.mutable_at(i, c) = point.record.x.position[c];
-            normal.mutable_at(i, c) = point.record.frame.n[c];
-            for (int k = 0; k < bounces; ++k) irradiance.mutable_at(i, k, c) = point.irradiance[static_cast<std::size_t>(k)][c];
-        }
-        for (int c = 0; c < 2; ++c) pixel.mutable_at(i, c) = on_film[c];
-        radius.mutable_at(i) = point.record.radius;
-        seen.mutable_at(i) = point.record.is_seen;
-    }
+    py::array_t<double> irradiance({static_cast<py::ssize_t>(points.size()), py::ssize_t{bounces}, py::ssize_t{3}});
+    double* to = irradiance.mutable_data();
+    for (const RecordPoint& point : points)
+        for (const Rgb& E : point.irradiance)
+            for (int c = 0; c < 3; ++c) *to++ = E[c];
     py::dict d;
-    d["position"] = position;
-    d["normal"] = normal;
-    d["radius"] = radius;
-    d["seen"] = seen;
+    d["position"] = rows(points, 3, [](const RecordPoint& p) { return p.record.x.position; });
+    d["normal"] = rows(points, 3, [](const RecordPoint& p) { return p.record.frame.n; });
+    d["radius"] = column<double>(points, [](const RecordPoint& p) { return p.record.radius; });
+    d["seen"] = column<bool>(points, [](const RecordPoint& p) { return p.record.is_seen; });
     d["irradiance"] = irradiance;
-    d["pixel"] = pixel;
+    d["pixel"] = rows(points, 2, [](const RecordPoint& p) { return on_film(p.pixel); });
     return d;
 }
 

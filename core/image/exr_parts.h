@@ -14,8 +14,9 @@ struct ExrPart {
     Attributes attributes = {};
 };
 
-// Each part has the channels and the header that encode_exr() gives its picture. All have one size. part(i) is asked for twice for
-// every i, and has to be the same: the headers come first, and not all pictures need to be in memory at once.
+// Each part has the header and the channels that encode_exr() gives its picture, called NAME.Combined.R, NAME.stderr.R and so on.
+// All have one size. part(i) is asked for twice for every i, and has to be the same: the headers come first, and not all pictures
+// need to be in memory at once.
 std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part);
 
 }  // namespace neumann

@@ -1,5 +1,7 @@
 #include "operators/queries/ray_queries.h"
 
+#include "core/scene/pass_lights.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -62,6 +64,23 @@ std::vector<SeenPoint> see(const Scene& scene, std::span<const SurfacePoint> fro
             [&](std::size_t i) -> SurfacePoint& { return seen[first + i].y; });
         for (std::size_t i = 0; i < n; ++i)
             describe(scene, from[first + i].position, directions[first + i], (found >> i & 1u) != 0, seen[first + i]);
+    });
+    return seen;
+}
+
+std::vector<SeenPoint> see_from_camera(const Scene& scene, std::span<const Ray> rays) {
+    std::vector<SeenPoint> seen = see(scene, rays);
+    if (!scene.hide_emitters) return seen;
+    for_packets(rays.size(), [&](std::size_t first, std::size_t n) {
+        std::uint64_t cast = 0;
+        for (std::size_t i = first; i < first + n; ++i) {
+            if (!seen[i].y.is_infinite() && scene.emitters.is_emitter(seen[i].y.shape)) {
+                const bool is_found = pass_lights(scene.emitters, scene.geometry, rays[i].direction, seen[i].y, cast);
+                seen[i] = {.y = seen[i].y};
+                describe(scene, rays[i].origin, rays[i].direction, is_found, seen[i]);
+            }
+            seen[i].emission = Rgb(0.0);
+        }
     });
     return seen;
 }

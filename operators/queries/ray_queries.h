@@ -24,6 +24,9 @@ struct SeenPoint {
 std::vector<SeenPoint> see(const Scene& scene, std::span<const Ray> rays);
 std::vector<SeenPoint> see(const Scene& scene, std::span<const SurfacePoint> from, std::span<const Vec3> directions);
 
+// The same of rays of the camera, which see neither lights nor surroundings where the scene hides them (Scene::hide_emitters).
+std::vector<SeenPoint> see_from_camera(const Scene& scene, std::span<const Ray> rays);
+
 // V(x, y) of each pair. A point in space is at infinity and has no normal, but a position.
 std::vector<char> visible(const Scene& scene, std::span<const SurfacePoint> x, std::span<const SurfacePoint> y);
 

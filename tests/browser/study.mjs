@@ -107,6 +107,8 @@ for (const line of [lines[3], ...lines.slice(5, -2)]) {
 }
 assert.match(tex.text, /^[\x20-\x7e\n]*$/);
 assert.equal(await page.evaluate(() => latexText("a_b 5% 1.2·10⁻⁵ ± 3 √x")), "a\\_b 5\\% 1.2$\\cdot$10$^{-5}$ $\\pm$ 3 $\\surd$x");
+// A minus is no hyphen.
+assert.equal(await page.evaluate(() => latexText("-1.03 ± 0.5, -.5 in x-y of 2-3")), "$-$1.03 $\\pm$ 0.5, $-$.5 in x-y of 2-3");
 
 // PDF: a single page of the drawing's size in points (3/4 of a pixel each), with fonts, and without pictures.
 const pdf = await browser.pdf(await page.evaluate(() => printable("sum", drawing(charts.at(-1).chart))));

@@ -167,7 +167,7 @@ TEST_F(PageCommand, LayersAreTheSinglePictures) {
         const PixelEstimate expected = read_exr((path("a") / single).string());
         const Image pixel_errors = expected.pixel_errors();
         for (const bool errors : {false, true}) {
-            const std::string layer = part + (errors ? ".stderr" : "");
+            const std::string layer = part + (errors ? ".stderr" : ".Combined");
             ASSERT_NE(std::ranges::find(layers, layer), layers.end()) << fmt::format("{}", fmt::join(layers, " "));
             const Texels read = read_layer(file, layer);
             const Image& of = errors ? pixel_errors : expected.mean;

@@ -1,45 +1,28 @@
 """scene.camera_rays(), intersect(), visible() and sample_lights(): enough for a path tracer in NumPy that agrees with ours."""
 
 import os
+import re
+import textwrap
 import threading
 import time
 import unittest
 
 import neumann
 import numpy as np
-from support import Case, cornell, furnace, scene_file
+from support import SCENES, Case, cornell, furnace, scene_file
 
 
 def dot(a, b):
     return np.einsum("ij,ij->i", a, b)
 
 
-def cosine_directions(normal, rng):
-    """Around each normal, with the pdf cosθ/π: the normal and a point of the unit sphere, added."""
-    sphere = rng.normal(size=normal.shape)
-    sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
-    return normal + (1 - 1e-9) * sphere
-
-
 def path_tracer(scene):
-    """K^i Le by walks between diffuse surfaces that ask for light at every stop."""
-
-    def paths(rays, bounces, rng):
-        samples = np.zeros((len(rays.origin), bounces + 1, 3))
-        x = scene.intersect(rays.origin, rays.direction, rays.length)
-        samples[:, 0] = x.emission
-        walk, beta = np.arange(len(x)), np.ones((len(x), 3))
-        for i in range(1, bounces + 1):
-            walk, beta, x = walk[x.hit], beta[x.hit], x[x.hit]
-            beta = beta * x.reflectance
-            y = scene.sample_lights(x, rng.random((len(x), 2)))
-            cosine = np.maximum(dot(x.normal, y.direction), 0)
-            samples[walk, i] = beta / np.pi * y.weight * (cosine * scene.visible(x, y))[:, None]
-            if i < bounces:
-                x = scene.intersect(x, cosine_directions(x.normal, rng))
-        return samples
-
-    return paths
+    """The one of the manual: K^i Le by walks between diffuse surfaces that ask for light at every stop."""
+    manual = (SCENES.parent / "apps/manual/python.md").read_text(encoding="utf-8")
+    text = re.search(r"^    def paths\(.*?^        return samples$", manual, re.MULTILINE | re.DOTALL)[0]
+    names = {"np": np, "scene": scene}
+    exec(textwrap.dedent(text), names)
+    return names["paths"]
 
 
 class Rays(Case):
@@ -151,6 +134,31 @@ class Rays(Case):
         # each MSE is known to √(2/256) or so, and light samples near the receiver have wide tails.
         a, b = study.curve("paths()", 1)["rmse"], study.curve("walk:direct=light", 1)["rmse"]
         self.assertTrue((a / b > 0.3).all() and (a / b < 3).all(), (a, b))
+
+    def test_hidden_lights(self):
+        # A floor under a lamp, seen through it: bounce 0 is empty, and the path tracer has what the walk has.
+        root = {
+            "type": "scene",
+            "integrator": {"type": "path", "hide_emitters": True},
+            "sensor": {"type": "perspective", "fov": 20, "to_world": neumann.look_at([0, 0, 3], [0, 0, 0], up=[0, 1, 0]), "film": {"type": "hdrfilm", "width": 4, "height": 4}},
+            "floor": {"type": "rectangle", "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.5}}},
+            "lamp": {"type": "rectangle", "to_world": neumann.look_at([0, 0, 1], [0, 0, 0], up=[0, 1, 0]), "emitter": {"type": "area", "radiance": {"type": "rgb", "value": 3.0}}},
+        }
+        for hides in (True, False):
+            root["integrator"]["hide_emitters"] = hides
+            scene = neumann.load_dict(root)
+            rays = scene.camera_rays()
+            np.testing.assert_allclose(scene.intersect(rays.origin, rays.direction).position[:, 2], 1, atol=1e-6)
+            np.testing.assert_allclose(scene.seen(rays).position[:, 2], 0 if hides else 1, atol=1e-6)
+        scene = neumann.load_dict({**root, "integrator": {"type": "path", "hide_emitters": True}})
+        rays = scene.camera_rays(4096)
+        np.testing.assert_array_equal(scene.seen(rays).emission, 0)
+        samples = path_tracer(scene)(rays, 1, np.random.default_rng(0))
+        np.testing.assert_array_equal(samples[:, 0], 0)
+        ours = scene.render(bounces=1, spp=4096, method="walk", quiet=True).run.bounces
+        error = samples[:, 1].mean(axis=1).std() / np.sqrt(len(samples))
+        self.assertLess(abs(samples[:, 1].mean() - ours[1].mean), 4.5 * np.hypot(error, ours[1].stderr))
+        self.assertLess(error, 0.002 * ours[1].mean)
 
     def test_other_threads_run_meanwhile(self):
         scene = cornell(64)

@@ -46,7 +46,8 @@ class Stubs(unittest.TestCase):
             if inspect.isfunction(thing):
                 self.expect_typed(thing)
             if inspect.isclass(thing) and not issubclass(thing, Exception):
-                for member, value in vars(thing).items():
+                own = [base for base in inspect.getmro(thing) if base.__module__.startswith("neumann")]
+                for member, value in (pair for base in own for pair in vars(base).items()):
                     function = value.fget if isinstance(value, property) else getattr(value, "func", value)
                     if member.startswith("_") or not inspect.isfunction(function):
                         continue

@@ -67,6 +67,29 @@ TEST(RayQueries, AreGeometrysFromSurfaces) {
     EXPECT_TRUE(count > 0 && count < from.size());
 }
 
+// Through the lamp in the ceiling, from both sides, and through what surrounds the scene.
+TEST(RayQueries, CameraSeesThroughHiddenLights) {
+    Scene scene = cornell();
+    const std::vector<Ray> rays{
+        {Vec3(278, 1000, 280), Vec3(0, -1, 0)}, {Vec3(278, 400, 280), Vec3(0, 1, 0)}, {Vec3(100, 400, 280), Vec3(0, 1, 0)}};
+    const auto shown = see_from_camera(scene, rays);
+    EXPECT_NEAR(shown[0].distance, 1000.0 - 548.8, 1e-3);
+    EXPECT_GT(shown[1].emission.x, 0.0);
+    scene.hide_emitters = true;
+    const auto hidden = see_from_camera(scene, rays);
+    EXPECT_LT(hidden[0].y.position.y, 500.0);
+    EXPECT_NEAR(hidden[0].distance, 1000.0 - hidden[0].y.position.y, 1e-9);
+    EXPECT_GT(hidden[0].reflectance.x, 0.0);
+    EXPECT_TRUE(hidden[1].y.is_infinite());
+    EXPECT_EQ(hidden[1].emission, Rgb(0.0));
+    EXPECT_EQ(hidden[2].y.position, shown[2].y.position);
+    Scene outdoor = read_scene(SCENES "/outdoor/outdoor.xml", {{"res", "16"}});
+    outdoor.hide_emitters = true;
+    const std::vector<Ray> up{{Vec3(0, 1000, 0), Vec3(0, 1, 0)}};
+    EXPECT_GT(see(outdoor, up).front().emission.x, 0.0);
+    EXPECT_EQ(see_from_camera(outdoor, up).front().emission, Rgb(0.0));
+}
+
 // Each wall has a sixth of the area 24, shines alike, and so has a sixth of all samples.
 TEST(RayQueries, SampleLightsByArea) {
     const Scene scene = furnace();

@@ -1,20 +1,21 @@
 """Keywords as the options of the command, which checks them and says what is wrong."""
 
 import inspect
-from typing import Any, Callable, Dict, List, TypeVar
+from typing import Any, Callable, Dict, List, Mapping, TypeVar
 
 from ._method import Method
 from ._method_options import HELP, MethodOptions
 from ._texts import text
 
 _short = {"bounces": "-n", "threads": "-t", "output": "-o"}
+_no_options = ("self", "quiet", "live", "of_method", "of_patches")
 
 
 def options(keywords: Dict[str, Any]) -> List[str]:
     """bounces=6, direct="light" as -n6 --direct=light. None and False are left out, and what is no option."""
     result = []
     for name, value in keywords.items():
-        if value is None or value is False or name in ("self", "quiet", "live", "of_method"):
+        if value is None or value is False or name in _no_options:
             continue
         option = "--" + name.replace("_", "-")
         if value is True:
@@ -29,23 +30,37 @@ def options(keywords: Dict[str, Any]) -> List[str]:
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
+def with_keywords(table: Any) -> Callable[[_Function], _Function]:
+    """Names the keywords of a TypedDict, which a function takes as ``**Unpack[…]``, in its signature."""
+
+    def named(function: _Function) -> _Function:
+        own = inspect.signature(function)
+        keywords = [p for p in own.parameters.values() if p.kind is not p.VAR_KEYWORD]
+        for name, annotation in table.__annotations__.items():
+            keywords.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation))
+        function.__signature__ = own.replace(parameters=keywords)  # type: ignore[attr-defined]
+        return function
+
+    return named
+
+
 def with_method_options(function: _Function) -> _Function:
     """Names its ``**of_method`` in its signature and its help."""
-    own = inspect.signature(function)
-    keywords = [p for p in own.parameters.values() if p.kind is not p.VAR_KEYWORD]
-    for name, annotation in MethodOptions.__annotations__.items():
-        keywords.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation))
-    function.__signature__ = own.replace(parameters=keywords)  # type: ignore[attr-defined]
     function.__doc__ = (function.__doc__ or "") + "\n".join(f"        {name}: {said}" for name, said in HELP.items())
-    return function
+    return with_keywords(MethodOptions)(function)
+
+
+def checked(given: Mapping[str, Any], table: Any, function: str) -> Dict[str, Any]:
+    """What is given. Raises TypeError for a name that is not in the TypedDict, as Python does for its own keywords."""
+    for name in given:
+        if name not in table.__annotations__:
+            raise TypeError(f"{function}() got an unexpected keyword argument '{name}'")
+    return dict(given)
 
 
 def method_options(given: MethodOptions) -> Dict[str, Any]:
-    """In the order of the table. Raises TypeError for a name that is not in it, as Python does for its own keywords."""
-    for name in given:
-        if name not in HELP:
-            raise TypeError(f"render() got an unexpected keyword argument '{name}'")
-    all_given: Dict[str, Any] = {**given}
+    """In the order of the table. Raises TypeError for a name that is not in it."""
+    all_given = checked(given, MethodOptions, "render")
     chosen = all_given.get("method")
     if isinstance(chosen, Method):
         own = chosen.given()

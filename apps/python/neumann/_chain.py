@@ -5,10 +5,10 @@ from typing import Any, Dict
 import numpy as np
 from numpy.typing import NDArray
 
-from ._display import Described
+from ._rows import Rows
 
 
-class Chain(Described):
+class Chain(Rows):
     """States of a chain, one after the other: ``scene.chain(bounce)``.
 
     A state is a path from both ends: s vertices from the light, bounce + 2 − s from the camera, drawn from random numbers. The chain
@@ -26,13 +26,8 @@ class Chain(Described):
     large: NDArray[np.bool_]
 
     def __init__(self, made: Dict[str, Any], bounce: int) -> None:
-        self.position, self.s, self.size = made["position"], made["s"], made["size"]
-        self.accepted, self.large = made["accepted"], made["large"]
+        super().__init__(made)
         self.bounce = bounce
-
-    def __len__(self) -> int:
-        """How many states there are."""
-        return len(self.s)
 
     def __repr__(self) -> str:
         return f"<Chain of {len(self)} states of bounce {self.bounce}, {self.accepted[1:].mean() if len(self) > 1 else 1.0:.0%} of steps accepted>"

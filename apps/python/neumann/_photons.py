@@ -1,14 +1,12 @@
 """Photons: what paths from the lights leave where they are reflected."""
 
-from typing import Any, Dict
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ._display import Described
+from ._rows import Rows
 
 
-class Photons(Described):
+class Photons(Rows):
     """Photons of a scene: ``scene.photons()``. Rows belong together, path by path.
 
     Photon p lies where light of bounce j − 1 arrives that leaves as K^j Le. Surfaces that are mirrors or glass alone have none.
@@ -28,14 +26,6 @@ class Photons(Described):
     path: NDArray[np.int32]
     caustic: NDArray[np.bool_]
     pixel: NDArray[np.float64]
-
-    def __init__(self, made: Dict[str, Any]) -> None:
-        self.position, self.normal, self.wi, self.power = made["position"], made["normal"], made["wi"], made["power"]
-        self.bounce, self.path, self.caustic, self.pixel = made["bounce"], made["path"], made["caustic"], made["pixel"]
-
-    def __len__(self) -> int:
-        """How many photons there are."""
-        return len(self.bounce)
 
     def __repr__(self) -> str:
         return f"<Photons: {len(self)} of bounces 1 to {self.bounce.max(initial=0)}>"

@@ -1,14 +1,12 @@
 """Records of an irradiance cache: where light is known, and from where it is read nearby."""
 
-from typing import Any, Dict
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ._display import Described
+from ._rows import Rows
 
 
-class Records(Described):
+class Records(Rows):
     """The records of a cache: ``scene.records()``. Rows belong together, in the order in which the records were placed.
 
     position: (n, 3), scene units. normal: (n, 3), on the side that reflects.
@@ -24,14 +22,6 @@ class Records(Described):
     seen: NDArray[np.bool_]
     irradiance: NDArray[np.float64]
     pixel: NDArray[np.float64]
-
-    def __init__(self, made: Dict[str, Any]) -> None:
-        self.position, self.normal, self.radius = made["position"], made["normal"], made["radius"]
-        self.seen, self.irradiance, self.pixel = made["seen"], made["irradiance"], made["pixel"]
-
-    def __len__(self) -> int:
-        """How many records there are."""
-        return len(self.radius)
 
     def __repr__(self) -> str:
         return f"<Records: {len(self)} of bounces 1 to {self.irradiance.shape[1]}, of which the camera reads {self.seen.sum()}>"

@@ -5,9 +5,6 @@ from hashlib import sha256
 from os import PathLike, fspath
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union, Unpack
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from . import _neumann, _report
 from ._arguments import definitions, method_options, options, with_method_options
 from ._bounces import BounceSeries
@@ -15,13 +12,12 @@ from ._chain import Chain
 from ._dictionary import edits_of, parse
 from ._display import Live, as_facts, as_table
 from ._estimator import Estimator, from_rays, name_of
-from ._matrices import STEPS, Matrices, Solutions
 from ._method import Method
 from ._method_options import MethodOptions
-from ._operators import Operators
+from ._on_patches import OnPatches
 from ._photons import Photons
 from ._progress import run
-from ._rays import AnyPoints, LightPoints, Points, compiled
+from ._rays import RayQueries
 from ._records import Records
 from ._report import HealthWarning, Report, warn
 from ._sources import Memory
@@ -45,7 +41,7 @@ class Plan(List[Report]):
         )
 
 
-class Scene:
+class Scene(RayQueries, OnPatches):
     """A scene, as its files were when load() read them.
 
     What its methods do with it they do as the commands of the same names; keywords are the options of the command, and are checked by it.
@@ -180,33 +176,6 @@ class Scene:
         options = [(name, str(value)) for name, value in given.items() if value is not None]
         return Records(run(_neumann.records(self._scene, bounces, options, seed)))
 
-    def camera_rays(self, samples: int = 1, *, first: int = 0, seed: int = 0) -> Report:
-        """Rays of the camera, of samples first … first + samples − 1 of every pixel: sample by sample, in each row by row.
-
-        A Report of origin and direction (n, 3), unit length; length (n,), up to the far plane; pixel (n, 2), column and row; and weight
-        (n,): a pixel is the mean of weight times radiance, ``(weight[:, None] * L).reshape(samples, height, width, 3).mean(axis=0)``. Raises
-        InputError.
-        """
-        return Report(_neumann.camera_rays(self._scene, samples, first, seed))
-
-    def intersect(self, origin: AnyPoints, direction: ArrayLike, length: Optional[ArrayLike] = None) -> Points:
-        """What rays hit first, tr(x, ω).
-
-        origin: an array (n, 3) of points in space, or Points and LightPoints, which know their surfaces. direction: (n, 3), of any length but 0. length: (n,), of
-        rays from space; without it they are endless. On all processors, without Python's lock. Raises InputError.
-        """
-        return Points(_neumann.intersect(self._scene, compiled(origin), direction, length))
-
-    def visible(self, a: AnyPoints, b: AnyPoints) -> NDArray[np.bool_]:
-        """Whether points see each other, V(a, b), pair by pair: (n,). They are Points, LightPoints, or arrays (n, 3) of points in space, which
-        are not to be on a surface. Raises InputError."""
-        return _neumann.visible(self._scene, compiled(a), compiled(b))
-
-    def sample_lights(self, points: AnyPoints, u: ArrayLike) -> LightPoints:
-        """A sample of light for each of n points, by random numbers u (n, 2) from 0 to below 1. It does not look whether it is seen; ask
-        ``visible(points, lights)``. Raises InputError."""
-        return LightPoints(_neumann.sample_lights(self._scene, compiled(points), u))
-
     def under_lights(
         self,
         lights: Tuple[int, int] = (8, 8),
@@ -228,103 +197,6 @@ class Scene:
         job = _neumann.under_lights(self._scene, columns, rows, width, bounces, spp, seed, threads or 0)
         made: LightPictures = run(job, quiet, lambda result: LightPictures((columns, rows), result))
         return made
-
-    def matrices(
-        self,
-        *,
-        patches: Optional[int] = None,
-        directions: Optional[int] = None,
-        seed: Optional[int] = None,
-        channel: Optional[str] = None,
-        memory: Optional[float] = None,
-        threads: Optional[int] = None,
-        quiet: bool = False,
-    ) -> Matrices:
-        """T, R and Le on patches: ``T, R, Le = scene.matrices()``; then ``K = R @ T``, and ``L = Le + K @ Le + K @ K @ Le + …``.
-
-        patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
-        or b; without it the one that reflects most, of the largest ⟨K 1, 1⟩ / ⟨1, 1⟩. memory: GiB that may be taken. Raises InputError.
-        """
-        return Matrices(run(_neumann.patched(self._scene, options(locals())), quiet))
-
-    def operators(
-        self,
-        *,
-        patches: Optional[int] = None,
-        directions: Optional[int] = None,
-        seed: Optional[int] = None,
-        channel: Optional[str] = None,
-        memory: Optional[float] = None,
-        threads: Optional[int] = None,
-        quiet: bool = False,
-    ) -> Operators:
-        """T, R, K and I − K as SciPy's LinearOperators, with the same rays as ``matrices()`` and without making a matrix.
-
-        Keywords as of ``matrices()``.
-        """
-        return Operators(run(_neumann.patched(self._scene, options(locals())), quiet))
-
-    def spectrum(
-        self,
-        *,
-        eigenvalues: Optional[int] = None,
-        time: Optional[float] = None,
-        most: Optional[int] = None,
-        memory: Optional[float] = None,
-        patches: Optional[int] = None,
-        directions: Optional[int] = None,
-        seed: Optional[int] = None,
-        threads: Optional[int] = None,
-        quiet: bool = False,
-    ) -> Report:
-        """Norms and leading eigenvalues of K, whether and how fast the series ends, rounding: what ``neumann spectrum --json`` prints.
-
-        eigenvalues: how many, 4 without it. time: seconds to look for them, 60 without it; most: applications of K of a search, 10000;
-        memory: GiB that may be taken. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
-        ``norms`` ("inf" of radiance, "1" of power, with ``norm_1_standard_error`` by the rays, and "2"), ``eigenvalues`` (k,) complex, by falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of
-        ``matrices()`` with the same patches, directions and seed, ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``,
-        and ``eigenvalues_search``: its applications, its history, and why what it reached is not what it looked for, which is a warning, too.
-        """
-        text, vectors = run(_neumann.spectrum(self._scene, options(locals())), quiet)
-        report = _report.from_json(text)
-        for channel, columns in zip(report.channels, vectors):
-            pairs = channel.eigenvalues
-            channel["eigenvalues"] = np.array([complex(p.real, p.imaginary) for p in pairs])
-            channel["residuals"] = np.array([p.residual for p in pairs])
-            channel["eigenvectors"] = columns
-        if not quiet:
-            warn(report.warnings)
-        return report
-
-    def solve(
-        self,
-        *,
-        channel: Optional[str] = None,
-        error: Optional[float] = None,
-        most: Optional[int] = None,
-        memory: Optional[float] = None,
-        patches: Optional[int] = None,
-        directions: Optional[int] = None,
-        seed: Optional[int] = None,
-        threads: Optional[int] = None,
-        quiet: bool = False,
-    ) -> Solutions:
-        """L = Le + K L by the series and by all other solvers, side by side: as ``neumann solve``.
-
-        channel: r, g or b; without it the one with the largest spectral radius. error: relative, that ends a solver, 1e-6 without it.
-        most: applications of K that a solver may take, 10000 without it. memory: GiB that may be taken. Returns Reports by the solvers' names; each has x
-        (unknowns,), or x = L − Le where ``about.unknown`` says so, verdict, why, applications, error to LU, history.
-        """
-        text, x, warnings = run(_neumann.solve(self._scene, options(locals())), quiet)
-        about = _report.from_json(text)
-        rows = about.pop("solvers")
-        for row, vector in zip(rows, x):
-            row["x"] = vector
-            steps = [[np.nan if step[name] is None else step[name] for name in STEPS] for step in row.history]
-            row["history"] = _report.rows(np.array(steps, dtype=float).reshape(-1, len(STEPS)), STEPS)
-        if not quiet:
-            warn(warnings)
-        return Solutions({row.name: row for row in rows}, about)
 
     def study(
         self,
@@ -349,8 +221,8 @@ class Scene:
         methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"], or neumann.Walk(direct="light") and the like; without
         them all that can do the scene. An estimator of your own stands beside them as "its_name()": a function of rays, with ``origin``
         (n, 3), ``direction`` (n, 3), ``length`` (n,) and ``pixel`` (n, 2) of n camera rays, the last bounce N, and a numpy.random.Generator,
-        which returns samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It may ask ``intersect()``, ``visible()`` and
-        ``sample_lights()``, and must not start other work of this package. budgets: seconds of a
+        which returns samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It may ask ``seen()``, ``intersect()``,
+        ``visible()`` and ``sample_lights()``, and must not start other work of this package. budgets: seconds of a
         run, or samples: samples a pixel of one, growing. repeats: runs of each method at each budget, 16 without it, or as many as an
         interval of the sum's RMSE of ± this part of itself takes. bounces: the last one that is looked at. error: relative RMSE, for the
         time to it. crop: x, y, width and height of a part that the page shows of every method. reference: the folder of a render,

@@ -47,7 +47,7 @@ private:
 };
 
 struct Layer {
-    const char* prefix;
+    std::string prefix;
     const Image* image;
 };
 
@@ -88,14 +88,18 @@ void set_attribute(Imf::Header& header, const std::string& name, const Attribute
 // The channels of a picture, and its header. Refers to the picture.
 class Encoded {
 public:
-    Encoded(const PixelEstimate& picture, const Attributes& attributes)
+    // `part`: the name of the part that it is, if any. Programs that show layers (Blender 3.4) go by the channels' names and not by
+    // the parts'; Combined is what Blender calls the picture itself.
+    Encoded(const PixelEstimate& picture, const Attributes& attributes, const std::string& part = "")
         : width(picture.mean.width), height(picture.mean.height), header(std::max(1, width), std::max(1, height)) {
         if (!picture.least_error.pixels.empty()) raised_ = picture.pixel_errors();
         const bool is_raised = !raised_.pixels.empty() && raised_.pixels != picture.standard_error.pixels;
-        layers_.push_back({"", &picture.mean});
-        if (!picture.standard_error.pixels.empty()) layers_.push_back({"stderr.", is_raised ? &raised_ : &picture.standard_error});
-        if (is_raised) layers_.push_back({"spread.", &picture.standard_error});
-        if (!picture.discretisation.pixels.empty()) layers_.push_back({"discretisation.", &picture.discretisation});
+        const std::string first = part.empty() ? "" : part + ".";
+        layers_.push_back({part.empty() ? "" : first + "Combined.", &picture.mean});
+        if (!picture.standard_error.pixels.empty())
+            layers_.push_back({first + "stderr.", is_raised ? &raised_ : &picture.standard_error});
+        if (is_raised) layers_.push_back({first + "spread.", &picture.standard_error});
+        if (!picture.discretisation.pixels.empty()) layers_.push_back({first + "discretisation.", &picture.discretisation});
         // By run lengths: most bits of a picture with errors are noise, so that zip makes 0.78 of it and run lengths 0.81, in a
         // tenth of the time.
         header.compression() = Imf::RLE_COMPRESSION;
@@ -163,7 +167,7 @@ std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std:
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const ExrPart of = part(i);
-        const Encoded encoded(of.picture, of.attributes);
+        const Encoded encoded(of.picture, of.attributes, of.name);
         headers.push_back(encoded.header);
         headers.back().setName(of.name);
         headers.back().setType(Imf::SCANLINEIMAGE);
@@ -177,7 +181,7 @@ std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std:
         for (std::size_t i = 0; i < count; ++i) {
             const ExrPart of = part(i);
             Imf::OutputPart out(file, static_cast<int>(i));
-            Encoded(of.picture, of.attributes).write(out);
+            Encoded(of.picture, of.attributes, of.name).write(out);
         }
     });
 }
