@@ -151,12 +151,14 @@ class Rays(Case):
             np.testing.assert_allclose(scene.intersect(rays.origin, rays.direction).position[:, 2], 1, atol=1e-6)
             np.testing.assert_allclose(scene.seen(rays).position[:, 2], 0 if hides else 1, atol=1e-6)
         scene = neumann.load_dict({**root, "integrator": {"type": "path", "hide_emitters": True}})
-        rays = scene.camera_rays(4096)
+        rays = scene.camera_rays(16384)
         np.testing.assert_array_equal(scene.seen(rays).emission, 0)
-        samples = path_tracer(scene)(rays, 1, np.random.default_rng(0))
+        seed = int(os.environ.get("NEUMANN_TEST_SEED", 0))
+        samples = path_tracer(scene)(rays, 1, np.random.default_rng(seed)).mean(axis=2) * rays.weight[:, None]
         np.testing.assert_array_equal(samples[:, 0], 0)
-        ours = scene.render(bounces=1, spp=4096, method="walk", quiet=True).run.bounces
-        error = samples[:, 1].mean(axis=1).std() / np.sqrt(len(samples))
+        # One comparison: |z| ≤ 4.5 fails once in 147 000 seeds. Its SE is 0.13%.
+        ours = scene.render(bounces=1, spp=4096, method="walk", seed=seed, quiet=True).run.bounces
+        error = samples[:, 1].std() / np.sqrt(len(samples))
         self.assertLess(abs(samples[:, 1].mean() - ours[1].mean), 4.5 * np.hypot(error, ours[1].stderr))
         self.assertLess(error, 0.002 * ours[1].mean)
 
