@@ -32,6 +32,11 @@ class Matrices(Case):
             self.assertEqual(made.channel, {"r": "red", "g": "green", "b": "blue"}[channel])
         np.testing.assert_array_equal(made.patches["unknown"][:3], [0, 1, 2])
 
+    def test_misspelt_keywords(self):
+        for name in ("matrices", "operators", "spectrum", "solve"):
+            with self.assertRaisesRegex(TypeError, rf"^{name}\(\) got an unexpected keyword argument 'pathces'$"):
+                getattr(furnace(), name)(pathces=50)
+
     def test_furnace(self):
         # A closed room: every ray of T meets something, and K^n 1 = albedo^n to rounding.
         made = furnace(0.5).matrices(**SIZE)

@@ -11,7 +11,6 @@ from ._operators import Operators
 from ._progress import run
 from ._report import Report, warn
 
-
 Channel = Literal["r", "g", "b"]
 
 
@@ -84,7 +83,8 @@ class OnPatches:
         The others are as of ``matrices()``. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
         ``norms`` ("inf" of radiance, "1" of power, with ``norm_1_standard_error`` by the rays, and "2"), ``eigenvalues`` (k,) complex, by
         falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of ``matrices()`` with the same patches, directions and seed,
-        ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``, and ``eigenvalues_search``: its applications, its history, and why what it reached is not what it looked for, which is a warning, too.
+        ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``, and ``eigenvalues_search``: its applications, its history, and
+        why what it reached is not what it looked for, which is a warning, too.
         """
         text, vectors = run(_neumann.spectrum(self._scene, _arguments(locals(), "spectrum")), quiet)
         report = _report.from_json(text)

@@ -93,8 +93,8 @@ class RayQueries:
     def intersect(self, origin: AnyPoints, direction: ArrayLike, length: Optional[ArrayLike] = None) -> Points:
         """What rays hit first, tr(x, ω).
 
-        origin: an array (n, 3) of points in space, or Points and LightPoints, which know their surfaces. direction: (n, 3), of any length but 0. length: (n,), of
-        rays from space; without it they are endless. On all processors, without Python's lock. Raises InputError.
+        origin: an array (n, 3) of points in space, or Points and LightPoints, which know their surfaces. direction: (n, 3), of any length
+        but 0. length: (n,), of rays from space; without it they are endless. On all processors, without Python's lock. Raises InputError.
         """
         return Points(_neumann.intersect(self._scene, _compiled(origin), direction, length))
 
