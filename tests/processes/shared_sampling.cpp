@@ -2,12 +2,14 @@
 #include "operators/pictures/shared_sampling.h"
 #include "apps/processes/share_message.h"
 #include "core/reader/read_scene.h"
-#include "operators/correction/approximation.h"
+#include "operators/methods/method_options.h"
+#include "operators/methods/sampling.h"
 #include "operators/pictures/rendered_series.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <random>
 
@@ -15,14 +17,17 @@ namespace neumann::shared_sampling_test {
 
 Scene cornell_box() { return read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "24"}}); }
 
-SamplingSettings settings(PathGenerator generator, const Scene& scene) {
-    SamplingSettings all{
-        .generator = generator,
-        .walk = {.bounces = 3, .rest_probability = generator == PathGenerator::pointwise ? 0.0 : 0.7, .give_up = 4},
-        .seed = 5,
-        .replicate_size = 4};
-    if (generator == PathGenerator::corrected)
-        all.approximation = std::make_shared<const Approximation>(scene, ApproximationSettings{.patches = 60, .rays = 16});
+// `word`: as read_method() reads it.
+SamplingSettings settings(const std::string& word, const Scene& scene) {
+    constexpr int bounces = 3;
+    constexpr std::uint64_t seed = 5;
+    const Method method = read_method(word);
+    SamplingSettings all = sampling_settings(method, scene, {}, seed);
+    all.walk.bounces = bounces;
+    all.walk.rest_probability = all.generator == PathGenerator::pointwise ? 0.0 : 0.7;
+    all.walk.give_up = 4;
+    all.replicate_size = 4;
+    set_up(method, scene, bounces, seed, 1e9, all);
     return all;
 }
 
@@ -93,7 +98,7 @@ void expect_same(const RenderedSeries& a, const RenderedSeries& b) {
     expect_same(a.tally, b.tally);
 }
 
-class SharedSamplingOf : public testing::TestWithParam<PathGenerator> {};
+class SharedSamplingOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(SharedSamplingOf, HasTheSameBits) {
     const Scene scene = cornell_box();
@@ -109,14 +114,22 @@ TEST_P(SharedSamplingOf, HasTheSameBits) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Generators, SharedSamplingOf,
-                         testing::Values(PathGenerator::walk, PathGenerator::pointwise, PathGenerator::light,
-                                         PathGenerator::bidirectional, PathGenerator::corrected));
+INSTANTIATE_TEST_SUITE_P(Methods, SharedSamplingOf,
+                         testing::Values("walk", "walk:adaptive=all", "walk:reuse=true", "walk:tree=sum", "pointwise", "light",
+                                         "bidirectional", "guided:patches=200:directions=1024",
+                                         "corrected:patches=60:directions=16", "photon:photons=1000",
+                                         "cache:accuracy=0.5:directions=16", "metropolis:chain=16", "mixed"),
+                         [](const auto& info) {
+                             std::string name(info.param);
+                             std::ranges::replace_if(
+                                 name, [](char c) { return !std::isalnum(c); }, '_');
+                             return name;
+                         });
 
 // A part of the samples, whose first replicate is not the first of all.
 TEST(SharedSampling, TakesAPart) {
     const Scene scene = cornell_box();
-    const SamplingSettings how = settings(PathGenerator::walk, scene);
+    const SamplingSettings how = settings("walk", scene);
     const SamplingGoal goal{.samples = 4 * 21, .first = 7};
     const PictureSampler sampler(scene, how);
     LateHelpers helpers(sampler, 2);
@@ -125,7 +138,7 @@ TEST(SharedSampling, TakesAPart) {
 
 TEST(SharedSampling, IsStoppedAndDropsWhatIsUnderWay) {
     const Scene scene = cornell_box();
-    const SamplingSettings how = settings(PathGenerator::walk, scene);
+    const SamplingSettings how = settings("walk", scene);
     const PictureSampler sampler(scene, how);
     LateHelpers helpers(sampler, 2);
     std::atomic<int> calls = 0;
@@ -144,7 +157,7 @@ TEST(SharedSampling, IsStoppedAndDropsWhatIsUnderWay) {
 
 TEST(SharedSampling, TellsOfAHelperThatFailed) {
     const Scene scene = cornell_box();
-    const SamplingSettings how = settings(PathGenerator::walk, scene);
+    const SamplingSettings how = settings("walk", scene);
     const PictureSampler sampler(scene, how);
     LateHelpers helpers(sampler, 2);
     helpers.fails = true;
@@ -159,7 +172,7 @@ TEST(SharedSampling, TellsOfAHelperThatFailed) {
 // A message that was cut is no share.
 TEST(ShareMessage, IsReadWholeOrNotAtAll) {
     const Scene scene = cornell_box();
-    const PictureSampler sampler(scene, settings(PathGenerator::walk, scene));
+    const PictureSampler sampler(scene, settings("walk", scene));
     const auto shares = sampler.shares(4, 4, 3);
     ASSERT_EQ(shares.size(), 3u);
     const auto sampled = sampler.sample(shares[1], Tally(sampler.quantities()));

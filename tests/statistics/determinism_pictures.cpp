@@ -1,5 +1,7 @@
 // The same seed and the same samples give the same bits: whatever the number of threads, and however a run was cut into blocks.
 #include "core/reader/read_scene.h"
+#include "operators/methods/method_options.h"
+#include "operators/methods/sampling.h"
 #include "operators/pictures/picture_sampler.h"
 
 #include <gtest/gtest.h>
@@ -13,20 +15,32 @@ namespace neumann::determinism_pictures_test {
 
 struct Case {
     const char* name;
-    PathGenerator method;
-    SamplerKind sampler;
+    const char* method;  // as read_method() reads it
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 
-Scene cornell_box() { return read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "20"}}); }
+const Scene& cornell_box() {
+    static const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "20"}});
+    return scene;
+}
 
-// Walks are given up soon, so that this is counted, too.
-PictureSampler::Settings settings(const Case& c, std::uint64_t seed = 3) {
-    return {.generator = c.method,
-            .walk = {.bounces = 3, .rest_probability = 0.7, .give_up = 4},
-            .sampler = c.sampler,
-            .seed = seed,
-            .replicate_size = 4};
+// With what the method needs before its first sample. Walks are given up soon, so that this is counted, too.
+PictureSampler::Settings made_settings(const Case& c, std::uint64_t seed) {
+    constexpr int bounces = 3;
+    const Method method = read_method(c.method);
+    SamplingSettings settings = sampling_settings(method, cornell_box(), {}, seed);
+    settings.walk.bounces = bounces;
+    settings.walk.rest_probability = settings.generator == PathGenerator::pointwise ? 0.0 : 0.7;
+    settings.walk.give_up = 4;
+    settings.replicate_size = 4;
+    set_up(method, cornell_box(), bounces, seed, 1e9, settings);
+    return settings;
+}
+const PictureSampler::Settings& settings(const Case& c, std::uint64_t seed = 3) {
+    static std::map<std::pair<std::string, std::uint64_t>, PictureSampler::Settings> made;
+    const auto [there, is_new] = made.try_emplace({c.method, seed});
+    if (is_new) there->second = made_settings(c, seed);
+    return there->second;
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -67,9 +81,8 @@ void expect_same(const SeriesMoments& a, const SeriesMoments& b) {
 
 class Determinism : public testing::TestWithParam<Case> {};
 
+// Also what is made before the first sample.
 TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
-    const Scene scene = cornell_box();
-    const PictureSampler sampler(scene, settings(GetParam()));
     struct Outcome {
         SeriesMoments moments;
         Tally tally;
@@ -79,15 +92,16 @@ TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
         oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
         oneapi::tbb::task_arena arena(threads);
-        Outcome outcome{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities())};
-        arena.execute([&] {
+        return arena.execute([&] {
+            const PictureSampler sampler(cornell_box(), made_settings(GetParam(), 3));
+            Outcome outcome{SeriesMoments(sampler.width(), sampler.height(), sampler.quantities()), Tally(sampler.quantities())};
             outcome.moments.add(*sampler.run(0, 8, outcome.tally));
             outcome.moments.add(*sampler.run(8, 2, outcome.tally));
+            return outcome;
         });
-        return outcome;
     };
     const Outcome one = with_threads(1);
-    if (GetParam().method == PathGenerator::walk) {
+    if (std::string_view(GetParam().method).starts_with("walk")) {
         EXPECT_GT(one.tally.given_up, 0u);
     }
     for (const int threads : {2, 7, 7, 7}) {
@@ -100,7 +114,7 @@ TEST_P(Determinism, OneTwoAndSevenThreadsGiveTheSameBits) {
 
 // All 26 ways to cut [0, 8) into nodes, and all ways to join it from two or three ranges.
 TEST_P(Determinism, BlocksOfReplicatesMergeToTheSameBits) {
-    const Scene scene = cornell_box();
+    const Scene& scene = cornell_box();
     const PictureSampler sampler(scene, settings(GetParam()));
     struct Piece {
         MomentsNode node;
@@ -164,7 +178,7 @@ TEST_P(Determinism, BlocksOfReplicatesMergeToTheSameBits) {
 }
 
 TEST_P(Determinism, ReplicatesDoNotDependOnWhatElseIsSampled) {
-    const Scene scene = cornell_box();
+    const Scene& scene = cornell_box();
     const PictureSampler sampler(scene, settings(GetParam()));
     std::vector<MomentsNode> alone;
     for (std::uint64_t r = 0; r < 4; ++r) {
@@ -183,7 +197,7 @@ TEST_P(Determinism, ReplicatesDoNotDependOnWhatElseIsSampled) {
 
 // A block that is dropped half way leaves no trace.
 TEST_P(Determinism, ADroppedBlockLeavesNoTrace) {
-    const Scene scene = cornell_box();
+    const Scene& scene = cornell_box();
     const PictureSampler sampler(scene, settings(GetParam()));
     Tally tally(sampler.quantities()), expected(sampler.quantities());
     EXPECT_FALSE(sampler.run(0, 2, tally, {.stop = [] { return true; }}));
@@ -193,16 +207,18 @@ TEST_P(Determinism, ADroppedBlockLeavesNoTrace) {
     expect_same(tally, expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllWays, Determinism,
-                         testing::Values(Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
-                                         Case{"WalkSobol", PathGenerator::walk, SamplerKind::sobol},
-                                         Case{"PointwiseIndependent", PathGenerator::pointwise, SamplerKind::independent},
-                                         Case{"PointwiseSobol", PathGenerator::pointwise, SamplerKind::sobol},
-                                         Case{"SurfaceSobol", PathGenerator::surface, SamplerKind::sobol},
-                                         Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
-                                         Case{"LightSobol", PathGenerator::light, SamplerKind::sobol},
-                                         Case{"BidirectionalIndependent", PathGenerator::bidirectional, SamplerKind::independent},
-                                         Case{"BidirectionalSobol", PathGenerator::bidirectional, SamplerKind::sobol}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    AllWays, Determinism,
+    testing::Values(Case{"WalkIndependent", "walk:sampler=independent"}, Case{"WalkSobol", "walk:sampler=sobol"},
+                    Case{"WalkAdaptive", "walk:adaptive=all"}, Case{"WalkReuse", "walk:reuse=true"},
+                    Case{"WalkTree", "walk:tree=sum"}, Case{"PointwiseIndependent", "pointwise:sampler=independent"},
+                    Case{"PointwiseSobol", "pointwise:sampler=sobol"}, Case{"SurfaceSobol", "surface"},
+                    Case{"LightIndependent", "light:sampler=independent"}, Case{"LightSobol", "light:sampler=sobol"},
+                    Case{"BidirectionalIndependent", "bidirectional:sampler=independent"},
+                    Case{"BidirectionalSobol", "bidirectional:sampler=sobol"}, Case{"Guided", "guided:patches=200:directions=1024"},
+                    Case{"Corrected", "corrected:patches=60:directions=16"}, Case{"Photon", "photon:photons=1000"},
+                    Case{"PhotonGather", "photon:photons=1000:gather=true"}, Case{"Cache", "cache:accuracy=0.5:directions=16"},
+                    Case{"Metropolis", "metropolis:chain=16"}, Case{"Mixed", "mixed"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace neumann::determinism_pictures_test
