@@ -1,4 +1,4 @@
-"""Lessons as notebooks, and as pages with their outputs where neumann, nbclient and matplotlib can be imported."""
+"""Lessons as pages and as notebooks, with their outputs where neumann, nbclient and matplotlib can be imported."""
 
 import base64
 import hashlib
@@ -74,11 +74,11 @@ def output_as_html(output, keep):
 
 def keeper(site, page):
     """A function that puts figures beside a page, as WebP without loss, which is two thirds of PNG."""
-    from PIL import Image  # matplotlib needs it, too
-
     count = 0
 
     def keep(png):
+        from PIL import Image  # matplotlib, which made the figure, needs it, too
+
         nonlocal count
         count += 1
         name = f"{page.source.stem}_{count}.webp"
@@ -93,15 +93,17 @@ def joined(text):
 
 
 def write_lesson(site, page, notebook):
-    bare = converter(site.root).notebook(page.source.read_text(encoding="utf-8"))
+    keep = keeper(site, page)
+    what = "with outputs" if notebook else "without outputs"
+    if not notebook:
+        notebook = converter(site.root).notebook(page.source.read_text(encoding="utf-8"))
     name = page.source.stem
     path = site.folder / f"lessons/{name}.ipynb"
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(bare, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    path.write_text(json.dumps(notebook, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
     source = site.relative(site.copy(page.source), page)
-    keep = keeper(site, page) if notebook else None
     out = []
-    for cell in (notebook or bare)["cells"]:
+    for cell in notebook["cells"]:
         text = joined(cell["source"])
         if cell["cell_type"] == "markdown":
             out.append(site.from_markdown(text, page, formulas=True)[0])
@@ -110,6 +112,6 @@ def write_lesson(site, page, notebook):
         shown = "\n".join(filter(None, (output_as_html(output, keep) for output in cell.get("outputs", []))))
         if shown:
             out.append(f'<div class="out">{shown}</div>')
-    files_line = f'<p><a href="{name}.ipynb" download>{name}.ipynb</a>, to be run as a notebook; <a href="{source}" download>{name}.py</a>, the lesson as a script</p>'
+    files_line = f'<p><a href="{name}.ipynb" download>{name}.ipynb</a>, the notebook {what}; <a href="{source}" download>{name}.py</a>, the lesson as a script</p>'
     body = "\n".join(out).replace("</h1>", f"</h1>\n{files_line}", 1)
     site.write(page, body)
