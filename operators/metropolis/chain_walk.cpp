@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "operators/metropolis/chain_batch.h"
+#include "operators/metropolis/starts_of_group.h"
 
 #include <fmt/format.h>
 
@@ -35,17 +36,10 @@ std::vector<ChainState> chain_walk(const Scene& scene, int bounce, std::uint32_t
     if (wanted.empty()) throw InputError(fmt::format("none of {} paths from both ends brings light in bounce {}", paths, bounce));
 
     ChainStart start;
-    double before = 0.0;
     IndependentPaths::Workspace work;
     std::vector<std::uint64_t> rays(k + 2);
-    (void)independent.trace_group(
-        0, wanted[0].group, work,
-        [&](std::uint32_t i, const WayFound& found) {
-            if (found.bounce != bounce || !std::isfinite(size_of(found.value)) || before > wanted[0].left) return;
-            before += size_of(found.value);
-            start = {wanted[0].group * chains_at_once + i, found.s};
-        },
-        std::span(rays));
+    find_starts_of_group(independent, 0, wanted, work, std::span(rays),
+                         [&](const WantedStart&, const ChainStart& found) { start = found; });
 
     const Bidirectional bidirectional(scene, walk, independent.area().pixels());
     ChainBatch chain(scene, bidirectional, independent.area(), bounce);

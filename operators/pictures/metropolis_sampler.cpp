@@ -1,5 +1,6 @@
 #include "operators/pictures/metropolis_sampler.h"
 
+#include "operators/metropolis/starts_of_group.h"
 #include "operators/pictures/film_shares.h"
 #include "operators/pictures/in_order.h"
 #include "operators/pictures/metropolis_group.h"
@@ -143,30 +144,10 @@ MetropolisSampler::Starts MetropolisSampler::find_starts(std::uint64_t replicate
         const std::size_t end = part + 1 < begins.size() ? begins[part + 1] : wanted.size();
         const auto of_group = std::span(wanted).subspan(begins[part], end - begins[part]);
         Workspace& work = workspaces.local();
-        std::vector<double> before(sums.bounces(), 0.0);
-        std::vector<std::size_t> next(sums.bounces(), of_group.size());
-        for (std::size_t k = of_group.size(); k-- > 0;) next[static_cast<std::size_t>(of_group[k].bounce)] = k;
-        std::vector<ChainStart> last(sums.bounces());
-        const auto waits = [&](std::size_t bounce) {
-            return next[bounce] < of_group.size() && of_group[next[bounce]].bounce == static_cast<int>(bounce);
-        };
-        const auto take = [&](std::size_t bounce, const ChainStart& start) {
-            starts[bounce][of_group[next[bounce]].chain - first_chain] = start;
-            ++next[bounce];
-        };
-        (void)independent_.trace_group(
-            replicate, of_group[0].group, work.independent,
-            [&](std::uint32_t i, const WayFound& found) {
-                const auto bounce = static_cast<std::size_t>(found.bounce);
-                const double size = size_of(found.value);
-                if (bounce >= sums.bounces() || !std::isfinite(size)) return;
-                before[bounce] += size;
-                last[bounce] = {of_group[0].group * chains_at_once + i, found.s};
-                while (waits(bounce) && of_group[next[bounce]].left < before[bounce]) take(bounce, last[bounce]);
-            },
-            std::span(work.tally.rays));
-        for (std::size_t bounce = 1; bounce < sums.bounces(); ++bounce)
-            while (waits(bounce)) take(bounce, last[bounce]);  // past the end, by rounding
+        find_starts_of_group(independent_, replicate, of_group, work.independent, std::span(work.tally.rays),
+                             [&](const WantedStart& w, const ChainStart& start) {
+                                 starts[static_cast<std::size_t>(w.bounce)][w.chain - first_chain] = start;
+                             });
     });
     for (const Workspace& work : workspaces)
         for (std::size_t q = 0; q < rays.size(); ++q) rays[q] += work.tally.rays[q];

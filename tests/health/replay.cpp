@@ -3,8 +3,8 @@
 #include "operators/pictures/replay.h"
 #include "core/reader/read_scene.h"
 #include "operators/cache/record_places.h"
-#include "operators/correction/approximation.h"
-#include "operators/guide/guide.h"
+#include "operators/methods/method_options.h"
+#include "operators/methods/sampling.h"
 #include "operators/photons/photon_pilot.h"
 
 #include <gtest/gtest.h>
@@ -20,9 +20,7 @@ constexpr int bounces = 3;
 
 struct Case {
     const char* name;
-    PathGenerator generator;
-    SamplerKind sampler = SamplerKind::sobol;
-    Split split = {};
+    const char* method;  // as read_method() reads it
     friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 };
 
@@ -33,22 +31,12 @@ protected:
     // 49 pixels: the last of the 64 paths that advance together are fewer.
     Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "7"}});
     SamplingSettings settings() const {
-        SamplingSettings s{.generator = GetParam().generator,
-                           .walk = {.bounces = bounces, .split = GetParam().split, .rest_probability = 0.7},
-                           .sampler = GetParam().sampler,
-                           .seed = 5,
-                           .replicate_size = size};
-        if (s.generator == PathGenerator::guided)
-            s.guide = std::make_shared<const Guide>(scene, GuideSettings{.patches = 100, .bounces = bounces, .seed = 5});
-        if (s.generator == PathGenerator::corrected)
-            s.approximation = std::make_shared<const Approximation>(
-                scene, ApproximationSettings{.patches = 100, .rays = 16, .bounces = bounces, .seed = 5});
-        if (s.generator == PathGenerator::metropolis) s.chain_length = 3;
-        if (s.generator == PathGenerator::photon)
-            s.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{1000, {}, false}, s.sampler, s.seed);
-        if (s.generator == PathGenerator::cache)
-            s.records =
-                std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 32}, s.sampler, s.seed, 1e9);
+        const Method method = read_method(GetParam().method);
+        SamplingSettings s = sampling_settings(method, scene, {}, 5);
+        s.walk.bounces = bounces;
+        s.walk.rest_probability = 0.7;
+        s.replicate_size = size;
+        set_up(method, scene, bounces, 5, 1e9, s);
         return s;
     }
 };
@@ -79,9 +67,9 @@ TEST_P(ReplayEvery, PixelsAreTheMeansOfReplayedSamples) {
         const double* mean = node.data.data() + k * PixelMoments::doubles_per_quantity;
         const Rgb rendered(mean[0], mean[1], mean[2]), replayed = (own[k] + splatted[k]) * (1.0 / size);
         // What comes from the lights is added to the rest in another order here, and what chains leave to all bounces.
-        if (GetParam().generator == PathGenerator::metropolis && q > 0)
+        if (sampler.settings().generator == PathGenerator::metropolis && q > 0)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(rendered[c], replayed[c], 1e-12 * std::abs(rendered[c]));
-        else if (splats(GetParam().generator) && q == Q - 1)
+        else if (splats(sampler.settings().generator) && q == Q - 1)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(rendered[c], replayed[c], 1e-14 * std::abs(rendered[c]));
         else
             EXPECT_TRUE(same_bits(rendered, replayed))
@@ -96,7 +84,7 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     const PictureSampler sampler(scene, settings());
     for (std::uint32_t pixel = 0; pixel < 49; pixel += 6) {
         const Replay found = replay(sampler, {pixel, 2});
-        if (!splats(GetParam().generator) || GetParam().generator == PathGenerator::bidirectional) {
+        if (sampler.settings().generator != PathGenerator::light) {
             EXPECT_FALSE(found.steps.empty());
         }
         std::vector<Rgb> sum(sampler.quantities(), Rgb(0.0));
@@ -108,18 +96,16 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(PathGenerator, ReplayEvery,
-                         testing::Values(Case{"Walk", PathGenerator::walk},
-                                         Case{"WalkIndependent", PathGenerator::walk, SamplerKind::independent},
-                                         Case{"WalkSplit", PathGenerator::walk, SamplerKind::sobol, {3, 2}},
-                                         Case{"Guided", PathGenerator::guided}, Case{"Corrected", PathGenerator::corrected},
-                                         Case{"Photon", PathGenerator::photon}, Case{"Cache", PathGenerator::cache},
-                                         Case{"Metropolis", PathGenerator::metropolis}, Case{"Surface", PathGenerator::surface},
-                                         Case{"Classic", PathGenerator::classic}, Case{"Light", PathGenerator::light},
-                                         Case{"LightIndependent", PathGenerator::light, SamplerKind::independent},
-                                         Case{"Bidirectional", PathGenerator::bidirectional},
-                                         Case{"BidirectionalSplit", PathGenerator::bidirectional, SamplerKind::sobol, {3, 2}}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, ReplayEvery,
+    testing::Values(Case{"Walk", "walk"}, Case{"WalkIndependent", "walk:sampler=independent"}, Case{"WalkSplit", "walk:split=3,2"},
+                    Case{"WalkTree", "walk:tree=3"}, Case{"WalkReuse", "walk:reuse=true"},
+                    Case{"Guided", "guided:patches=100:directions=1024"}, Case{"Corrected", "corrected:patches=100:directions=16"},
+                    Case{"Photon", "photon:photons=1000"}, Case{"Cache", "cache:accuracy=0.1:directions=32"},
+                    Case{"Metropolis", "metropolis:chain=3"}, Case{"Surface", "surface"}, Case{"Classic", "classic"},
+                    Case{"Light", "light"}, Case{"LightIndependent", "light:sampler=independent"},
+                    Case{"Bidirectional", "bidirectional"}, Case{"BidirectionalSplit", "bidirectional:split=3,2"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 // After the walk comes the path of the photon that brings most, joined ray by ray, and it ends where the walk read the map.
 TEST(Replay, APhotonIsFollowedToItsLight) {

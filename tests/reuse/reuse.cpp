@@ -1,7 +1,6 @@
 // Walks that use each other's tails: the terms of the walk, whatever they share, with less variance for as many rays.
 #include "core/reader/read_scene.h"
 #include "operators/pictures/picture_sampler.h"
-#include "operators/pictures/replay.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 
@@ -181,28 +180,6 @@ TEST(ReusingWalk, StatesTheErrorOfMeansOverPixels) {
     double variance = 0.0;
     for (const double m : means) variance += (m - mean) * (m - mean) / (renders - 1);
     EXPECT_NEAR(variance / stated, 1.0, 4.5 * std::sqrt(2.0 / (renders - 1)));
-}
-
-TEST(ReusingWalk, ReplaysItsSamplesToTheBit) {
-    const Scene scene = scene_of("cornell-box", "7");
-    const SamplingSettings settings{.walk = {.bounces = 3}, .seed = 5, .replicate_size = 8, .sharing_pixels = 8};
-    const PictureSampler sampler(scene, settings);
-    Tally tally(sampler.quantities());
-    (void)sampler.run(3, 1, tally).value();
-    int compared = 0;
-    for (std::size_t q = 1; q <= 3; ++q)
-        for (const LargestSamples::Sample& s : tally.largest[q].standing_out()) {
-            const Replay found = replay(sampler, s.place.name);
-            EXPECT_EQ(max_component(glm::abs(found.terms[q])), s.value);
-            // What its steps find is what it is.
-            Rgb sum(0.0);
-            for (const auto& step : found.steps)
-                for (const auto& part : step.found)
-                    if (part.quantity == q) sum += part.value;
-            EXPECT_LE(max_component(glm::abs(sum - found.terms[q])), 1e-12 * s.value);
-            ++compared;
-        }
-    EXPECT_GT(compared, 20);
 }
 
 }  // namespace neumann::reuse_test
