@@ -137,7 +137,8 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
         all_rays += n;
         for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel) cost[pixel] = static_cast<double>(n) / group.paths();
     };
-    if (!sampler.own_samples(0, measure, watch)) throw Stopped();
+    const std::optional<std::uint64_t> shared = sampler.own_samples(0, measure, watch);
+    if (!shared) throw Stopped();
 
     BlockCosts blocks{across * down, {}, std::vector<double>(across * down, 0.0)};
     const auto block_of = [&](std::uint32_t pixel) { return pixel / width / block_width * across + pixel % width / block_width; };
@@ -157,7 +158,7 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     if (least != LeastError::of_sum)
         for (std::size_t q = 0; q < terms; ++q) add(q);
     if (least != LeastError::of_bounces) add(terms);
-    Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays};
+    Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays + *shared};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
     const std::vector<std::int8_t> powers =
         as_powers(best_numbers(blocks, least == LeastError::of_product ? LeastOf::product : LeastOf::largest), blocks.costs,

@@ -55,18 +55,19 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
         [&](const PixelGroup& pixels, Workspace& work) { trace_group(replicate, pixels, points ? &*points : nullptr, work); });
 }
 
-bool CorrectedSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
+std::optional<std::uint64_t> CorrectedSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
     std::uint64_t rays = 0, given_up = 0;
     std::optional<SharedPoints> points;
     if (points_->sets() > 0) {
         points = points_->make(replicate, rays, given_up, watch);
-        if (!points) return false;
+        if (!points) return std::nullopt;
     }
-    return for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
         Workspace work(settings_.quantities());
         trace_group(replicate, pixels, points ? &*points : nullptr, work);
         each(pixels, work.group.samples, work.tally.rays);
     });
+    return done ? std::optional(rays) : std::nullopt;
 }
 
 }  // namespace neumann

@@ -30,7 +30,7 @@ public:
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const;
     // As PictureSampler::own_samples().
-    bool own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
+    std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
     // As PictureSampler::retrace().
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 

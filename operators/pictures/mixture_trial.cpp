@@ -34,8 +34,9 @@ MixtureTrial::MixtureTrial(const Scene& view, const SamplingSettings& settings, 
         for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel)
             rays_of_sample_[pixel] = static_cast<double>(n) / group.paths();
     };
-    if (!sampler_.own_samples(0, count, watch)) throw Stopped();
-    rays_ = all;
+    const std::optional<std::uint64_t> shared = sampler_.own_samples(0, count, watch);
+    if (!shared) throw Stopped();
+    rays_ = all + *shared;
 }
 
 void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {

@@ -198,9 +198,9 @@ bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& p
         std::get<TermEstimator>(sampler_));
 }
 
-bool PictureSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
+std::optional<std::uint64_t> PictureSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
     if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->own_samples(replicate, each, watch);
-    return for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
         std::vector<std::uint64_t> rays(quantities());
         if (const auto* splats = std::get_if<SplatSampler>(&sampler_)) {
             const std::vector<Rgb> own = splats->own_samples(replicate, pixels, rays);
@@ -218,6 +218,7 @@ bool PictureSampler::own_samples(std::uint64_t replicate, const OwnSamples& each
             std::get<TermEstimator>(sampler_));
         each(pixels, paths.samples, rays);
     });
+    return done ? std::optional<std::uint64_t>(0) : std::nullopt;
 }
 
 bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,

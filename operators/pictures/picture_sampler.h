@@ -62,8 +62,8 @@ public:
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
     // The samples of all pixels without what paths from the lights bring to pixels all over the film. For methods of which pixels
-    // may have different numbers of samples. False if `watch` stopped it.
-    bool own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch = {}) const;
+    // may have different numbers of samples. Returns the rays cast for what pixels share; nothing if `watch` stopped it.
+    std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch = {}) const;
 
     // Adds the picture of one replicate, all quantities of each pixel, black where a pixel has no samples. False if `watch` stopped
     // it.
@@ -72,6 +72,8 @@ public:
 
     // Null unless several methods are mixed.
     const MixedSampler* mixed() const { return std::get_if<MixedSampler>(&sampler_); }
+    // Null unless paths are chains.
+    const MetropolisSampler* metropolis() const { return std::get_if<MetropolisSampler>(&sampler_); }
 
     // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
     // their numbers in the group. With a cache: the ray of a record with this number, which has number 0.

@@ -6,6 +6,7 @@
 #include "operators/statistics/picture_statistics.h"
 #include "operators/walk/walk_settings.h"
 
+#include <span>
 #include <vector>
 
 namespace neumann {
@@ -32,11 +33,13 @@ public:
     int bounces_for_tail(double fraction) const;
     // The probability of going on into the rest beyond N with which the rest takes no more rays than the terms.
     double rest_probability(int N) const;
+    // Rays of a walk for each term 0 … `bounces`, and for the rest beyond.
+    std::span<const double> rays() const { return rays_; }
     double seconds_per_walk() const { return seconds_per_walk_; }
 
 private:
     std::vector<MeanWithError> term_, rest_;
-    std::vector<double> rays_;  // rays per walk, for each term and for the rest beyond `bounces`
+    std::vector<double> rays_;
     std::uint64_t walks_ = 0, given_up_ = 0;
     double seconds_per_walk_ = 0.0;  // all terms, on all threads
 };

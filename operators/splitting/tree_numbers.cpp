@@ -70,4 +70,14 @@ std::vector<double> best_tree(const TreeMoments& tree) {
     }
 }
 
+double walks_of_tree(std::span<const double> ratios, std::span<const double> cost) {
+    double number = 1.0, tree = 0.0, walk = 0.0;
+    for (std::size_t j = 0; j < cost.size(); ++j) {
+        if (j > 0 && j <= ratios.size()) number *= ratios[j - 1];
+        tree += number * cost[j];
+        walk += cost[j];
+    }
+    return walk > 0.0 ? tree / walk : 1.0;
+}
+
 }  // namespace neumann

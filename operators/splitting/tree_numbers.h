@@ -30,4 +30,8 @@ double work_of(const TreeMoments& tree, std::span<const double> numbers);
 // The numbers for each camera ray that make it least. At most 10 depths: the choices are tried one by one.
 std::vector<double> best_tree(const TreeMoments& tree);
 
+// What a tree costs, in walks: Σ_j c_j m_j / Σ_j c_j, with ratios[j − 1] = m_j / m_{j−1}, and 1 for deeper ones. `cost`: c_j, of
+// depths 0 ….
+double walks_of_tree(std::span<const double> ratios, std::span<const double> cost);
+
 }  // namespace neumann

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -156,6 +157,25 @@ TEST(Allocation, LeavesMeansAndErrorsRight) {
         EXPECT_GE(all, 140);
         EXPECT_GE(within, 0.90 * all) << within << " of " << all;
     }
+}
+
+// All that was cast is counted: a pilot's rays are those of the pixels' paths and of the points that they share, as in a picture.
+TEST(Allocation, CountsTheRaysOfWhatPixelsShare) {
+    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
+    const SamplingSettings settings = physics::settings_of(scene, method::Corrected{{}, 60, 16}, 3, 1);
+    const PictureSampler sampler(scene, settings);
+    std::atomic<std::uint64_t> own = 0;
+    const std::optional<std::uint64_t> shared =
+        sampler.own_samples(0, [&](const PixelGroup&, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
+            own += std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
+        });
+    ASSERT_TRUE(shared);
+    Tally tally(sampler.quantities());
+    (void)sampler.run(0, 1, tally);
+    EXPECT_EQ(own + *shared, std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0}));
+    EXPECT_GT(*shared, 10000u);
+    // The pilot takes a quarter of the samples, and so not fewer rays than its points alone.
+    EXPECT_GT(allocate(scene, settings, LeastError::of_sum)->rays, *shared);
 }
 
 TEST(Allocation, ReplaysItsSamplesToTheBit) {
