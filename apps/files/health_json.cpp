@@ -192,7 +192,7 @@ Json as_json(const Health& health, const Scene& scene, const std::string& folder
     json["non_finite_samples"] = {{"count", health.non_finite()}, {"by_bounce", by_bounce}, {"pixels_overflowed", overflowed}};
     json["largest_samples"] = largest;
     if (!health.checkup) {
-        json["checkup"] = "none: every bounce has a path of its own";
+        json["checkup"] = "none: " + health.why_no_checkup;
         return json;
     }
     const Checkup& checkup = *health.checkup;
@@ -204,7 +204,7 @@ Json as_json(const Health& health, const Scene& scene, const std::string& folder
         json["energy_balance"]["from_the_camera"] = balance_json(*checkup.camera, "path weight", "paths", checkup.paths);
     if (checkup.light) json["energy_balance"]["from_the_lights"] = balance_json(*checkup.light, "W", "paths", checkup.paths);
     if (!checkup.camera && !checkup.light)
-        json["energy_balance"] = "none: by points on surfaces, or by mirrors alone, a path's weight is not what arrives";
+        json["energy_balance"] = "none: " + health.why_no_balance;
     return json;
 }
 

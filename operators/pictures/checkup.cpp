@@ -14,29 +14,39 @@ namespace {
 
 constexpr std::uint64_t checkup_stream = 0x636865636b7570ull;  // another seed than the pictures'
 constexpr std::uint64_t most_groups = 256, fewest_groups = 16, vertices = 1u << 20;
+// With `corrected` all points of a replicate are made for each group.
+constexpr std::uint64_t most_groups_with_points = 16;
 constexpr int most_bounces = 64;
 constexpr std::size_t self_hits_kept = 4;
 
+bool joins_subpaths(PathGenerator generator) {
+    return generator == PathGenerator::bidirectional || generator == PathGenerator::metropolis;
+}
+
 // The energy balance covers the bounces whose reflection is always sampled.
 int bounces_of_camera_paths(const SamplingSettings& settings) {
+    if (settings.generator == PathGenerator::light) return 0;
     const WalkSettings& walk = settings.walk;
     const bool found_by_points = walk.direct.direct != DirectLight::bsdf && walk.direct.direct != DirectLight::mis;
-    const bool ends_early = settings.generator != PathGenerator::bidirectional && found_by_points && walk.rest_probability == 0.0;
+    const bool ends_early = !joins_subpaths(settings.generator) && found_by_points && walk.rest_probability == 0.0;
     return std::min(walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 int bounces_of_light_paths(const SamplingSettings& settings) {
-    const bool ends_early = settings.generator == PathGenerator::bidirectional || settings.walk.rest_probability == 0.0;
+    if (settings.generator != PathGenerator::light && !joins_subpaths(settings.generator)) return 0;
+    const bool ends_early = joins_subpaths(settings.generator) || settings.walk.rest_probability == 0.0;
     return std::min(settings.walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 
+// Some paths of a replicate that are traced together.
+struct Group {
+    std::uint64_t replicate;
+    std::uint32_t first, paths;
+};
+
 // Inspects one group of paths.
 struct GroupCheckup : PathObserver {
-    GroupCheckup(const SampleLayout& layout, std::uint64_t replicate, const PixelGroup& group, bool meets)
-        : layout(layout),
-          replicate(replicate),
-          first(layout.first_path(group.begin)),
-          paths(group.paths()),
-          rays_meet_surfaces(meets) {}
+    GroupCheckup(const SampleLayout& layout, const Group& group, bool meets)
+        : layout(layout), replicate(group.replicate), first(group.first), paths(group.paths), rays_meet_surfaces(meets) {}
 
     const SampleLayout& layout;
     std::uint64_t replicate;
@@ -73,49 +83,114 @@ double Checkup::self_hits_at_most() const {
     return std::min(count / static_cast<double>(rays), 1.0);
 }
 
-std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
-    const SamplingSettings& settings = sampler.settings();
-    if (settings.generator == PathGenerator::pointwise || settings.generator == PathGenerator::corrected ||
-        has_two_radii(settings.generator) || settings.generator == PathGenerator::metropolis || settings.generator == PathGenerator::mixed)
-        return std::nullopt;
-    const std::uint32_t size = settings.replicate_size;
-    const SampleLayout& layout = sampler.layout();
-    const std::uint64_t groups = layout.groups(), all = groups * (samples / size);
-    const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
-    const std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
+std::string why_no_checkup(PathGenerator generator) {
+    if (generator == PathGenerator::pointwise) return "every bounce has a path of its own";
+    if (generator == PathGenerator::photon) return "photons are shared by all pixels, and those of a pass are traced together";
+    if (generator == PathGenerator::cache) return "records are shared by all pixels, and those of a pass are filled together";
+    return "";
+}
 
-    // With `surface` and `classic`, the paths' weights are not the energy that arrives.
-    const bool by_material = settings.generator != PathGenerator::surface && settings.generator != PathGenerator::classic;
-    const int camera_bounces = settings.generator == PathGenerator::light || !by_material ? 0 : bounces_of_camera_paths(settings),
-              light_bounces = splats(settings.generator) ? bounces_of_light_paths(settings) : 0;
+std::string why_no_balance(PathGenerator generator) {
+    if (generator == PathGenerator::surface) return "by points on surfaces, a path's weight is not what arrives";
+    if (generator == PathGenerator::classic) return "by mirrors alone, a path's weight is not what arrives";
+    if (generator == PathGenerator::corrected) return "a walk's weight is only what points that pixels share leave to it";
+    return "";
+}
+
+namespace {
+
+// What was seen of some paths; `camera` and `light` hold an observation of each group.
+struct Inspection {
+    std::uint64_t paths = 0, rays = 0;
+    std::vector<SelfHit> self_hits;
+    std::vector<std::vector<EnergyShares>> camera, light;
+
+    void add(Inspection other) {
+        paths += other.paths;
+        rays += other.rays;
+        const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+        append(self_hits, other.self_hits);
+        append(camera, other.camera);
+        append(light, other.light);
+    }
+};
+
+Inspection inspect(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
+    const SamplingSettings& settings = sampler.settings();
+    const SampleLayout& layout = sampler.layout();
+    const MetropolisSampler* const chains = sampler.metropolis();
+    const std::uint64_t groups = chains ? chains->independent_groups() : layout.groups(),
+                        all = groups * (samples / settings.replicate_size);
+    const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
+    std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
+    if (settings.generator == PathGenerator::corrected) count = std::min(count, most_groups_with_points);
+    const auto group_of = [&](std::uint64_t k) -> Group {
+        const std::uint64_t number = k * all / count;
+        const auto in_replicate = static_cast<std::uint32_t>(number % groups);
+        if (chains) return {number / groups, in_replicate * chains_at_once, chains->independent_paths_of(in_replicate)};
+        const PixelGroup pixels = layout.group(in_replicate);
+        return {number / groups, layout.first_path(pixels.begin), pixels.paths()};
+    };
+
+    const bool has_balance = why_no_balance(settings.generator).empty();
+    const int camera_bounces = has_balance ? bounces_of_camera_paths(settings) : 0,
+              light_bounces = has_balance ? bounces_of_light_paths(settings) : 0;
     std::vector<std::optional<GroupCheckup>> found(count);
     oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t k) {
-        const std::uint64_t group = k * all / count;
-        GroupCheckup& look = found[k].emplace(layout, group / groups, layout.group(static_cast<std::uint32_t>(group % groups)),
-                                              settings.generator != PathGenerator::surface);
+        GroupCheckup& look = found[k].emplace(layout, group_of(k), settings.generator != PathGenerator::surface);
         const auto stream = static_cast<std::uint32_t>(2 * k);
         const std::uint64_t seed = settings.seed ^ checkup_stream;
         if (camera_bounces > 0) look.camera.emplace(scene, false, camera_bounces, settings.walk.split.walks, seed, stream);
         if (light_bounces > 0) look.light.emplace(scene, true, light_bounces, 1, seed, stream + 1);
-        (void)sampler.retrace(look.replicate, look.first, look);
+        if (chains)
+            chains->retrace_independent(look.replicate, look.first / chains_at_once, look);
+        else
+            (void)sampler.retrace(look.replicate, look.first, look);
         for (auto* sheet : {&look.camera, &look.light})
             if (*sheet) (*sheet)->finish(look.paths);
     });
 
-    Checkup result;
-    std::vector<std::vector<EnergyShares>> camera, light;
+    Inspection result;
     for (auto& look : found) {
-        result.paths += look->paths;
-        result.rays += look->rays;
-        result.self_hits += look->self_hits.size();
-        result.first_self_hits.insert(result.first_self_hits.end(), look->self_hits.begin(), look->self_hits.end());
-        if (look->camera) camera.push_back(look->camera->shares());
-        if (look->light) light.push_back(look->light->shares());
+        Inspection of_group{look->paths, look->rays, std::move(look->self_hits), {}, {}};
+        if (look->camera) of_group.camera.push_back(look->camera->shares());
+        if (look->light) of_group.light.push_back(look->light->shares());
+        result.add(std::move(of_group));
     }
+    return result;
+}
+
+// Of the bounces that all have.
+std::optional<EnergyBalance> balance_of(std::vector<std::vector<EnergyShares>> observations) {
+    if (observations.empty()) return std::nullopt;
+    const std::size_t length = std::ranges::min(observations, {}, &std::vector<EnergyShares>::size).size();
+    for (auto& of_bounces : observations) of_bounces.resize(length);
+    return balance(observations);
+}
+
+}  // namespace
+
+std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
+    if (!why_no_checkup(sampler.settings().generator).empty()) return std::nullopt;
+    Inspection all;
+    if (const MixedSampler* const mixed = sampler.mixed()) {
+        for (std::uint64_t part = 0; part < mixed->parts(); ++part) {
+            Inspection of_part = inspect(scene, mixed->part_of({0, part}).sampler, samples);
+            for (SelfHit& hit : of_part.self_hits) hit.name.sample = hit.name.sample * mixed->parts() + part;
+            all.add(std::move(of_part));
+        }
+    } else {
+        all = inspect(scene, sampler, samples);
+    }
+
+    Checkup result{all.paths,
+                   all.rays,
+                   all.self_hits.size(),
+                   std::move(all.self_hits),
+                   balance_of(std::move(all.camera)),
+                   balance_of(std::move(all.light))};
     std::sort(result.first_self_hits.begin(), result.first_self_hits.end());
     if (result.first_self_hits.size() > self_hits_kept) result.first_self_hits.resize(self_hits_kept);
-    if (!camera.empty()) result.camera = balance(camera);
-    if (!light.empty()) result.light = balance(light);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include "operators/pictures/rendered_series.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace neumann {
@@ -41,6 +42,7 @@ struct Health {
     std::vector<SampleHealth> bounces;  // 0 … N and the rest
     std::vector<NonFiniteSample> first_non_finite;
     std::optional<Checkup> checkup;
+    std::string why_no_checkup, why_no_balance;  // if there is none
 
     std::uint64_t non_finite() const;
     std::uint64_t overflowed() const;

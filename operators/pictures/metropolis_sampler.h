@@ -38,6 +38,11 @@ public:
     // As PictureSampler::retrace(); runs the chains of these names again, and traces all independent paths.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
 
+    // Traces a group of a replicate's independent paths again, which begins with number group · chains_at_once.
+    void retrace_independent(std::uint64_t replicate, std::uint32_t group, PathObserver& observer) const;
+    std::uint32_t independent_groups() const { return independent_.groups(); }
+    std::uint32_t independent_paths_of(std::uint32_t group) const { return independent_.paths_of_group(group); }
+
 private:
     struct Workspace;
     struct CameraWork;

@@ -197,6 +197,13 @@ std::vector<Rgb> MetropolisSampler::retrace(std::uint64_t replicate, std::uint32
     return own;
 }
 
+void MetropolisSampler::retrace_independent(std::uint64_t replicate, std::uint32_t group, PathObserver& observer) const {
+    IndependentPaths::Workspace work;
+    std::vector<std::uint64_t> rays(settings_.quantities());
+    (void)independent_.trace_group(
+        replicate, group, work, [](auto...) {}, rays, WatchedPaths(observer));
+}
+
 std::vector<Rgb> CacheSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     std::vector<std::uint64_t> rays(settings_.pictures());
     std::uint64_t given_up = 0;

@@ -58,12 +58,16 @@ TEST_F(Health, HealthyScenesSayNothing) {
 
 TEST_F(Health, OfOtherMethods) {
     write("scene.xml", plates());
-    for (const char* method : {"light", "bidirectional", "surface", "classic", "pointwise", "guided"}) {
+    for (const char* method :
+         {"light", "bidirectional", "surface", "classic", "pointwise", "guided", "corrected", "metropolis", "photon", "cache"}) {
         render("scene.xml", method, {"--method", method, "-n", "2", "--spp", "4", "--quiet"});
         const nlohmann::json found = health(method);
         EXPECT_EQ(found.at("sick"), false) << method << found.at("complaints");
-        const bool from_camera = std::string(method) == "bidirectional" || std::string(method) == "guided",
-                   from_lights = std::string(method) == "bidirectional" || std::string(method) == "light";
+        const std::string m = method;
+        const bool from_both = m == "bidirectional" || m == "metropolis", from_camera = from_both || m == "guided",
+                   from_lights = from_both || m == "light", has_none = m == "pointwise" || m == "photon" || m == "cache";
+        EXPECT_EQ(found.contains("checkup"), has_none) << method;
+        EXPECT_EQ(found.contains("self_hits"), !has_none) << method;
         const nlohmann::json balance = found.value("energy_balance", nlohmann::json());
         EXPECT_EQ(balance.contains("from_the_camera"), from_camera) << method;
         EXPECT_EQ(balance.contains("from_the_lights"), from_lights) << method;

@@ -3,6 +3,7 @@
 #include "operators/pictures/checkup.h"
 #include "operators/pictures/watched_paths.h"
 #include "operators/walk/walk.h"
+#include "tests/physics/picture_blocks.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 
@@ -92,7 +93,7 @@ TEST(EnergyBalance, OfAFurnaceIsKnown) {
     }
 }
 
-// All materials and lights of the room, from both ends and with every method: nothing is sick. 5 rooms × 4 methods of 10⁻⁴ each.
+// All materials and lights of the room, from both ends and with every method: nothing is sick. 5 rooms × 5 methods of 10⁻⁴ each.
 TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
     const char* const rooms[][3] = {{"area", "pinhole", "rough"},
                                     {"points", "lens", "rough"},
@@ -103,8 +104,8 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
         const auto file = [](const char* name) { return std::string(name) + ".xml"; };
         const Scene scene = read_scene(TEST_DATA "/generators/room.xml",
                                        {{"light", file(light)}, {"camera", file(camera)}, {"things", file(things)}});
-        for (const PathGenerator method :
-             {PathGenerator::walk, PathGenerator::light, PathGenerator::bidirectional, PathGenerator::surface}) {
+        for (const PathGenerator method : {PathGenerator::walk, PathGenerator::light, PathGenerator::bidirectional,
+                                           PathGenerator::metropolis, PathGenerator::surface}) {
             SamplingSettings settings{.generator = method,
                                       .walk = {.bounces = bounces, .rest_probability = 0.0},
                                       .seed = physics::fixed_seed,
@@ -113,8 +114,9 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
             SCOPED_TRACE(std::string(light) + " " + things + " " + std::to_string(static_cast<int>(method)));
             EXPECT_EQ(found.self_hits, 0u);
             EXPECT_GT(found.paths, 1000u);
-            EXPECT_EQ(found.camera.has_value(), method == PathGenerator::walk || method == PathGenerator::bidirectional);
-            EXPECT_EQ(found.light.has_value(), splats(method));
+            const bool from_both = method == PathGenerator::bidirectional || method == PathGenerator::metropolis;
+            EXPECT_EQ(found.camera.has_value(), method == PathGenerator::walk || from_both);
+            EXPECT_EQ(found.light.has_value(), method == PathGenerator::light || from_both);
             for (const auto* half : {&found.camera, &found.light}) {
                 if (!*half) continue;
                 for (std::size_t bounce = 1; bounce <= (*half)->bounces.size(); ++bounce) {
@@ -126,6 +128,38 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
             }
         }
     }
+}
+
+// Each method of a mixture is checked as it is by itself, with its share of the samples. 10⁻⁴ false alarms for the balance.
+TEST(EnergyBalance, OfAMixtureIsThatOfItsMethods) {
+    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "32"}});
+    const SamplingSettings settings = physics::settings_of(scene, method::Mixed{}, bounces, physics::fixed_seed);
+    const PictureSampler sampler(scene, settings);
+    const Checkup found = *check_up(scene, sampler, 64);
+    std::uint64_t paths = 0, rays = 0;
+    for (std::uint64_t part = 0; part < sampler.mixed()->parts(); ++part) {
+        const Checkup own = *check_up(scene, sampler.mixed()->part_of({0, part}).sampler, 64);
+        EXPECT_GT(own.rays, 1000u);
+        paths += own.paths;
+        rays += own.rays;
+    }
+    EXPECT_GT(sampler.mixed()->parts(), 1u);
+    EXPECT_EQ(found.paths, paths);
+    EXPECT_EQ(found.rays, rays);
+    EXPECT_EQ(found.self_hits, 0u);
+    ASSERT_TRUE(found.camera);
+    EXPECT_FALSE(found.camera->is_sick());
+}
+
+// Its walks are split, and points of several pixels carry a part of the light: there is no balance, but all rays are inspected.
+TEST(SelfHits, OfCorrectedFieldsAreLookedFor) {
+    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "32"}});
+    const SamplingSettings settings = physics::settings_of(scene, method::Corrected{{}, 60, 16}, bounces, physics::fixed_seed);
+    const Checkup found = *check_up(scene, PictureSampler(scene, settings), 64);
+    EXPECT_GT(found.rays, 4 * found.paths) << "four directions of each path";
+    EXPECT_EQ(found.self_hits, 0u);
+    EXPECT_FALSE(found.camera || found.light);
+    EXPECT_NE(why_no_balance(settings.generator), "");
 }
 
 // What is close is told apart in double, and no gap that doubles hold is a self-hit.
