@@ -42,9 +42,9 @@ Approximation::Approximation(const Scene& scene, const ApproximationSettings& se
                                               .seed = settings.seed ^ field_stream,
                                               .rest = true},
                                              watch);
-    fields_.emplace(scene, sides, series.fine, settings.seed);
+    fields_.emplace(scene, sides, series.fine, settings.seed, watch);
     tables_.emplace(series.fine,
-                    TableSettings{CellDistribution::cells, share_of_cosine, settings.bounces, settings.seed ^ field_stream});
+                    TableSettings{CellDistribution::cells, share_of_cosine, settings.bounces, settings.seed ^ field_stream}, watch);
     rays_ = series.rays + fields_->rays() + tables_->rays();
     find_density(sides, series.fine);
     if (!facets_.empty()) return;

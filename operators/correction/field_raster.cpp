@@ -21,7 +21,8 @@ constexpr std::uint32_t light_samples = 16;
 
 }  // namespace
 
-FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed)
+FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed,
+                         const Watch& watch)
     : space_(&fields.space()), stride_(fields.stride() - 3) {
     const Patches& patches = space_->patches();
     std::vector<double> patches_of(patches.charts().size());
@@ -42,7 +43,7 @@ FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const Fi
     values_.resize(nodes * stride_);
     fine_.resize(fine_nodes * 3);
     fill(fields);
-    fill_direct(scene, seed);
+    fill_direct(scene, seed, watch);
 }
 
 FieldRaster::Grid FieldRaster::make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const {
@@ -123,7 +124,7 @@ NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& ligh
 
 }  // namespace
 
-void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed) {
+void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed, const Watch& watch) {
     if (scene.emitters.empty()) return;
     const LightSampler lights(scene.geometry, scene.emitters, LightChoice::mixed, LightPlace::near_projected);
     const SobolPoints points(light_samples);
@@ -138,6 +139,7 @@ void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed) {
                 for (std::uint32_t row = 0; row < fine_grids_[chart].rows; ++row) rows.push_back({chart, row, front});
     std::atomic<std::uint64_t> rays = 0;
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, rows.size()), [&](const auto& range) {
+        if (watch.stop()) return;
         std::uint64_t cast = 0;
         for (std::size_t r = range.begin(); r < range.end(); ++r) {
             const auto [chart, row, front] = rows[r];
@@ -156,6 +158,7 @@ void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed) {
         }
         rays += cast;
     });
+    if (watch.stop()) throw Stopped();
     rays_ = rays;
 }
 

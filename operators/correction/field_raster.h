@@ -4,6 +4,7 @@
 
 #include "operators/correction/diffuse_sides.h"
 #include "operators/matrix/field_stack.h"
+#include "operators/watch.h"
 
 #include <array>
 #include <cstdint>
@@ -14,7 +15,9 @@ namespace neumann {
 class FieldRaster {
 public:
     // `fields` has the bounces 0 … N and the rest. Keeps references to the scene and to the space of `fields`.
-    FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed);
+    // Throws Stopped if `watch` stops it.
+    FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed,
+                const Watch& watch = {});
 
     // The number of fields, f_1 … f_N and Σ_{k>N} f_k.
     std::size_t size() const { return stride_ / 3; }
@@ -65,7 +68,7 @@ private:
     // A point of the raster, a little inside of the chart.
     SurfacePoint node(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t row) const;
     void fill(const FieldStack& fields);
-    void fill_direct(const Scene& scene, std::uint64_t seed);
+    void fill_direct(const Scene& scene, std::uint64_t seed, const Watch& watch);
 
     const PatchSpace* space_;
     std::size_t stride_;

@@ -85,7 +85,7 @@ NEUMANN_HOT void look_around(const PatchSpace& space, const SobolPoints& sobol, 
 
 }  // namespace
 
-DirectionTables::DirectionTables(const FieldStack& fields, const TableSettings& settings)
+DirectionTables::DirectionTables(const FieldStack& fields, const TableSettings& settings, const Watch& watch)
     : space_(&fields.space()), raster_(*space_) {
     const int n = terms(settings.bounces);
     tables_of_facet_ = static_cast<std::size_t>(std::min(n, most_tables));
@@ -94,9 +94,11 @@ DirectionTables::DirectionTables(const FieldStack& fields, const TableSettings& 
     const Attraction attraction(fields, n, tables_of_facet_);
     const SobolPoints sobol(settings.rays);
     oneapi::tbb::parallel_for(std::uint32_t{0}, facets, [&](std::uint32_t facet) {
+        if (watch.stop()) return;
         look_around(*space_, sobol, settings.seed ^ table_stream, facet, attraction, settings.share_of_material,
                     std::span(tables_).subspan(facet * tables_of_facet_, tables_of_facet_));
     });
+    if (watch.stop()) throw Stopped();
     rays_ = std::uint64_t{settings.rays} * facets;
 }
 

@@ -30,13 +30,15 @@ PatchSpace make_guide_space(const Scene& scene, const GuideSettings& settings) {
 
 }  // namespace
 
-Guide::Guide(const Scene& scene, const GuideSettings& settings) : settings_(settings), space_(make_guide_space(scene, settings)) {
+Guide::Guide(const Scene& scene, const GuideSettings& settings, const Watch& watch)
+    : settings_(settings), space_(make_guide_space(scene, settings)) {
     const TracedSeries series = trace_series(scene, space_, space_.coarser(),
                                              {.bounces = DirectionTables::terms(settings.bounces),
                                               .rays = settings.field_rays,
                                               .seed = settings.seed ^ guide_stream,
-                                              .rest = false});
-    tables_.emplace(series.fine, TableSettings{settings.rays, settings.share_of_material, settings.bounces, settings.seed});
+                                              .rest = false},
+                                             watch);
+    tables_.emplace(series.fine, TableSettings{settings.rays, settings.share_of_material, settings.bounces, settings.seed}, watch);
     rays_ = series.rays + tables_->rays();
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/memory.h"
 #include "core/scene/scene.h"
 #include "operators/guide/direction_tables.h"
+#include "operators/watch.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,8 +23,9 @@ struct GuideSettings {
 
 class Guide {
 public:
-    // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in memory.
-    Guide(const Scene& scene, const GuideSettings& settings);
+    // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in memory, and
+    // Stopped if `watch` stops it.
+    Guide(const Scene& scene, const GuideSettings& settings, const Watch& watch = {});
     Guide(const Guide&) = delete;
 
     const DirectionTables& tables() const { return *tables_; }

@@ -6,6 +6,8 @@
 #include "operators/methods/method_plan.h"
 #include "operators/methods/render_job.h"
 
+#include <fmt/format.h>
+
 namespace neumann {
 
 namespace {
@@ -44,6 +46,13 @@ BounceSeries render_chosen(const Scene& scene, const Method& method, Goal goal, 
     if (const auto* open = std::get_if<method::Auto>(&method)) {
         choice = choose_method(*open, scene, goal, watch);
         goal.spent = choice->seconds;
+        try {
+            return render(scene, choice->method, goal, watch, pilot, saving, choice);
+        } catch (const Stopped&) {
+            // What can still be sampled is walks, as where the pilot itself was interrupted.
+            choice->why = fmt::format("the render was interrupted while --method {} was made ready", name_of(choice->method));
+            choice->method = method::Walk{*open};
+        }
     }
     return render(scene, choice ? choice->method : method, goal, watch, pilot, saving, choice);
 }

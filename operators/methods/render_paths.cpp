@@ -13,12 +13,14 @@
 #include "operators/mixture/mixture.h"
 #include "operators/photons/photon_pilot.h"
 #include "operators/pictures/least_errors.h"
+#include "operators/splitting/tree_numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace neumann {
@@ -28,21 +30,27 @@ namespace {
 // The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
-// Rays of a sample of Metropolis' chains, of k + 1 rays for bounce k = 1 … N, and of half an independent path, beside those of a
-// walk.
-double walks_worth(const Method& method, double bounces) {
-    return std::holds_alternative<method::Metropolis>(method) ? 1.25 + 0.375 * bounces : 1.0;
+// Rays of a sample beside those of a walk. Of Metropolis' chains: k + 1 rays for bounce k = 1 … N, and half an independent path.
+double walks_worth(const Method& method, const SamplingSettings& settings, const RenderJob& job) {
+    if (std::holds_alternative<method::Metropolis>(method)) return 1.25 + 0.375 * settings.walk.bounces;
+    if (!settings.tree) return 1.0;
+    const std::span<const double> rays = job.pilot().rays();
+    return walks_of_tree(settings.tree->of_depths,
+                         rays.first(std::min(rays.size(), static_cast<std::size_t>(settings.walk.bounces) + 1)));
 }
 
-// Samples per pixel in one replicate: as many as still give several replicates. `walks_worth`: what a sample costs, in walks.
-std::uint32_t choose_replicate_size(const SamplingGoal& goal, const RenderJob& job, const Split& split, double walks_worth) {
+// Samples per pixel in one replicate: as many as still give several replicates.
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Method& method, const SamplingSettings& settings,
+                                    const RenderJob& job) {
     if (job.saving.from) return job.saving.from->render.replicate_size;
     if (job.goal.replicates) return share_of_replicate(job.goal);
     if (goal.samples) return replicate_size(*goal.samples);
     if (!goal.seconds) return largest_replicate;
     const Film& film = job.scene.film;
+    const Split& split = settings.walk.split;
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
-                 seconds = job.pilot().seconds_per_walk() * std::max(split.lights, split.walks) * walks_worth,
+                 seconds =
+                     job.pilot().seconds_per_walk() * std::max(split.lights, split.walks) * walks_worth(method, settings, job),
                  affordable = *goal.seconds / (pixels * seconds);
     return std::bit_floor(
         static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
@@ -167,8 +175,13 @@ Method as_it_ran(Method method, const SamplingSettings& settings, const Film& fi
 }
 
 bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settings) {
-    return set_up(method, job.scene, settings.walk.bounces, job.goal.seed, job.goal.memory.value_or(default_memory()), settings,
-                  job.watch);
+    try {
+        return set_up(method, job.scene, settings.walk.bounces, job.goal.seed, job.goal.memory.value_or(default_memory()), settings,
+                      job.watch);
+    } catch (const Stopped&) {
+        throw Stopped(fmt::format("interrupted while --method {} was made ready, before the first sample: no picture was written",
+                                  name_of(method)));
+    }
 }
 
 // A series of paths, and the moments that its pictures refer to.
@@ -283,12 +296,19 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
         if (!job.goal.tail || job.goal.bounces || watch.stop() || verdict != RestVerdict::measured ||
             report.tail_fraction() <= tail)
             return {std::move(series), std::move(report)};
-        settings.walk.bounces += std::max(1, N / 4);
+        SamplingSettings with_more = settings;
+        with_more.walk.bounces += std::max(1, N / 4);
         watch.tell(fmt::format("The rest is {:.3g} of the sum, more than {}: once more with {} bounces", report.tail_fraction(),
-                               tail, settings.walk.bounces));
-        watch.chosen(settings.walk.bounces);
+                               tail, with_more.walk.bounces));
+        watch.chosen(with_more.walk.bounces);
         const Stopwatch clock;
-        if (set_up(method, job, settings)) setup_seconds += clock.seconds();
+        try {
+            if (set_up(method, job, with_more)) setup_seconds += clock.seconds();
+        } catch (const Stopped&) {
+            series.outcome = Outcome::interrupted;
+            return {std::move(series), std::move(report)};
+        }
+        settings = std::move(with_more);
     }
 }
 
@@ -307,7 +327,7 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     if (set_up(method, job, settings)) setup_seconds += clock.seconds();
     // The set-up counts towards the time limit.
     if (setup_seconds > 0.0 && to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
-    settings.replicate_size = choose_replicate_size(to_reach, job, settings.walk.split, walks_worth(method, settings.walk.bounces));
+    settings.replicate_size = choose_replicate_size(to_reach, method, settings, job);
     if (!job.saving.from) expect_room(method, scene.film, settings.replicate_size);
     if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;

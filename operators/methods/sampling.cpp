@@ -100,7 +100,7 @@ std::shared_ptr<const Approximation> approximation(const method::Corrected& corr
 }
 
 std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scene& scene, int bounces, std::uint64_t seed,
-                                        double memory) {
+                                        double memory, const Watch& watch) {
     GuideSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
     if (guided.patches) settings.patches = *guided.patches;
     if (guided.directions) {
@@ -109,7 +109,7 @@ std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scen
             throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
                                          CellDistribution::cells));
     }
-    return std::make_shared<const Guide>(scene, settings);
+    return std::make_shared<const Guide>(scene, settings, watch);
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t
             const Watch& watch) {
     settings.walk.bounces = bounces;
     if (const auto* guided = std::get_if<method::Guided>(&method))
-        settings.guide = make_guide(*guided, scene, bounces, seed, memory);
+        settings.guide = make_guide(*guided, scene, bounces, seed, memory, watch);
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
         settings.approximation = approximation(*corrected, scene, bounces, seed, memory, watch);
     else if (const auto* photon = std::get_if<method::Photon>(&method))

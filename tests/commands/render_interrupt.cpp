@@ -96,6 +96,31 @@ TEST_F(RenderInterrupt, FieldsHaveNoPicturesBeforeTheyAreFinished) {
     EXPECT_EQ(names("a"), Names{"render.unfinished"});
 }
 
+// What a method needs before its first sample: nothing is written, and it is said; a method that was chosen falls back to walks.
+TEST_F(RenderInterrupt, WhileAMethodIsMadeReady) {
+    const std::map<std::string, std::vector<std::string>> all{{"guided", {"--patches", "60000", "--directions", "4096"}},
+                                                              {"corrected", {"--patches", "60000", "--directions", "4096"}}};
+    for (const auto& [method, options] : all) {
+        std::vector<std::string> arguments{"render", "scene.xml", "-o", "a", "-n",       "6",
+                                           "--spp",  "64",        "-t", "1", "--method", method};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        RunningCommand command = start(arguments);
+        wait_for_folder();
+        std::this_thread::sleep_for(milliseconds(1500));
+        const auto asked = std::chrono::steady_clock::now();
+        command.signal(SIGINT);
+        const Finished done = command.wait();
+        EXPECT_LT(std::chrono::steady_clock::now() - asked, milliseconds(2000)) << method;
+        EXPECT_EQ(done.exit_code, 1) << method << done.out;
+        EXPECT_EQ(done.err,
+                  fmt::format("neumann: interrupted while --method {} was made ready, before the first sample: no picture "
+                              "was written\n",
+                              method));
+        EXPECT_EQ(names("a"), Names{}) << method;
+        std::filesystem::remove_all(path("a"));
+    }
+}
+
 // Before and while the program begins: the signal ends it as any program, or as above.
 TEST_F(RenderInterrupt, WithinTheFirstMoments) {
     for (const int number : {SIGINT, SIGTERM})
