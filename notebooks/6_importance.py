@@ -339,8 +339,8 @@ assert forward_radius < backward_radius < 1 and abs(found.channels[1].inverse_se
 #
 # **Q6.** What would $C^1$ take for direct light if one sheet were a mirror, or if light reached the camera by way of a wall that it does
 # not see? (A6: a region in a mirror is bright under another region's block, and $T$ is no longer of the form above: `found.doubts` says
-# so. What is not seen is in no region: light that goes by way of it counts as one bounce where the forward series counts two. Try
-# `corner.xml` with `left="mirror"`, and the Cornell box.)
+# so. What is not seen is in no region: light that goes by way of it counts as one bounce where the forward series counts two. Of a scene
+# `found.bounces[1].by_way_of_unseen` tells how much that is. Try `corner.xml` with `left="mirror"`, with `fov=15`, and the Cornell box.)
 #
 # ## Exercises
 # 1. Put the camera's importance on *one pixel* (a row of `patches.camera()`), and show $K^{*i} W_e$ as pictures. Where would you

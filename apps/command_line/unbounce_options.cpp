@@ -24,7 +24,7 @@ CLI::App* add_unbounce(CLI::App& app, UnbounceRequest& request) {
                      "Of a scene, the width of the pictures in pixels; default that of its film, at most 64")
         ->check(whole_from(1, 65536))
         ->type_name("PIXELS");
-    command->add_option("--spp", request.samples, "Of a scene, samples a pixel and a light")
+    command->add_option("--spp", request.samples, "Of a scene, samples a pixel, for all lights together")
         ->check(whole_from(1, std::uint64_t{1} << 32))
         ->type_name("N")
         ->capture_default_str();

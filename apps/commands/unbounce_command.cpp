@@ -89,14 +89,15 @@ void render_input(const UnbounceRequest& request, const Watch& watch, ProgressLi
     const int width = request.width > 0 ? request.width : std::max(std::min(scene.film.width, default_width), blocks.first);
     const ProjectorLights projector(scene, width, blocks.first, blocks.second);
     expect_pictures();  // before anything is sampled
-    input.renders = render_lights(projector, {request.bounces, request.samples, request.seed}, watch, [&](std::size_t done) {
-        line.show([&] { return fmt::format("{} of {} lights are rendered", done, projector.lights()); });
+    input.renders = render_lights(projector, {request.bounces, request.samples, request.seed}, watch, [&](double done) {
+        line.show([&] { return fmt::format("{:.0f}% of the samples under {} lights", 100.0 * done, projector.lights()); });
     });
     LightRenders& renders = *input.renders;
     for (std::size_t j = 0; j < projector.lights(); ++j) input.pictures.names.push_back(fmt::format("light_{:03}.exr", j));
     input.pictures.picture = [&renders](std::size_t j) { return renders.pictures[j]; };
-    input.pictures.direct = [&renders](std::size_t j) { return renders.direct[j]; };
-    input.regions = block_regions(projector.width(), projector.height(), blocks.first, blocks.second);
+    input.pictures.direct = [&renders](std::size_t j) { return renders.direct_of(j); };
+    input.pictures.parts = &renders.parts;
+    input.regions = renders.parts.regions;
     input.forward = renders.forward;
     input.blocks = blocks;
     input.json = {{"scene", scene_json(scene, request.input, definitions)},
@@ -129,6 +130,8 @@ void print(const Unbounced& found, const std::vector<TermAgreement>& forward, co
     }
     fmt::print("\n{:>6}{:>26}{:>16}", "bounce", "backward, C^i L", "discretisation");
     if (!forward.empty()) fmt::print("{:>26}{:>12}{:>11}{:>20}", "forward, K^i Le", "difference", "in errors", "regions, by noise");
+    const bool knows_unseen = !forward.empty() && forward.front().by_way_of_unseen;
+    if (knows_unseen) fmt::print("{:>18}", "by way of unseen");
     fmt::print("\n");
     for (std::size_t n = 0; n < found.terms.size(); ++n) {
         fmt::print("{:>6}{:>26}{:>16}", n + 1, with_error(found.means[n].all, found.knows_errors),
@@ -138,6 +141,7 @@ void print(const Unbounced& found, const std::vector<TermAgreement>& forward, co
             fmt::print("{:>26}{:>11.2f}%{:>11.2f}{:>20}", with_error(term.forward, term.forward.standard_error > 0.0),
                        100.0 * term.difference.mean / term.forward.mean, term.deviations(),
                        fmt::format("{:.2f}%, {:.2f}%", 100.0 * term.relative_difference, 100.0 * term.by_noise));
+            if (knows_unseen) fmt::print("{:>17.2f}%", 100.0 * term.by_way_of_unseen->mean / term.forward.mean);
         }
         fmt::print("\n");
     }
@@ -186,7 +190,8 @@ int unbounce_command(const UnbounceRequest& request) {
     }
     line.show([] { return std::string("going backwards"); });
     const Unbounced found = unbounce(input.pictures, input.regions, picture ? &*picture : nullptr, settings, watch);
-    const std::vector<TermAgreement> forward = agreement(found, input.forward);
+    const std::vector<TermAgreement> forward =
+        agreement(found, input.forward, input.renders ? input.renders->by_way_of_unseen : std::vector<MeanWithError>());
     const std::vector<Doubt> doubts = doubts_about(found, input.pictures.names, forward);
     line.clear();
 

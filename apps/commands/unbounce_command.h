@@ -14,7 +14,7 @@ struct UnbounceRequest {
     std::optional<std::string> lights;  // "8x8"
     int width = 0;                      // of rendered pictures; 0: of the scene's film, at most 64
     int bounces = 6;
-    std::uint64_t samples = 64;  // of rendered pictures, a pixel and a light
+    std::uint64_t samples = 256;  // of rendered pictures, a pixel, for all lights together
     std::optional<double> regularisation;
     bool direct = false;
     std::string picture, regions;          // files, or empty

@@ -119,16 +119,16 @@ Regions read_regions(const std::string& path) {
 }
 
 void write_light_renders(OutputFolder& folder, const LightRenders& renders) {
-    const auto write = [&](const char* name, const char* quantity, const std::vector<Estimate>& pictures, std::size_t first) {
-        for (std::size_t i = 0; i < pictures.size(); ++i) {
-            Attributes attributes = attributes_of(quantity, first + i);
-            attributes["neumann:degrees_of_freedom"] = pictures[i].degrees_of_freedom;
-            folder.write(numbered(name, first + i), encode_exr(pictures[i], attributes));
-        }
+    const auto write = [&](const char* name, const char* quantity, const Estimate& picture, std::size_t number) {
+        Attributes attributes = attributes_of(quantity, number);
+        attributes["neumann:degrees_of_freedom"] = picture.degrees_of_freedom;
+        folder.write(numbered(name, number), encode_exr(picture, attributes));
     };
-    write("light", "L of one light", renders.pictures, 0);
-    write("direct", "K Le of one light", renders.direct, 0);
-    write("forward", "K^i Le of all lights", renders.forward, 1);
+    for (std::size_t j = 0; j < renders.pictures.size(); ++j) {
+        write("light", "L of one light", renders.pictures[j], j);
+        write("direct", "K Le of one light", renders.direct_of(j), j);
+    }
+    for (std::size_t i = 0; i < renders.forward.size(); ++i) write("forward", "K^i Le of all lights", renders.forward[i], i + 1);
 }
 
 void write_unbounced(OutputFolder& folder, const Unbounced& found, const std::vector<Estimate>& forward) {
@@ -165,6 +165,7 @@ Json unbounce_json(const Unbounced& found, const std::vector<std::string>& names
             bounce["forward"] = mean_and_stderr(term.forward);
             bounce["difference"] = mean_and_stderr(term.difference);
             bounce["difference"]["in_errors"] = json_number(term.deviations());
+            if (term.by_way_of_unseen) bounce["by_way_of_unseen"] = mean_and_stderr(*term.by_way_of_unseen);
             bounce["regions"] = {{"relative_difference", json_number(term.relative_difference)},
                                  {"by_noise", json_number(term.by_noise)}};
         }

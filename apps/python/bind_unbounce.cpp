@@ -59,12 +59,14 @@ struct Task {
     Regions regions;
     UnbounceSettings settings;
     std::vector<std::string> names;
+    std::shared_ptr<const LightRenders> besides;  // of rendered pictures, what is known of them besides
 
     LightPictures lights() const {
         LightPictures result;
         result.names = names;
         result.picture = [this](std::size_t j) { return pictures.at(j); };
         if (!direct.empty()) result.direct = [this](std::size_t j) { return direct.at(j); };
+        if (besides) result.parts = &besides->parts;
         return result;
     }
 };
@@ -86,8 +88,9 @@ std::unique_ptr<Job> unbounce_arrays(const py::object& pictures, const py::objec
                                      const py::object& direct_errors, const py::object& forward, const py::object& forward_errors,
                                      const py::object& picture, const py::object& regions,
                                      std::optional<std::pair<int, int>> blocks, int bounces, std::optional<double> regularisation,
-                                     bool with_direct, std::uint64_t seed) {
+                                     bool with_direct, std::uint64_t seed, std::shared_ptr<LightRenders> besides) {
     const auto task = std::make_shared<Task>();
+    task->besides = std::move(besides);
     task->pictures = estimates(pictures, errors);
     task->direct = estimates(direct, direct_errors);
     task->forward = estimates(forward, forward_errors);
@@ -130,7 +133,8 @@ std::unique_ptr<Job> unbounce_arrays(const py::object& pictures, const py::objec
         if (task->regions.of_pixel.empty()) task->regions = brightest_regions(lights);
         const auto found = std::make_shared<const Unbounced>(
             unbounce(lights, task->regions, task->picture ? &*task->picture : nullptr, task->settings, watch));
-        const auto terms = agreement(*found, task->picture ? std::vector<Estimate>() : task->forward);
+        const auto terms = agreement(*found, task->picture ? std::vector<Estimate>() : task->forward,
+                                     task->besides ? task->besides->by_way_of_unseen : std::vector<MeanWithError>());
         const std::string json = unbounce_json(*found, task->names, terms, doubts_about(*found, task->names, terms)).dump();
         return [found, json]() -> py::object { return as_tuple(*found, json); };
     });
@@ -145,17 +149,21 @@ std::unique_ptr<Job> under_lights(const std::shared_ptr<LoadedScene>& loaded, in
         threads, [loaded, projector, sampling = LightSampling{bounces, samples, seed}](Job& job) -> Job::Finish {
             Watch watch;
             watch.stop = interrupted;
-            const auto made = std::make_shared<const LightRenders>(render_lights(projector, sampling, watch, [&](std::size_t done) {
-                job.tell(fmt::format("{} of {} lights are rendered", done, projector.lights()),
-                         static_cast<double>(done) / static_cast<double>(projector.lights() + 1));
+            const auto made = std::make_shared<const LightRenders>(render_lights(projector, sampling, watch, [&](double done) {
+                job.tell(fmt::format("under {} lights", projector.lights()), 0.5 * done);
             }));
             return [made]() -> py::object {
+                std::vector<Estimate> direct;
+                for (std::size_t j = 0; j < made->pictures.size(); ++j) direct.push_back(made->direct_of(j));
+                const auto besides = std::make_shared<LightRenders>();  // arrays have the pictures
+                besides->parts = made->parts;
+                besides->by_way_of_unseen = made->by_way_of_unseen;
                 py::list warnings;
                 for (const auto& [text, count] : made->warnings.counts()) warnings.append(text);
                 return py::make_tuple(as_stack(made->pictures, &Estimate::mean),
-                                      as_stack(made->pictures, &Estimate::standard_error), as_stack(made->direct, &Estimate::mean),
-                                      as_stack(made->direct, &Estimate::standard_error), as_stack(made->forward, &Estimate::mean),
-                                      as_stack(made->forward, &Estimate::standard_error), warnings);
+                                      as_stack(made->pictures, &Estimate::standard_error), as_stack(direct, &Estimate::mean),
+                                      as_stack(direct, &Estimate::standard_error), as_stack(made->forward, &Estimate::mean),
+                                      as_stack(made->forward, &Estimate::standard_error), warnings, besides);
             };
         });
 }
@@ -163,9 +171,10 @@ std::unique_ptr<Job> under_lights(const std::shared_ptr<LoadedScene>& loaded, in
 }  // namespace
 
 void bind_unbounce(py::module_& m) {
+    py::class_<LightRenders, std::shared_ptr<LightRenders>>(m, "LightRenders");
     m.def("unbounce", &unbounce_arrays, py::arg("pictures"), py::arg("errors"), py::arg("direct"), py::arg("direct_errors"),
           py::arg("forward"), py::arg("forward_errors"), py::arg("picture"), py::arg("regions"), py::arg("blocks"),
-          py::arg("bounces"), py::arg("regularisation"), py::arg("with_direct"), py::arg("seed"));
+          py::arg("bounces"), py::arg("regularisation"), py::arg("with_direct"), py::arg("seed"), py::arg("besides"));
     m.def("under_lights", &under_lights, py::arg("scene"), py::arg("columns"), py::arg("rows"), py::arg("width"),
           py::arg("bounces"), py::arg("samples"), py::arg("seed"), py::arg("threads"));
 }

@@ -39,7 +39,8 @@ double TermAgreement::deviations() const {
     return error > 0.0 ? difference.mean / error : difference.mean == 0.0 ? 0.0 : std::copysign(INFINITY, difference.mean);
 }
 
-std::vector<TermAgreement> agreement(const Unbounced& backward, const std::vector<Estimate>& forward) {
+std::vector<TermAgreement> agreement(const Unbounced& backward, const std::vector<Estimate>& forward,
+                                     const std::vector<MeanWithError>& by_way_of_unseen) {
     std::vector<TermAgreement> result;
     const std::size_t count = std::min(forward.size(), backward.terms.size());
     for (std::size_t n = 0; n < count; ++n) {
@@ -54,6 +55,7 @@ std::vector<TermAgreement> agreement(const Unbounced& backward, const std::vecto
         if (term.forward.standard_error == 0.0) term.forward.degrees_of_freedom = exact_degrees_of_freedom;
         term.difference = difference(backward.means[n].all, term.forward);
         if (!backward.discretisation.empty()) term.discretisation = backward.discretisation[n];
+        if (n < by_way_of_unseen.size()) term.by_way_of_unseen = by_way_of_unseen[n];
         add_regions(backward, forward[n], n, term);
         result.push_back(term);
     }

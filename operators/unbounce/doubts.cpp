@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace neumann {
 
@@ -22,14 +23,15 @@ constexpr double least_light = 0.01, least_link = 0.05;
 constexpr double lost_in_noise = 0.5;
 constexpr double least_direct = 0.02, unlit_pixels = 0.01;
 
-double limit_of(double comparisons) { return student_t_quantile(1.0 - false_alarms / comparisons, unbounce_repeats - 1); }
-
 struct Writer {
     const Unbounced& found;
     const std::vector<std::string>& names;
     std::vector<Doubt>& doubts;
 
     void add(Kind kind, std::string words) const { doubts.push_back({kind, std::move(words)}); }
+    double limit_of(double comparisons) const {
+        return student_t_quantile(1.0 - false_alarms / comparisons, found.degrees_of_freedom);
+    }
 
     template <class Each>
     void each_channel(const Each& each) const {
@@ -206,6 +208,30 @@ struct Writer {
                                          100.0 * dark / seen));
     }
 
+    // The bounce that it changes most, as a part of it.
+    void unseen(const std::vector<TermAgreement>& forward) const {
+        double most = least_light;
+        std::optional<std::size_t> worst;
+        for (std::size_t n = 0; n < forward.size(); ++n) {
+            const auto& change = forward[n].by_way_of_unseen;
+            if (!change || !(forward[n].forward.mean > 0.0)) continue;
+            const double error =
+                student_t_quantile(1.0 - false_alarms / static_cast<double>(forward.size()), change->degrees_of_freedom) *
+                change->standard_error;
+            const double part = (std::abs(change->mean) - error) / forward[n].forward.mean;
+            if (!(part > most)) continue;
+            most = part;
+            worst = n;
+        }
+        if (!worst) return;
+        const TermAgreement& term = forward[*worst];
+        add(Kind::unseen,
+            fmt::format(
+                "light comes by way of surfaces that are not seen, and counts as fewer bounces: by that alone, known from the "
+                "scene, bounce {} is {:+.2g}% off the forward term",
+                *worst + 1, 100.0 * term.by_way_of_unseen->mean / term.forward.mean));
+    }
+
     void differs(const std::vector<TermAgreement>& forward) const {
         for (std::size_t n = 0; n < forward.size(); ++n) {
             const double z = forward[n].deviations();
@@ -226,7 +252,7 @@ struct Writer {
 
 const char* name_of(Kind kind) {
     constexpr const char* names[] = {"singular",      "noise",        "negative", "gain",   "idle light",
-                                     "foreign light", "shared light", "unlit",    "differs"};
+                                     "foreign light", "shared light", "unlit",    "unseen", "differs"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -241,6 +267,7 @@ std::vector<Doubt> doubts_about(const Unbounced& found, const std::vector<std::s
     writer.gain();
     writer.shared_light();
     writer.unlit();
+    writer.unseen(forward);
     writer.differs(forward);
     return doubts;
 }

@@ -18,6 +18,7 @@ struct Doubt {
         foreign_light,  // a region is brighter under another light than under its own
         shared_light,   // a light shines directly on the regions of others
         unlit,          // pixels that no light shines on directly
+        unseen,         // light comes by way of surfaces that are not seen
         differs         // from the forward series
     };
     Kind kind;

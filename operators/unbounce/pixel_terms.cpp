@@ -71,7 +71,7 @@ public:
         PixelEstimate result;
         result.mean = terms_[index];
         result.pixels_are_independent = false;
-        result.degrees_of_freedom = unbounce_repeats - 1;
+        result.degrees_of_freedom = found_.degrees_of_freedom;
         const Image black(result.mean.width, result.mean.height);
         if (found_.knows_errors) result.standard_error = black;
         if (!found_.discretisation.empty()) result.discretisation = black;

@@ -1,19 +1,16 @@
 #include "operators/unbounce/projector_lights.h"
 
-#include "core/emitter/projector_light.h"
 #include "core/sampling/counter_based.h"
-#include "operators/unbounce/regions.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace neumann {
 
 namespace {
-
-constexpr int all_lights = -1;
 
 Scene on_film(const Scene& scene, int width, int columns, int rows) {
     const SensorOptions& camera = scene.camera.options();
@@ -33,28 +30,49 @@ Scene on_film(const Scene& scene, int width, int columns, int rows) {
     return scene.with(film);
 }
 
+// In the place of the camera.
+ProjectorLight projector(const Scene& scene, Slide slide) {
+    const SensorOptions& camera = scene.camera.options();
+    const double away = std::max(glm::distance(Vec3(camera.to_world[3]), scene.geometry.center()), scene.geometry.radius());
+    const double half_width = tan_half_width(camera.fov, camera.fov_axis, slide.aspect());
+    return {camera.to_world, std::move(slide), away * away, half_width};
+}
+
 }  // namespace
 
 ProjectorLights::ProjectorLights(const Scene& scene, int width, int columns, int rows)
-    : scene_(on_film(scene, width, columns, rows)), columns_(columns), rows_(rows) {}
+    : scene_(on_film(scene, width, columns, rows)),
+      columns_(columns),
+      rows_(rows),
+      white_(projector(scene_, slide_of([](int) { return 1.0; }))),
+      numbers_(projector(scene_, slide_of([](int light) { return light + 1.0; }))) {}
 
-Scene ProjectorLights::lit_by(std::size_t light) const { return lit(static_cast<int>(light)); }
-Scene ProjectorLights::flooded() const { return lit(all_lights); }
+std::size_t ProjectorLights::light_at(const Vec3& point) const {
+    const Surroundings nothing{};
+    const double number = numbers_.beam(point, nothing).irradiance.r / white_.beam(point, nothing).irradiance.r;
+    return static_cast<std::size_t>(std::lround(number)) - 1;
+}
 
-Scene ProjectorLights::lit(int light) const {
-    const int width = scene_.film.width, height = scene_.film.height;
-    const auto block = [width, height, columns = columns_, rows = rows_, light](const Vec2& uv) {
+Scene ProjectorLights::lit_by(std::size_t light) const {
+    return lit([light](int other) { return static_cast<std::size_t>(other) == light ? 1.0 : 0.0; });
+}
+Scene ProjectorLights::flooded() const {
+    return lit([](int) { return 1.0; });
+}
+
+Scene ProjectorLights::lit(const std::function<double(int light)>& brightness) const {
+    Lights lights;
+    lights.delta.emplace_back(projector(scene_, slide_of(brightness)));
+    return scene_.with(std::move(lights));
+}
+
+Slide ProjectorLights::slide_of(const std::function<double(int light)>& brightness) const {
+    const auto block = [width = width(), height = height(), columns = columns_, rows = rows_, brightness](const Vec2& uv) {
         const int x = std::min(static_cast<int>(uv.x * width), width - 1),
                   y = std::min(static_cast<int>(uv.y * height), height - 1);
-        return Rgb(light == all_lights || block_of_pixel(x, y, width, height, columns, rows) == light ? 1.0 : 0.0);
+        return Rgb(brightness(block_of_pixel(x, y, width, height, columns, rows)));
     };
-    const SensorOptions& camera = scene_.camera.options();
-    const double aspect = static_cast<double>(width) / height;
-    const double away = std::max(glm::distance(Vec3(camera.to_world[3]), scene_.geometry.center()), scene_.geometry.radius());
-    Lights lights;
-    lights.delta.emplace_back(ProjectorLight(camera.to_world, Slide(block, width, height, true), away * away,
-                                             tan_half_width(camera.fov, camera.fov_axis, aspect)));
-    return scene_.with(std::move(lights));
+    return {block, width(), height(), true};
 }
 
 Goal ProjectorLights::goal_of(std::size_t light, std::uint64_t samples, std::uint64_t seed) {

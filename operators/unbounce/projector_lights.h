@@ -2,11 +2,13 @@
 // all that the camera sees and on nothing else, as Seitz, Matsushita and Kutulakos suppose.
 #pragma once
 
+#include "core/emitter/projector_light.h"
 #include "core/scene/scene.h"
-#include "operators/methods/bounce_series.h"
 #include "operators/methods/goal.h"
+#include "operators/unbounce/regions.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace neumann {
 
@@ -23,18 +25,25 @@ public:
     int width() const { return scene_.film.width; }
     int height() const { return scene_.film.height; }
 
+    // Blocks of the pictures: the pixels that each light shines on.
+    Regions regions() const { return block_regions(width(), height(), columns_, rows_); }
+    // The light in whose beam a point is that the projector sees.
+    std::size_t light_at(const Vec3& point) const;
+
     // The scene with block `light` switched on, from the upper left corner row by row; and with all of them.
     Scene lit_by(std::size_t light) const;
     Scene flooded() const;
 
-    // The goal of the picture of a light, of which the bounce 1 and the limit are wanted: with random numbers of its own.
-    static Goal goal_of(std::size_t light, std::uint64_t samples, std::uint64_t seed);
+    // The goal of a render that has random numbers of its own, of which bounce 1 and the limit are wanted.
+    static Goal goal_of(std::size_t number, std::uint64_t samples, std::uint64_t seed);
 
 private:
-    Scene lit(int light) const;  // -1: all
+    Scene lit(const std::function<double(int light)>& brightness) const;
+    Slide slide_of(const std::function<double(int light)>& brightness) const;
 
     Scene scene_;
     int columns_, rows_;
+    ProjectorLight white_, numbers_;  // the second shows each light's number, from 1, where the first shows 1
 };
 
 }  // namespace neumann

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace neumann {
@@ -30,6 +31,17 @@ Regions block_regions(int width, int height, int columns, int rows);
 
 // For each light of columns × rows, its number among blocks of 2×2 of them; those at the edges may be smaller.
 std::vector<int> merged_by_four(int columns, int rows);
+
+// The red, green and blue of regions in each of several independent parts of the samples, as large as each other, where the
+// pictures of all lights are made of the same samples: T is the mean of the parts, and errors go together as they do there.
+struct RegionParts {
+    struct Part {
+        std::array<Eigen::MatrixXd, 3> T;       // regions × lights
+        std::array<Eigen::VectorXd, 3> direct;  // of the regions in their own light
+    };
+    Regions regions;
+    std::vector<Part> parts;
+};
 
 // Means over regions, a column a light. In the variance, errors of pixels are independent, or go together as the picture says.
 struct RegionMeans {

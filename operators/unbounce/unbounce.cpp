@@ -29,6 +29,15 @@ ChannelPictures channel_pictures(const RegionMeans& pictures, const RegionMeans*
     return channel;
 }
 
+// The parts, by regions that may have lost pixels that are black under all lights.
+std::vector<ChannelPictures::Part> parts_of(const RegionParts& all, const VectorXd& sizes, std::size_t c) {
+    const VectorXd scale = all.regions.sizes(static_cast<std::size_t>(sizes.size())).cwiseQuotient(sizes.cwiseMax(1.0));
+    std::vector<ChannelPictures::Part> parts;
+    for (const RegionParts::Part& part : all.parts)
+        parts.push_back({scale.asDiagonal() * part.T[c], scale.cwiseProduct(part.direct[c])});
+    return parts;
+}
+
 // The same for merged lights: sums over lights, and means over what their regions cover.
 MatrixXd merged(const MatrixXd& T, const std::vector<int>& groups, const VectorXd& shares, bool sum_lights) {
     const int count = *std::max_element(groups.begin(), groups.end()) + 1;
@@ -79,8 +88,7 @@ void add_discretisation(Unbounced& result, int c, const ChannelPictures& picture
         result.discretisation[static_cast<std::size_t>(n)] += std::abs(shares.dot(fine.col(n) - coarse.col(n))) / 3.0;
 }
 
-PictureMeans means_of(const std::array<UnbouncedChannel, 3>& channels, const VectorXd& shares, int n) {
-    constexpr double degrees_of_freedom = unbounce_repeats - 1;
+PictureMeans means_of(const std::array<UnbouncedChannel, 3>& channels, const VectorXd& shares, int n, double degrees_of_freedom) {
     PictureMeans means;
     means.all.degrees_of_freedom = degrees_of_freedom;
     for (int c = 0; c < 3; ++c) {
@@ -140,13 +148,18 @@ Unbounced unbounce(const LightPictures& pictures, const Regions& given_regions, 
     std::optional<RegionMeans> given;
     if (picture != nullptr) given = region_means(*picture, regions, pictures.lights());
     result.knows_errors = result.pictures.variance[0].size() > 0;
+    // Of other regions nothing is known.
+    const bool has_parts = result.knows_errors && pictures.parts && pictures.parts->regions.of_pixel == given_regions.of_pixel;
+    const RegionParts* const parts = has_parts ? pictures.parts : nullptr;
+    result.degrees_of_freedom = unbounce_degrees_of_freedom(parts ? parts->parts.size() : 0);
 
     if (!settings.merged.empty()) result.discretisation.assign(static_cast<std::size_t>(settings.bounces), 0.0);
     std::array<MatrixXd, 3> differences;
     for (int c = 0; c < 3; ++c) {
         if (watch.stop()) throw Stopped();
-        const ChannelPictures channel =
+        ChannelPictures channel =
             channel_pictures(result.pictures, settings.with_direct ? &*result.direct : nullptr, given ? &*given : nullptr, c);
+        if (parts) channel.parts = parts_of(*parts, regions.sizes(pictures.lights()), static_cast<std::size_t>(c));
         UnbouncedChannel& found = result.channels[static_cast<std::size_t>(c)];
         found = unbounce_channel(channel, shares, settings.bounces, settings.regularisation, settings.seed);
         if (!found.terms.value.allFinite())
@@ -154,7 +167,8 @@ Unbounced unbounce(const LightPictures& pictures, const Regions& given_regions, 
         if (!settings.merged.empty() && !found.lights.empty())
             add_discretisation(result, c, channel, shares, settings, differences[static_cast<std::size_t>(c)]);
     }
-    for (int n = 0; n < settings.bounces; ++n) result.means.push_back(means_of(result.channels, shares, n));
+    for (int n = 0; n < settings.bounces; ++n)
+        result.means.push_back(means_of(result.channels, shares, n, result.degrees_of_freedom));
     add_pixel_terms(pictures, picture, settings.with_direct, differences, watch, result);
     return result;
 }

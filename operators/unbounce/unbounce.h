@@ -32,6 +32,7 @@ struct UnbounceSettings {
 struct Unbounced {
     Regions regions;
     bool knows_errors = false;
+    double degrees_of_freedom = 0.0;  // of the errors
     std::array<UnbouncedChannel, 3> channels;
     // Cⁿ L, n = 1 … N, in pixels. The error of a pixel is that of its own values, to first order, and of its region's term. Errors
     // of pixels go together; those of means are of repeats. The discretisation is the difference from merged regions.

@@ -26,7 +26,10 @@ ChannelPictures chosen(const ChannelPictures& all, const std::vector<int>& light
     const auto part = [&](const VectorXd& vector) -> VectorXd {
         return vector.size() == 0 ? VectorXd() : VectorXd(vector(lights));
     };
-    return {of(all.T), of(all.T_variance), of(all.direct), of(all.direct_variance), part(all.picture), part(all.picture_variance)};
+    ChannelPictures some{of(all.T),         of(all.T_variance),        of(all.direct), of(all.direct_variance),
+                         part(all.picture), part(all.picture_variance)};
+    for (const auto& [T, direct] : all.parts) some.parts.push_back({of(T), part(direct)});
+    return some;
 }
 
 // Normal deviates of one repeat.
@@ -39,6 +42,18 @@ public:
         MatrixXd result = values;
         for (Eigen::Index i = 0; i < variance.size(); ++i) result.data()[i] += std::sqrt(variance.data()[i]) * next();
         return result;
+    }
+
+    // T and the direct light with errors that have the covariance of the parts' means: with normal ξ,
+    // T + Σ_p ξ_p (T_p − T) / √(P (P − 1)).
+    void disturb(ChannelPictures& pictures) {
+        const auto P = static_cast<double>(pictures.parts.size());
+        const MatrixXd T = pictures.T, direct = pictures.direct;
+        for (const auto& part : pictures.parts) {
+            const double x = next() / std::sqrt(P * (P - 1.0));
+            pictures.T += x * (part.T - T);
+            if (direct.size() > 0) pictures.direct.diagonal() += x * (part.direct - direct.diagonal());
+        }
     }
 
 private:
@@ -102,8 +117,12 @@ void add_errors(const ChannelPictures& pictures, const VectorXd& shares, int bou
     for (int repeat = 0; repeat < unbounce_repeats; ++repeat) {
         Deviates other(seed, static_cast<std::uint32_t>(repeat));
         ChannelPictures noisy = pictures;
-        noisy.T = other(pictures.T, pictures.T_variance);
-        noisy.direct = other(pictures.direct, pictures.direct_variance);
+        if (pictures.parts.empty()) {
+            noisy.T = other(pictures.T, pictures.T_variance);
+            noisy.direct = other(pictures.direct, pictures.direct_variance);
+        } else {
+            other.disturb(noisy);
+        }
         noisy.picture = other(pictures.picture, pictures.picture_variance);
         const Answer found = answer(noisy, result.regularisation, bounces);
         terms.add(found.terms());
@@ -125,6 +144,12 @@ double chosen_regularisation(const ChannelPictures& pictures, const TransportInv
 }
 
 }  // namespace
+
+// Those of a covariance of P parts, and of 64 repeats with it.
+double unbounce_degrees_of_freedom(std::size_t parts) {
+    const double repeats = unbounce_repeats - 1.0;
+    return parts == 0 ? repeats : 1.0 / (1.0 / repeats + 1.0 / (static_cast<double>(parts) - 1.0));
+}
 
 UnbouncedChannel unbounce_channel(const ChannelPictures& all, const VectorXd& all_shares, int bounces,
                                   std::optional<double> regularisation, std::uint64_t seed) {

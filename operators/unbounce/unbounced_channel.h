@@ -15,6 +15,12 @@ struct ChannelPictures {
     Eigen::MatrixXd T, T_variance;
     Eigen::MatrixXd direct, direct_variance;    // empty: T¹ is told by T⁻¹
     Eigen::VectorXd picture, picture_variance;  // the picture to unbounce; empty: that of all lights together
+    // Of independent parts, whose means T and the direct light are, where errors go together. Empty: errors are independent.
+    struct Part {
+        Eigen::MatrixXd T;
+        Eigen::VectorXd direct;
+    };
+    std::vector<Part> parts = {};
 
     bool knows_errors() const { return T_variance.size() > 0; }
 };
@@ -36,11 +42,13 @@ struct UnbouncedChannel {
 };
 
 // `shares`: the part of the picture that each region covers. `regularisation`: α; by default 0, or by the discrepancy principle if
-// a singular matrix lies within the errors. Standard errors are those of 64 repeats with other errors of the pictures, normal and
-// independent, drawn by `seed`.
+// a singular matrix lies within the errors. Standard errors are those of 64 repeats with other errors of the pictures, normal, and
+// independent or as they go together in the parts, drawn by `seed`.
 UnbouncedChannel unbounce_channel(const ChannelPictures& pictures, const Eigen::VectorXd& shares, int bounces,
                                   std::optional<double> regularisation, std::uint64_t seed);
 
 constexpr int unbounce_repeats = 64;
+// Of the errors; `parts`: their number, or 0.
+double unbounce_degrees_of_freedom(std::size_t parts);
 
 }  // namespace neumann

@@ -18,25 +18,24 @@ constexpr int bounces = 4;
 struct Rendered {
     int columns, rows;
     LightRenders renders;
-    Regions regions;
 
     Rendered(const std::string& left, int columns_, int rows_, int width, std::uint64_t samples, std::uint64_t seed)
         : columns(columns_), rows(rows_) {
         const Scene scene = read_scene(SCENES "/../notebooks/corner.xml", {{"left", left}});
         const ProjectorLights projector(scene, width, columns, rows);
-        renders = render_lights(projector, {bounces, samples, seed}, {}, [](std::size_t) {});
-        regions = block_regions(projector.width(), projector.height(), columns, rows);
+        renders = render_lights(projector, {bounces, samples, seed}, {}, [](double) {});
     }
 
     LightPictures pictures() const {
         LightPictures result;
         for (std::size_t j = 0; j < renders.pictures.size(); ++j) result.names.push_back("light " + std::to_string(j));
         result.picture = [this](std::size_t j) { return renders.pictures[j]; };
-        result.direct = [this](std::size_t j) { return renders.direct[j]; };
+        result.direct = [this](std::size_t j) { return renders.direct_of(j); };
+        result.parts = &renders.parts;
         return result;
     }
     Unbounced unbounced(bool with_direct) const {
-        return unbounce(pictures(), regions, nullptr,
+        return unbounce(pictures(), renders.parts.regions, nullptr,
                         {.bounces = bounces, .with_direct = with_direct, .merged = merged_by_four(columns, rows)});
     }
 };
@@ -64,18 +63,13 @@ bool has(const std::vector<Doubt>& doubts, Kind kind) {
 // A light shines on the pixels of its block and on no others, and all together as the whole projector.
 TEST(UnbounceRendered, LightsAreTheProjectorInParts) {
     const Rendered& rendered = corner();
-    for (std::size_t j = 0; j < rendered.renders.direct.size(); ++j)
-        for (std::size_t p = 0; p < rendered.regions.of_pixel.size(); ++p)
-            if (rendered.regions.of_pixel[p] != static_cast<int>(j)) {
-                EXPECT_EQ(rendered.renders.direct[j].mean.pixels[p], Rgb(0.0)) << j << " " << p;
+    for (std::size_t j = 0; j < rendered.renders.pictures.size(); ++j)
+        for (std::size_t p = 0; p < rendered.renders.parts.regions.of_pixel.size(); ++p)
+            if (rendered.renders.parts.regions.of_pixel[p] != static_cast<int>(j)) {
+                EXPECT_EQ(rendered.renders.direct_of(j).mean.pixels[p], Rgb(0.0)) << j << " " << p;
             }
     // The means, with the errors of both: pixels that edges cross are noisy.
-    MeanWithError parts, whole = picture_mean(rendered.renders.forward[0]);
-    for (const Estimate& direct : rendered.renders.direct) {
-        const MeanWithError part = picture_mean(direct);
-        parts.mean += part.mean;
-        parts.standard_error = std::hypot(parts.standard_error, part.standard_error);
-    }
+    const MeanWithError parts = picture_mean(rendered.renders.direct), whole = picture_mean(rendered.renders.forward[0]);
     const double error = std::hypot(parts.standard_error, whole.standard_error);
     EXPECT_LT(std::abs(parts.mean - whole.mean), 4.5 * error);
     EXPECT_LT(error, 0.004 * whole.mean) << "a block that is one pixel off has 4%";
@@ -115,8 +109,8 @@ TEST(UnbounceRendered, AMirrorIsFoundOut) {
     EXPECT_TRUE(has(with_forward, Kind::differs)) << words(with_forward);
 }
 
-// Half of the lights are not there: the other half of the picture is lit by what the first reflects. Direct pictures show it; without
-// them, what a dark pixel gets from the region that shines on it most passes for direct light.
+// Half of the lights are not there: the other half of the picture is lit by what the first reflects. Direct pictures show it;
+// without them, what a dark pixel gets from the region that shines on it most passes for direct light.
 TEST(UnbounceRendered, LightsThatDoNotCoverWhatIsSeen) {
     LightPictures some = corner().pictures();
     std::vector<std::size_t> left;
@@ -150,7 +144,7 @@ TEST(UnbounceRendered, OverlappingLightsAreFoundOut) {
     };
     lights.picture = sum(lights.picture);
     lights.direct = sum(lights.direct);
-    const Unbounced found = unbounce(lights, corner().regions, nullptr, {.bounces = bounces});
+    const Unbounced found = unbounce(lights, corner().renders.parts.regions, nullptr, {.bounces = bounces});
     const std::vector<Doubt> doubts = doubts_about(found, lights.names);
     EXPECT_TRUE(has(doubts, Kind::shared_light)) << words(doubts);
 }

@@ -181,7 +181,7 @@ class Scene(RayQueries, OnPatches):
         lights: Tuple[int, int] = (8, 8),
         *,
         width: Optional[int] = None,
-        spp: int = 64,
+        spp: int = 256,
         bounces: int = 6,
         seed: int = 0,
         threads: Optional[int] = None,
@@ -190,8 +190,8 @@ class Scene(RayQueries, OnPatches):
         """Its pictures under each block of a projector in the place of the camera, in place of its own lights, and the forward series under all
         of them: what ``neumann unbounce`` renders.
 
-        lights: (columns, rows) of blocks. width: of the pictures, pixels; the film's without it. spp: samples a pixel and a light. Raises
-        InputError.
+        lights: (columns, rows) of blocks. width: of the pictures, pixels; the film's without it. spp: samples a pixel, for all
+        lights together. Raises InputError.
         """
         columns, rows = lights
         job = _neumann.under_lights(self._scene, columns, rows, width, bounces, spp, seed, threads or 0)

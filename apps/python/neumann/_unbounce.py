@@ -21,7 +21,8 @@ class Unbounced:
     four times as large; None without ``lights``. rest: the picture less its terms.
 
     bounces: for each term a Report of backward (mean, stderr, discretisation), and with forward pictures forward, difference (mean, stderr,
-    in_errors) and regions (relative_difference, by_noise). channels: for r, g and b condition, smallest_singular_value, noise, singular,
+    in_errors) and regions (relative_difference, by_noise), and of rendered pictures by_way_of_unseen (mean, stderr): what light makes of the
+    difference that comes by way of what is not seen. channels: for r, g and b condition, smallest_singular_value, noise, singular,
     regularisation, and inverse_series_radius, below 1 where the series of T⁻¹ converges. doubts: kind and words, why it
     is not to be trusted.
 
@@ -110,6 +111,7 @@ def unbounce(
         regularisation,
         use_direct,
         seed,
+        None,
     )
     found: Unbounced = run(job, quiet, lambda made: Unbounced(*made))
     return found
@@ -125,7 +127,7 @@ class LightPictures(Described):
     def __init__(self, lights: Lights, made: Any) -> None:
         self.lights = lights
         self.pictures: NDArray[np.float32]
-        (self.pictures, self.stderr, self.direct, self.direct_stderr, self.forward, self.forward_stderr, self.warnings) = made
+        (self.pictures, self.stderr, self.direct, self.direct_stderr, self.forward, self.forward_stderr, self.warnings, self._besides) = made
 
     def __repr__(self) -> str:
         columns, rows = self.lights
@@ -133,16 +135,7 @@ class LightPictures(Described):
 
     def unbounce(self, *, bounces: Optional[int] = None, use_direct: bool = False, seed: int = 0, quiet: bool = False) -> Unbounced:
         """``neumann.unbounce()`` of them, beside the forward terms."""
-        return unbounce(
-            self.pictures,
-            stderr=self.stderr,
-            direct=self.direct,
-            direct_stderr=self.direct_stderr,
-            forward=self.forward,
-            forward_stderr=self.forward_stderr,
-            lights=self.lights,
-            bounces=bounces or len(self.forward),
-            use_direct=use_direct,
-            seed=seed,
-            quiet=quiet,
-        )
+        pictures = (self.pictures, self.stderr, self.direct, self.direct_stderr, self.forward, self.forward_stderr)
+        job = _neumann.unbounce(*pictures, None, None, self.lights, bounces or len(self.forward), None, use_direct, seed, self._besides)
+        found: Unbounced = run(job, quiet, lambda made: Unbounced(*made))
+        return found
