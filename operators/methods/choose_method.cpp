@@ -45,6 +45,8 @@ struct Term {
     double variance = 0.0;      // summed over the picture
     double squared_bias = 0.0;  // the same
     double least_light = 0.0;   // mean of the picture that is sure to be there
+
+    double light() const { return square(picture) - variance; }  // |K^i Le|², without bias
 };
 struct Result {
     double rays = 0.0, setup_rays = 0.0;
@@ -74,7 +76,7 @@ const Term* surest(const std::vector<Trial>& known, std::size_t i) {
     const Term* best = &known.front().result.terms[i];
     for (const Trial& trial : known)
         if (trial.result.terms[i].least_light > best->least_light) best = &trial.result.terms[i];
-    return best->least_light > 0.0 && square(best->picture) > best->variance ? best : nullptr;
+    return best->least_light > 0.0 && best->light() > 0.0 ? best : nullptr;
 }
 // Σ|a − b|², of which the variances of both are a part.
 double square_of_difference(const Term& a, const Term& b) {
@@ -86,30 +88,24 @@ double square_of_difference(const Term& a, const Term& b) {
     return sum;
 }
 
-// Σ_i E|error|² / |K^i Le|² of a method without bias. One that has not met the rare paths of a bounce sees neither their light nor
-// their variance; so it is also compared with that of `known` which is sure of most light.
-double relative_error(const Result& result, const std::vector<Trial>& known) {
+// Σ_i error_of(term, best) / |K^i Le|², where `best` is the term that is surest.
+template <class F>
+double relative_error(const Result& result, const std::vector<Trial>& known, const F& error_of) {
     double sum = 0.0;
     for (std::size_t i = 0; i < result.terms.size(); ++i)
-        if (const Term* best = surest(known, i)) {
-            const Term& term = result.terms[i];
-            const double light = square(best->picture) - best->variance;
-            sum += std::max(term.variance, square_of_difference(term, *best) - best->variance) / light;
-        }
+        if (const Term* best = surest(known, i)) sum += error_of(result.terms[i], *best) / best->light();
     return sum;
+}
+// E|error|² of a method without bias. One that has not met the rare paths of a bounce sees neither their light nor their variance;
+// so it is also compared with that of `known` which is sure of most light.
+double error_of(const Term& term, const Term& best) {
+    return std::max(term.variance, square_of_difference(term, best) - best.variance);
 }
 // The same of a method with a bias, which counts as it states it, or as the pictures of `known` show it, where that is clearly
 // more.
-double relative_error_with_bias(const Result& result, const std::vector<Trial>& known) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < result.terms.size(); ++i)
-        if (const Term* best = surest(known, i)) {
-            const Term& term = result.terms[i];
-            const double light = square(best->picture) - best->variance, stated = term.variance + term.squared_bias;
-            const double shown = square_of_difference(term, *best);
-            sum += (shown > clearly_more * (stated + best->variance) ? shown - best->variance : stated) / light;
-        }
-    return sum;
+double error_with_bias(const Term& term, const Term& best) {
+    const double stated = term.variance + term.squared_bias, shown = square_of_difference(term, best);
+    return shown > clearly_more * (stated + best.variance) ? shown - best.variance : stated;
 }
 
 Goal goal_of_trial(const Goal& goal, int bounces) {
@@ -176,7 +172,7 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<Trial>& kno
     const std::string unbiased = name_of(choice.method);
     double least = clearly_better * error;
     for (const Trial& trial : pilots_of(biased_candidates(), small, of_trial, watch, true)) {
-        const double of_pilot = relative_error_with_bias(trial.result, known);
+        const double of_pilot = relative_error(trial.result, known, error_with_bias);
         choice.trials.push_back(described(trial, of_pilot, small.film));
         // Without a number of samples they refine patches, rays and samples together, and their errors fall about as 1/√rays; with
         // one they stay as they are.
@@ -206,7 +202,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     std::vector<double> errors, works;
     for (const Trial& trial : trials) {
         const double left = 1.0 - price_of_setup * trial.result.setup_rays / affordable;
-        errors.push_back(relative_error(trial.result, trials));
+        errors.push_back(relative_error(trial.result, trials, error_of));
         works.push_back(left > 0.0 ? errors.back() * trial.result.rays * trial.candidate.price / left
                                    : std::numeric_limits<double>::infinity());
     }
