@@ -224,7 +224,9 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
         choice.method = other.method;
         choice.why = other.why;
     }
-    if (open.bias_allowed) allow_bias(choice, works[best], trials, small, goal, affordable, of_trial, watch);
+    // Fields have linear RGB alone and no parts, and choose their samples by themselves where an error is to be reached.
+    const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
+    if (open.bias_allowed && fields_can) allow_bias(choice, works[best], trials, small, goal, affordable, of_trial, watch);
     const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
     if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_product);
     return choice;

@@ -120,6 +120,9 @@ TEST(Choice, ABiasIsTakenOnlyWhereItIsAllowed) {
     const MethodChoice found = choose_method(open, scene, goal, {});
     EXPECT_TRUE(is_biased(found.method)) << name_of(found.method) << ": " << found.why;
     EXPECT_EQ(found.trials.size(), 6u);
+    // Fields refuse this goal.
+    goal.colors = glm::dmat3(1.0);
+    EXPECT_FALSE(is_biased(choose_method(open, scene, goal, {}).method));
 }
 
 // After so many samples nothing is left of the errors of walks, but all of a bias, which samples do not lessen.
