@@ -13,6 +13,15 @@ std::vector<Candidate> candidates(const method::PathOptions& options, const Scen
     return all;
 }
 
+std::vector<Candidate> mixture_candidates(const method::PathOptions& options, const Scene& scene) {
+    std::vector<Candidate> all = candidates(options, scene);
+    if (scene.hide_emitters) return all;
+    if (paths_of(PathGenerator::light, scene) == Paths::all && scene.camera.can_be_joined())
+        all.push_back({method::Light{options}, 1.2});
+    all.push_back({method::Metropolis{options}, 1.5});
+    return all;
+}
+
 std::vector<Candidate> biased_candidates() { return {{method::Matrix{}, 1.3}, {method::Gather{}, 1.8}}; }
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// The methods among which `auto` chooses, and which `mixed` mixes.
+// The methods among which `auto` chooses, and those that `mixed` mixes.
 #pragma once
 
 #include "operators/methods/method.h"
@@ -14,6 +14,8 @@ struct Candidate {
 
 // Those that make the same paths in this scene, all that can be made, without a bias. The first is the plainest.
 std::vector<Candidate> candidates(const method::PathOptions& options, const Scene& scene);
+// Those that may be mixed: also those whose pixels share all paths.
+std::vector<Candidate> mixture_candidates(const method::PathOptions& options, const Scene& scene);
 // Those with a bias, which they state. Some scenes they refuse.
 std::vector<Candidate> biased_candidates();
 

@@ -228,7 +228,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
     if (open.bias_allowed && fields_can) allow_bias(choice, works[best], trials, small, goal, affordable, of_trial, watch);
     const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
-    if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_product);
+    if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_all);
     return choice;
 }
 

@@ -31,7 +31,7 @@ struct PathOptions {
 // The method of these that promises least error for its cost in the scene (choose_method.h).
 struct Auto : PathOptions {
     static constexpr const char* name = "auto";
-    std::optional<LeastError> adaptive = {};  // as of the walk; default: the product, if a pilot for it pays
+    std::optional<LeastError> adaptive = {};  // as of the walk; default: all, if a pilot for it pays
     bool bias_allowed = false;                // if it may be one of those with a bias, which they state
     bool operator==(const Auto&) const = default;
 };
@@ -118,11 +118,11 @@ struct Metropolis : PathOptions {
     bool operator==(const Metropolis&) const = default;
 };
 
-// Walk, guided, corrected and bidirectional together: each block of the picture and each bounce is a mean of their pictures,
+// Walk, guided, corrected, bidirectional, light and metropolis together: each block of the picture and each bounce is a mean of their pictures,
 // weighted by their precision there, which a pilot tells (best_mixture.h).
 struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
-    std::optional<LeastError> adaptive = {};  // what it makes least; default: the product
+    std::optional<LeastError> adaptive = {};  // what it makes least; default: all
     bool operator==(const Mixed&) const = default;
 };
 

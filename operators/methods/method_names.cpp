@@ -23,7 +23,7 @@ const Named<std::string> helps{
     {"surface", "walks with points sampled on all surfaces"},
     {"light", "walks from the lights to the camera"},
     {"bidirectional", "walks from both ends, joined everywhere"},
-    {"mixed", "walk, guided, corrected and bidirectional, each for the blocks of the picture and the bounces where it is best"},
+    {"mixed", "walk, guided, corrected, bidirectional, light and metropolis, each for the blocks and the bounces where it is best"},
     {"photon", "photon maps, for caustics, with a bias that falls"},
     {"cache", "an irradiance cache, for diffuse rooms, with a bias that stays"},
     {"metropolis", "chains of paths that mutate, for light that is hard to find"},

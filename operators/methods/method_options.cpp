@@ -45,7 +45,7 @@ const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed},
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
 const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
 const Named<LeastError> least_errors{
-    {"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_product}};
+    {"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
 
 template <class Number>
@@ -222,7 +222,7 @@ std::vector<MethodOption> make_options() {
             "adaptive", "WHAT",
             "For auto, walk, guided, corrected, bidirectional and mixed: more samples for the pixels that need them, by a pilot, "
             "so "
-            "that the largest relative error of a bounce (bounces), that of the sum (sum), or the product of these (all) is least",
+            "that the largest relative error of a bounce (bounces), that of the sum (sum), or both at once (all) is least",
             least_errors, [](const auto& m) requires requires { m.adaptive; } { return m.adaptive; },
             [](auto& m, LeastError least) { m.adaptive = least; }),
         flag(

@@ -23,7 +23,7 @@ constexpr int scale_of_pilot = 4, size_of_pilot = 32;
 Mixture make_mixture(const method::Mixed& mixed, const Scene& scene, const SamplingSettings& settings, double memory,
                      const Watch& watch) {
     std::vector<MixtureCandidate> all;
-    for (const Candidate& candidate : candidates(mixed, scene)) try {
+    for (const Candidate& candidate : mixture_candidates(mixed, scene)) try {
             SamplingSettings own = settings;
             own.generator = sampling_settings(candidate.method, scene, {}, settings.seed).generator;
             own.walk.left_out = plan_for(candidate.method, scene).walk;
@@ -35,7 +35,7 @@ Mixture make_mixture(const method::Mixed& mixed, const Scene& scene, const Sampl
         }
     const int size = std::max(scene.film.crop_width, scene.film.crop_height);
     Mixture mixture = mix(scene, scene.with(small_film(scene.film, std::max(size / scale_of_pilot, size_of_pilot))), all,
-                          mixed.adaptive.value_or(LeastError::of_product), watch);
+                          mixed.adaptive.value_or(LeastError::of_all), watch);
     for (const MixtureCandidate& candidate : all) {
         if (candidate.settings.guide) mixture.rays += candidate.settings.guide->rays();
         if (candidate.settings.approximation) mixture.rays += candidate.settings.approximation->rays();

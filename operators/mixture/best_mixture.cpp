@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace neumann {
 
@@ -40,11 +41,12 @@ double error_of_sum(const MixtureCosts& all, const std::vector<double>& errors) 
 }
 
 double least_of(const MixtureCosts& all, const std::vector<double>& errors, double of_sum, LeastError least) {
-    if (least == LeastError::of_bounces) return *std::ranges::max_element(errors);
+    const double largest = *std::ranges::max_element(errors);
+    if (least == LeastError::of_bounces) return largest;
     if (least == LeastError::of_sum) return of_sum;
     double logarithms = std::log(of_sum);
     for (const double e : errors) logarithms += std::log(e);
-    return std::exp(logarithms / static_cast<double>(all.errors + 1));
+    return std::exp(0.5 * (std::log(largest) + logarithms / static_cast<double>(all.errors + 1)));
 }
 
 }  // namespace
@@ -53,7 +55,8 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
     std::vector<double> numbers(all.methods * all.blocks, 1.0), best;
     spend(all, numbers);
     double smallest = std::numeric_limits<double>::infinity();
-    std::vector<double> weights(all.errors, 1.0);
+    const auto K = static_cast<double>(all.errors);
+    std::vector<double> weights(all.errors), of_largest(all.errors, 1.0 / K);
     for (int step = 0; step < steps; ++step) {
         const std::vector<double> P = precisions(all, numbers), errors = errors_with(all, P);
         const double of_sum = error_of_sum(all, errors), size = least_of(all, errors, of_sum, least);
@@ -61,26 +64,29 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
             smallest = size;
             best = numbers;
         }
-        for (std::size_t k = 0; k < all.errors; ++k) switch (least) {
-                case LeastError::of_bounces:
-                    weights[k] *= std::sqrt(errors[k] / size);
-                    break;
-                case LeastError::of_sum:
-                    weights[k] = all.sizes[k];
-                    break;
-                case LeastError::of_product:
-                    weights[k] = 1.0 / errors[k] + all.sizes[k] / of_sum;
-                    break;
-            }
-        for (std::size_t m = 0; m < all.methods; ++m)
-            for (std::size_t b = 0; b < all.blocks; ++b) {
-                double g = 0.0;
-                for (std::size_t k = 0; k < all.errors; ++k) {
+        const double largest = *std::ranges::max_element(errors);
+        for (std::size_t k = 0; k < all.errors; ++k) {
+            of_largest[k] *= std::sqrt(errors[k] / largest);
+            weights[k] = all.sizes[k];
+        }
+        const double sum = std::accumulate(of_largest.begin(), of_largest.end(), 0.0);
+        for (double& w : of_largest) w /= sum;
+        if (least == LeastError::of_bounces) weights = of_largest;
+        if (least == LeastError::of_all)
+            for (std::size_t k = 0; k < all.errors; ++k)
+                weights[k] = (1.0 / errors[k] + all.sizes[k] / of_sum) / (K + 1.0) + of_largest[k] / largest;
+        for (std::size_t m = 0; m < all.methods; ++m) {
+            std::vector<double> gains(all.blocks, 0.0);
+            for (std::size_t k = 0; k < all.errors; ++k)
+                for (std::size_t b = 0; b < all.blocks; ++b) {
                     const double p = P[k * all.blocks + b];
-                    g += weights[k] / (all.variance(m, k, b) * p * p);
+                    gains[b] += weights[k] / (all.variance(m, k, b) * p * p);
                 }
-                numbers[m * all.blocks + b] *= std::sqrt(g / all.costs[m * all.blocks + b]);
-            }
+            const auto costs = std::span(all.costs).subspan(m * all.blocks, all.blocks);
+            const bool even = !all.even.empty() && all.even[m];
+            const double of_all = std::accumulate(gains.begin(), gains.end(), 0.0) / std::accumulate(costs.begin(), costs.end(), 0.0);
+            for (std::size_t b = 0; b < all.blocks; ++b) numbers[m * all.blocks + b] *= std::sqrt(even ? of_all : gains[b] / costs[b]);
+        }
         spend(all, numbers);
     }
     return best;
@@ -123,6 +129,7 @@ MixtureCosts without(const MixtureCosts& all, std::size_t method) {
     };
     cut(left.variances, all.errors * all.blocks);
     cut(left.costs, all.blocks);
+    if (!left.even.empty()) left.even.erase(left.even.begin() + static_cast<std::ptrdiff_t>(method));
     --left.methods;
     return left;
 }

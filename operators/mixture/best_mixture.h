@@ -13,11 +13,12 @@
 // error is e² = Σ_k r_k e_k², these λ make least
 //
 //     the sum's error                          λ_k = r_k
-//     the product of that and all bounces'     λ_k ∝ 1/e_k² + r_k/e²
-//     the largest of a bounce                  λ_k > 0 only for the bounces with the largest error
+//     the largest of a bounce, M               λ_k = μ_k, with μ_k > 0 only where e_k² = M, Σ μ_k = 1
+//     M times the geometric mean of all K + 1  λ_k ∝ (1/e_k² + r_k/e²) / (K + 1) + μ_k / M
 //
 // s is found by multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010), and
-// λ of the largest error by making it larger where the error is above the mean, in the same steps.
+// μ by making it larger where the error is, in the same steps. A method that has as many samples in all blocks is multiplied by
+// √(Σ_b g_mb / Σ_b c_mb).
 // As in MARS (Grittmann et al. 2024), who choose numbers of samples of techniques by pilots; there techniques share their paths'
 // weights, here methods are estimators of their own.
 #pragma once
@@ -35,6 +36,7 @@ struct MixtureCosts {
     std::vector<double> costs;      // c_mb, method by method
     std::vector<double> sizes;      // r_k
     double budget = 1.0;            // Σ_mb c_mb s_mb
+    std::vector<bool> even = {};    // the methods whose s_mb must be the same for all b; empty: none
 
     double& variance(std::size_t m, std::size_t k, std::size_t b) { return variances[(m * errors + k) * blocks + b]; }
     double variance(std::size_t m, std::size_t k, std::size_t b) const { return variances[(m * errors + k) * blocks + b]; }
@@ -46,7 +48,7 @@ std::vector<double> best_mixture(const MixtureCosts& costs, LeastError least);
 std::vector<double> weights_of(const MixtureCosts& costs, const std::vector<double>& numbers);
 // e_k² with these numbers.
 std::vector<double> errors_of(const MixtureCosts& costs, const std::vector<double>& numbers);
-// What best_mixture() makes least: e², the geometric mean of e² and all e_k², or the largest e_k².
+// What best_mixture() makes least: the largest e_k², e², or the root of the largest e_k² times the geometric mean of e² and all e_k².
 double least_of(const MixtureCosts& costs, const std::vector<double>& numbers, LeastError least);
 // Each method's part of the cost.
 std::vector<double> shares_of(const MixtureCosts& costs, const std::vector<double>& numbers);

@@ -46,11 +46,17 @@ PixelSpread spread_of(std::span<const Rgb> samples, std::size_t pixels, std::siz
 
 }  // namespace
 
-std::vector<double> best_numbers(const BlockCosts& all, LeastOf least_of) {
-    const std::size_t K = all.errors(), B = all.blocks;
+std::vector<double> best_numbers(const BlockCosts& all, LeastError least) {
+    const std::size_t K = all.errors(), B = all.blocks, bounces = least == LeastError::of_all ? K - 1 : K;
+    const auto normalised = [](std::vector<double> weights) {
+        const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+        for (double& w : weights) w /= sum;
+        return weights;
+    };
     std::vector<double> weights(K, 1.0 / static_cast<double>(K)), numbers(B, 1.0), best = numbers;
+    std::vector<double> of_largest(bounces, 1.0 / static_cast<double>(bounces));
     const double budget = std::accumulate(all.costs.begin(), all.costs.end(), 0.0);
-    double least = std::numeric_limits<double>::infinity();
+    double smallest = std::numeric_limits<double>::infinity();
     for (int step = 0; step < (K == 1 ? 1 : 200); ++step) {
         double cost = 0.0;
         for (std::size_t b = 0; b < B; ++b) {
@@ -65,25 +71,26 @@ std::vector<double> best_numbers(const BlockCosts& all, LeastOf least_of) {
         for (std::size_t k = 0; k < K; ++k)
             for (std::size_t b = 0; b < B; ++b)
                 if (all.variance(k)[b] > 0.0) errors[k] += all.variance(k)[b] / numbers[b];
-        const double largest = *std::ranges::max_element(errors);
-        double size = largest;
-        if (least_of == LeastOf::product) {
-            size = 0.0;
-            for (const double e : errors) size += std::log(e);
-        }
-        if (size < least) {
-            least = size;
+        const double largest = *std::max_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(bounces));
+        double size = std::log(largest);
+        if (least == LeastError::of_all)
+            for (const double e : errors) size += std::log(e) / static_cast<double>(K);
+        if (size < smallest) {
+            smallest = size;
             best = numbers;
         }
-        double sum = 0.0;
-        for (std::size_t k = 0; k < K; ++k) {
-            if (least_of == LeastOf::product)
-                weights[k] = std::sqrt(weights[k] / errors[k]);  // half of the way to 1 / e_k²
-            else
-                weights[k] *= std::sqrt(errors[k] / largest);
-            sum += weights[k];
+        for (std::size_t k = 0; k < bounces; ++k) of_largest[k] *= std::sqrt(errors[k] / largest);
+        of_largest = normalised(of_largest);
+        if (least != LeastError::of_all) {
+            weights = of_largest;
+            continue;
         }
-        for (double& w : weights) w /= sum;
+        std::vector<double> wanted(K);
+        for (std::size_t k = 0; k < K; ++k)
+            wanted[k] = 1.0 / (static_cast<double>(K) * errors[k]) + (k < bounces ? of_largest[k] / largest : 0.0);
+        wanted = normalised(wanted);
+        for (std::size_t k = 0; k < K; ++k) weights[k] = std::sqrt(weights[k] * wanted[k]);
+        weights = normalised(weights);
     }
     return best;
 }
@@ -151,17 +158,19 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
             size += square[pixel * Q + q];
             sum += variance[pixel * Q + q];
         }
-        if (!(size > 0.0) || !(sum > 0.0) || !std::isfinite(sum)) return;
+        if (!(size > 0.0) || !(sum > 0.0) || !std::isfinite(sum)) return false;
         const double everywhere = spread_out * sum / static_cast<double>(blocks.blocks);
         for (const double v : of_blocks) blocks.variances.push_back(((1.0 - spread_out) * v + everywhere) / size);
+        return true;
     };
     if (least != LeastError::of_sum)
         for (std::size_t q = 0; q < terms; ++q) add(q);
-    if (least != LeastError::of_bounces) add(terms);
+    const bool has_bounces = !blocks.variances.empty(), has_sum = least != LeastError::of_bounces && add(terms);
+    if (least == LeastError::of_all && !(has_bounces && has_sum)) least = has_sum ? LeastError::of_sum : LeastError::of_bounces;
     Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays + *shared};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
     const std::vector<std::int8_t> powers =
-        as_powers(best_numbers(blocks, least == LeastError::of_product ? LeastOf::product : LeastOf::largest), blocks.costs,
+        as_powers(best_numbers(blocks, least), blocks.costs,
                   std::accumulate(blocks.costs.begin(), blocks.costs.end(), 0.0), most_doublings);
     for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) allocation.exponents[pixel] = powers[block_of(pixel)];
     return std::make_shared<const Allocation>(std::move(allocation));

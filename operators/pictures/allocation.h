@@ -7,8 +7,9 @@
 //
 //     s_b ∝ √(Σ_k λ_k V_kb / c_b),     λ_k ≥ 0,  Σ λ_k = 1,  λ_k > 0 only for the bounces with the largest error;
 //
-// λ is found by making it larger where the error is above the mean, again and again. For the sum there is one V. The product of the
-// errors of all bounces and of the sum is least where λ_k ∝ 1 / e_k².
+// λ is found by making it larger where the error is above the mean, again and again. For the sum there is one V. The largest error
+// of a bounce, M, times the geometric mean of those of all K bounces and of the sum is least where λ_k ∝ 1 / ((K + 1) e_k²) + μ_k / M,
+// with μ as λ for the largest error, and 0 for the sum.
 #pragma once
 
 #include "operators/mixture/least_error.h"
@@ -29,9 +30,9 @@ struct BlockCosts {
     std::span<const double> variance(std::size_t k) const { return std::span(variances).subspan(k * blocks, blocks); }
 };
 
-// s_b that make the largest e_k least, or their product, with Σ c_b s_b = Σ c_b.
-enum class LeastOf { largest, product };
-std::vector<double> best_numbers(const BlockCosts& costs, LeastOf least = LeastOf::largest);
+// s_b that make `least` least, with Σ c_b s_b = Σ c_b. The errors are those of bounces, of the sum, or of bounces and, last, of the
+// sum.
+std::vector<double> best_numbers(const BlockCosts& costs, LeastError least);
 // The nearest powers of 2 to σ s_b, as exponents within ±most, with the largest σ for which they cost no more than `budget`. What
 // is below is as much as allowed, or none.
 enum class Below { least, none };

@@ -26,6 +26,7 @@ SamplingSettings settings_of_part(const SamplingSettings& settings, std::size_t 
     own.approximation = of.approximation;
     own.allocation = of.allocation;
     own.walk.left_out = of.left_out;
+    if (!of.allocation) own.replicate_size = Allocation::size_of(settings.replicate_size, of.exponent);
     own.seed = settings.seed ^ (part + 1) * part_stream;
     return own;
 }

@@ -116,7 +116,8 @@ struct Measured {
 
 Measured measure(const Contenders& all, double budget, const Grid& grid) {
     const std::size_t M = all.size(), B = grid.blocks.count();
-    Measured found{{M, 0, B, {}, std::vector<double>(M * B, 0.0), {}, budget}, {}};
+    Measured found{{M, 0, B, {}, std::vector<double>(M * B, 0.0), {}, budget, {}}, {}};
+    for (const Contender& contender : all) found.costs.even.push_back(has_even_samples(contender.candidate->settings.generator));
     std::vector<std::vector<double>> variances(M);
     for (std::size_t bounce = 0; bounce < all.front().trial->terms(); ++bounce) {
         const BounceVariances of = variances_of(all, bounce, grid);
@@ -199,6 +200,8 @@ std::vector<std::int8_t> exponents_of(const Choice& chosen) {
             if (numbers[i] > numbers[most]) most = i;
         if (exponents[most] == Allocation::none) exponents[most] = -most_powers;
     }
+    for (std::size_t i = 0; i < exponents.size(); ++i)
+        if (costs.even[i / costs.blocks] && exponents[i] == Allocation::none) exponents[i] = -most_powers;
     return exponents;
 }
 
@@ -253,10 +256,10 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
     mixture.rays = rays + chosen.rays;
     if (chosen.all.size() == 1) {
         const auto& [name, own, price] = *chosen.all.front().candidate;
-        const auto allocation = allocate(scene, own, least, watch);
-        mixture.rays += allocation->rays;
         mixture.weights.assign(mixture.bounces * B, 1.0);
-        mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out, allocation, 1.0});
+        mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out});
+        if (!has_even_samples(own.generator)) mixture.parts.front().allocation = allocate(scene, own, least, watch);
+        if (const auto& allocation = mixture.parts.front().allocation) mixture.rays += allocation->rays;
         return mixture;
     }
     const std::vector<std::int8_t> exponents = exponents_of(chosen);
@@ -266,11 +269,14 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
     const std::vector<double> shares = shares_of(chosen.measured.costs, numbers);
     for (std::size_t m = 0; m < chosen.all.size(); ++m) {
         const auto& [name, own, price] = *chosen.all[m].candidate;
+        mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out});
+        mixture.parts.back().share = shares[m];
+        mixture.parts.back().exponent = exponents[m * B];
+        if (has_even_samples(own.generator)) continue;
         Allocation allocation{std::vector<std::int8_t>(std::size_t{large.width} * large.height), 0};
         for (std::uint32_t pixel = 0; pixel < large.width * large.height; ++pixel)
             allocation.exponents[pixel] = exponents[m * B + large.of(pixel)];
-        mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out,
-                                 std::make_shared<const Allocation>(std::move(allocation)), shares[m]});
+        mixture.parts.back().allocation = std::make_shared<const Allocation>(std::move(allocation));
     }
     return mixture;
 }

@@ -32,10 +32,7 @@ SampleLayout::SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared
 }
 
 std::uint32_t SampleLayout::size(std::uint32_t pixel) const {
-    if (!allocation_) return size_;
-    const int k = allocation_->exponents[pixel];
-    if (k == Allocation::none) return 0;
-    return k >= 0 ? size_ << k : std::max(size_ >> -k, 1u);
+    return allocation_ ? Allocation::size_of(size_, allocation_->exponents[pixel]) : size_;
 }
 
 std::vector<std::uint32_t> SampleLayout::sizes() const {

@@ -5,6 +5,7 @@
 #include "core/sampling/sobol_points.h"
 #include "operators/statistics/sample_place.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -17,6 +18,11 @@ struct Allocation {
     std::vector<std::int8_t> exponents;        // k of all pixels of the crop, row by row
     std::uint64_t rays = 0;                    // cast to find them
 
+    // `size` · 2^k, at least 1, or none.
+    static std::uint32_t size_of(std::uint32_t size, std::int8_t exponent) {
+        if (exponent == none) return 0;
+        return exponent >= 0 ? size << exponent : std::max(size >> -exponent, 1u);
+    }
     static double times(std::int8_t exponent) { return exponent == none ? 0.0 : std::ldexp(1.0, exponent); }
 };
 
@@ -34,8 +40,7 @@ struct PlaceInGroup {
 
 class SampleLayout {
 public:
-    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many; otherwise size · 2^k, at least 1,
-    // or none. `together`: the pixels of a group at least, if there is no allocation.
+    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many. `together`: the pixels of a group at least, if there is no allocation.
     SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {},
                  std::uint32_t together = 1);
 

@@ -36,6 +36,10 @@ enum class PathGenerator {
 inline bool splats(PathGenerator generator) {
     return generator == PathGenerator::light || generator == PathGenerator::bidirectional;
 }
+// Whether all pixels must have as many samples, for they share all paths.
+inline bool has_even_samples(PathGenerator generator) {
+    return generator == PathGenerator::light || generator == PathGenerator::metropolis;
+}
 // Whether it reads light near a point, within two radii, which tell its bias.
 inline bool has_two_radii(PathGenerator generator) {
     return generator == PathGenerator::photon || generator == PathGenerator::cache;

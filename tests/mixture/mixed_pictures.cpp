@@ -22,8 +22,12 @@ Scene scene_of(const std::string& name, int resolution) {
     return read_scene(fmt::format(SCENES "/{}/{}.xml", name, name), {{"res", std::to_string(resolution)}});
 }
 
-// Walk, guided and bidirectional, with weights and numbers of samples that nothing asks for: some blocks and bounces have one
-// method alone, some pixels no samples of a method.
+constexpr PathGenerator mixed_generators[] = {PathGenerator::walk, PathGenerator::guided, PathGenerator::bidirectional,
+                                              PathGenerator::light, PathGenerator::metropolis};
+constexpr std::size_t parts = std::size(mixed_generators);
+
+// Five methods, with weights and numbers of samples that nothing asks for: some blocks and bounces miss a method, some pixels have
+// no samples of one, if they can have samples of their own.
 Mixture patchwork(const SamplingSettings& guided, std::uint32_t pixels, std::uint32_t width, std::size_t bounces) {
     Mixture mixture;
     mixture.blocks = {3, 2};
@@ -36,24 +40,27 @@ Mixture patchwork(const SamplingSettings& guided, std::uint32_t pixels, std::uin
         numbers[1].exponents.push_back(b % 2 == 0 ? Allocation::none : 0);
         numbers[2].exponents.push_back(b == 4 ? Allocation::none : -1);
     }
-    const PathGenerator generators[] = {PathGenerator::walk, PathGenerator::guided, PathGenerator::bidirectional};
-    for (std::size_t m = 0; m < 3; ++m)
+    for (std::size_t m = 0; m < parts; ++m) {
+        const bool has_even = has_even_samples(mixed_generators[m]);
         mixture.parts.push_back({fmt::format("method {}", m),
-                                 generators[m],
+                                 mixed_generators[m],
                                  m == 1 ? guided.guide : nullptr,
                                  {},
                                  {},
-                                 std::make_shared<const Allocation>(numbers[m]),
-                                 1.0 / 3.0});
-    mixture.weights.assign(3 * mixture.bounces * B, 0.0);
+                                 has_even ? nullptr : std::make_shared<const Allocation>(numbers[m]),
+                                 static_cast<std::int8_t>(m == 3 ? -1 : 1),
+                                 1.0 / parts});
+    }
+    mixture.weights.assign(parts * mixture.bounces * B, 0.0);
     for (std::size_t q = 0; q < mixture.bounces; ++q)
         for (std::size_t b = 0; b < B; ++b) {
             double first = 0.25 + 0.1 * static_cast<double>(q), second = 0.5 - first / 2.0;
             if (b == 1) first = 0.0;
             if (b % 2 == 0) second = 0.0;
             if (b == 4) first = 1.0;
-            const double all[] = {first, second, 1.0 - first - second};
-            for (std::size_t m = 0; m < 3; ++m) mixture.weights[(m * mixture.bounces + q) * B + b] = all[m];
+            const double of_light = b == 3 ? 0.0 : 0.2, of_chains = 0.1 * static_cast<double>(q), left = 1.0 - of_light - of_chains;
+            const double all[] = {left * first, left * second, left * (1.0 - first - second), of_light, of_chains};
+            for (std::size_t m = 0; m < parts; ++m) mixture.weights[(m * mixture.bounces + q) * B + b] = all[m];
         }
     return mixture;
 }
@@ -109,7 +116,7 @@ TEST(MixedPictures, ReplayTheirSamples) {
                     if (found.pixel && found.quantity == q)
                         nearest = std::min(nearest, std::abs(max_component(found.value) / s.value - 1.0));
             ++from_lights;
-            EXPECT_EQ(s.place.name.sample % 3, 2u);
+            EXPECT_GE(s.place.name.sample % parts, 2u);
             EXPECT_LE(nearest, 1e-9) << s.value;
         }
     EXPECT_GT(compared, 50);
