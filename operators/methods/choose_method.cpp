@@ -20,8 +20,12 @@ namespace {
 
 constexpr std::uint64_t trial_stream = 0x747269616cull;  // another seed than the pictures'
 constexpr int trial_width = 48, trial_bounces = 6;       // at most
-constexpr std::uint64_t trial_samples = 64;
+constexpr std::uint64_t first_trial_samples = 64;
 constexpr std::uint32_t trial_replicates = 4;
+// Where no method knows its terms, the pilot has so many times as many samples, again and again, up to this part of the rays that the
+// goal affords.
+constexpr std::uint64_t longer = 4;
+constexpr double part_of_render = 0.05;
 
 // A difference shows more than the errors that are stated, if its square is so many times as large.
 constexpr double clearly_more = 2.0;
@@ -49,7 +53,7 @@ struct Term {
     double light() const { return square(picture) - variance; }  // |K^i Le|², without bias
 };
 struct Result {
-    double rays = 0.0, setup_rays = 0.0;
+    double samples = 0.0, rays = 0.0, setup_rays = 0.0;
     std::vector<Term> terms;  // bounces 1 …
 };
 
@@ -63,6 +67,7 @@ Result result_of(const BounceSeries& series) {
         result.terms.push_back({std::move(term.mean), square(term.standard_error), square(term.discretisation),
                                 mean.mean - 2.0 * mean.standard_error});
     }
+    result.samples = static_cast<double>(series.samples * result.terms.front().picture.pixels.size());
     return result;
 }
 
@@ -111,7 +116,7 @@ double error_with_bias(const Term& term, const Term& best) {
 Goal goal_of_trial(const Goal& goal, int bounces) {
     Goal trial;
     trial.bounces = bounces;
-    trial.samples = trial_samples;
+    trial.samples = first_trial_samples;
     trial.replicates = trial_replicates;
     trial.seed = goal.seed ^ trial_stream;
     trial.memory = goal.memory;
@@ -158,9 +163,8 @@ void set_adaptive(Method& method, LeastError least) {
         method);
 }
 
-MethodTrial described(const Trial& trial, double error, const Film& film) {
-    const double samples = static_cast<double>(trial_samples) * film.crop_width * film.crop_height;
-    return {name_of(trial.candidate.method), trial.result.rays / samples, std::sqrt(error)};
+MethodTrial described(const Trial& trial, double error) {
+    return {name_of(trial.candidate.method), trial.result.rays / trial.result.samples, std::sqrt(error)};
 }
 
 // Takes a method with a bias, if its error after the work of `choice` is clearly smaller. `work`: for a squared error of 1.
@@ -173,7 +177,7 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<Trial>& kno
     double least = clearly_better * error;
     for (const Trial& trial : pilots_of(biased_candidates(), small, of_trial, watch, true)) {
         const double of_pilot = relative_error(trial.result, known, error_with_bias);
-        choice.trials.push_back(described(trial, of_pilot, small.film));
+        choice.trials.push_back(described(trial, of_pilot));
         // Without a number of samples they refine patches, rays and samples together, and their errors fall about as 1/√rays; with
         // one they stay as they are.
         const double expected = goal.samples ? of_pilot : of_pilot * trial.result.rays * trial.candidate.price / rays;
@@ -195,25 +199,33 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     if (affordable < rays_of_a_long_render) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
     const Scene small = scene.with(small_film(scene.film, trial_width));
-    const Goal of_trial = goal_of_trial(goal, bounces);
-    const std::vector<Trial> trials = pilots_of(able, small, of_trial, watch, false);
-    if (watch.stop()) return {method::Walk{open}, "the pilot was interrupted"};
-
+    Goal of_trial = goal_of_trial(goal, bounces);
+    std::vector<Trial> trials;
     std::vector<double> errors, works;
-    for (const Trial& trial : trials) {
-        const double left = 1.0 - price_of_setup * trial.result.setup_rays / affordable;
-        errors.push_back(relative_error(trial.result, trials, error_of));
-        works.push_back(left > 0.0 ? errors.back() * trial.result.rays * trial.candidate.price / left
-                                   : std::numeric_limits<double>::infinity());
-    }
     std::size_t best = 0;
-    for (std::size_t m = 1; m < trials.size(); ++m)
-        if (works[m] < clearly_better * works[best]) best = m;
+    for (;; of_trial.samples = *of_trial.samples * longer) {
+        trials = pilots_of(able, small, of_trial, watch, false);
+        if (watch.stop()) return {method::Walk{open}, "the pilot was interrupted"};
+        errors.clear();
+        works.clear();
+        double rays = 0.0;
+        for (const Trial& trial : trials) {
+            const double left = 1.0 - price_of_setup * trial.result.setup_rays / affordable;
+            errors.push_back(relative_error(trial.result, trials, error_of));
+            works.push_back(left > 0.0 ? errors.back() * trial.result.rays * trial.candidate.price / left
+                                       : std::numeric_limits<double>::infinity());
+            rays += trial.result.rays;
+        }
+        best = 0;
+        for (std::size_t m = 1; m < trials.size(); ++m)
+            if (works[m] < clearly_better * works[best]) best = m;
+        if (errors[best] <= largest_known_error || static_cast<double>(longer) * rays > part_of_render * affordable) break;
+    }
 
     MethodChoice choice{trials[best].candidate.method, "in a pilot it had no error"};
     std::vector<std::string> others;
     for (std::size_t m = 0; m < trials.size(); ++m) {
-        choice.trials.push_back(described(trials[m], errors[m], small.film));
+        choice.trials.push_back(described(trials[m], errors[m]));
         if (m != best) others.push_back(fmt::format("{} {:.2g}", name_of(trials[m].candidate.method), works[m] / works[best]));
     }
     if (works[best] > 0.0)
@@ -226,7 +238,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     }
     // Fields have linear RGB alone and no parts, and choose their samples by themselves where an error is to be reached.
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
-    if (open.bias_allowed && fields_can) allow_bias(choice, works[best], trials, small, goal, affordable, of_trial, watch);
+    if (open.bias_allowed && fields_can) allow_bias(choice, works[best], trials, small, goal, affordable, goal_of_trial(goal, bounces), watch);
     const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
     if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_all);
     return choice;
