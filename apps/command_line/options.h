@@ -31,6 +31,8 @@ CLI::Validator whole_part();
 PartOfSamples part_of(const std::string& text);
 // --files: what is written beside run.json; --theme: what sheets and strips are on.
 void add_files(CLI::App& command, std::vector<std::string>& files, std::string& theme);
+// --paths X,Y and named, repeatable.
+void add_paths(CLI::App& command, std::vector<std::string>& paths);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
 // --petsc, with or without a value.

@@ -37,7 +37,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
                                "--quiet",   "--json",       "--files",     "--theme",    "--importance", "--plan",     "--memory",
                                "--resume",  "--checkpoint", "--live",      "--tev",      "--part",       "--photons",  "--radius",
                                "--gather",  "--chain",      "--adaptive",  "--tree",     "--records",    "--accuracy", "--reuse",
-                               "--bias-allowed"}));
+                               "--bias-allowed", "--paths"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.
