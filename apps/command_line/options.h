@@ -40,8 +40,8 @@ void add_petsc(CLI::App& command, std::optional<std::string>& options, const std
 // --lenient.
 void add_lenient(CLI::App& command, bool& lenient);
 
-// The command line with "--petsc" and a value that looks like an option, "-ksp_type gmres", as one argument, and "--live" as "--live=0"
-// where what follows is no port.
+// The command line with "--petsc" and a value that looks like an option, "-ksp_type gmres", as one argument, and "--live" as
+// "--live=0" where what follows is no port.
 std::vector<std::string> joined_arguments(int argc, char** argv);
 
 // SCENE and the options of all commands that treat it as matrices.

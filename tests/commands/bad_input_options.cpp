@@ -95,7 +95,8 @@ TEST_F(BadInputOptions, Tree) {
 TEST_F(BadInputOptions, Reuse) {
     EXPECT_EQ(refusal({"--method", "guided", "--reuse"}), "--reuse belongs to --method walk, not to guided\n");
     for (const auto& [option, value] : {std::pair{"--tree", "sum"}, {"--adaptive", "sum"}, {"--split", "2,2"}})
-        EXPECT_EQ(refusal({"--reuse", option, value}), "--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split\n");
+        EXPECT_EQ(refusal({"--reuse", option, value}),
+                  "--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split\n");
 }
 
 TEST_F(BadInputOptions, Photons) {
