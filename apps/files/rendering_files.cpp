@@ -51,7 +51,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     const ShownPictures written = write_pictures(folder, series, files, *rendering.scene, packed);
     if (!written.warning.empty()) warnings.add(written.warning);
     if (files.page && packed.factor() > 1) warnings.add(packed.reduction());
-    if (files.layers) folder.write("layers.exr", layers_exr(series, *rendering.scene));
+    if (files.layers) write_layers(folder, series, *rendering.scene);
     if (series.ways) write_ways(folder, *series.ways, files);
     const std::string convergence = convergence_table(series.convergence);
     if (files.tables) {
