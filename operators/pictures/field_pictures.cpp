@@ -169,6 +169,8 @@ PictureError picture_error(const Estimate& picture) {
 
 DiscretisationReport report_discretisation(const Film& film, const Estimate& picture, const PictureError& of_picture) {
     DiscretisationReport report;
+    report.worst_x = film.crop_x;
+    report.worst_y = film.crop_y;
     const Image& error = picture.discretisation;
     for (std::size_t i = 0; i < error.pixels.size(); ++i) {
         report.mean += mean_component(error.pixels[i]) / static_cast<double>(error.pixels.size());
